@@ -1,0 +1,108 @@
+// lamp compare: two methods side by side: heat maps on one scale, where they differ, numbers.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/pictures.h"
+#include "commands/stats.h"
+#include "render/heatmap.h"
+
+namespace lamp::app {
+namespace {
+
+struct CompareOptions {
+  Request request;
+  std::string a, b;
+  std::string out = "compare.png";
+  bool json = false;
+};
+
+/// One of the two.
+struct Side {
+  Stats stats;
+  HdrImage image;
+  std::vector<std::uint32_t> counts;
+};
+
+Side measure(const CompareOptions& o, Session& session, const Setup& setup, const std::string& name) {
+  Lighting lighting = session.lighting(parse_method(name), {}, parse_path(o.request.path));
+  Rendered rendered = session.renderer().render(lighting);
+  const std::vector<gpu::Visit> visits = visit_all(session, lighting);
+  HdrImage image = rendered.image;
+  Side side{.stats = make_stats(o.request, session, lighting, setup, std::move(rendered), 1),
+            .image = std::move(image),
+            .counts = walked_lights(visits)};
+  Verification verification(setup.view.width());
+  verification.add(empty_truth(setup.view.width(), setup.view.height()), visits);
+  side.stats.findings = verification.findings();
+  return side;
+}
+
+/// Lights that one walks and the other does not, pixel by pixel.
+std::vector<std::uint32_t> differences(const Side& a, const Side& b) {
+  std::vector<std::uint32_t> counts(a.counts.size());
+  std::ranges::transform(a.counts, b.counts, counts.begin(), [](std::uint32_t x, std::uint32_t y) {
+    return x == NO_CELL ? NO_CELL : std::max(x, y) - std::min(x, y);
+  });
+  return counts;
+}
+
+void print_side(const Side& side) {
+  const Findings& f = *side.stats.findings;
+  fmt::print("{:<24} {:>14} {:>9.1f} {:>9} {:>10} {:>10.3f} {:>10.3f}\n", side.stats.method, f.evaluations,
+             f.list_mean(), f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
+             side.stats.rendered.shade_ms);
+}
+
+Exit compare(const CompareOptions& o) {
+  check_writable(o.out);
+  for (const std::string& name : {o.a, o.b}) static_cast<void>(parse_method(name));
+  const Setup setup = make_setup(o.request);
+  Session session(o.request, setup);
+  const Side a = measure(o, session, setup, o.a);
+  const Side b = measure(o, session, setup, o.b);
+
+  const std::uint32_t scale =
+      std::bit_ceil(std::max({1U, a.stats.findings->list_max, b.stats.findings->list_max}));
+  const auto map = [&](std::span<const std::uint32_t> counts, const std::string& title) {
+    return heatmap_of(session, counts, {.title = title, .scale_max = scale});
+  };
+  const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, o.a), map(b.counts, o.b),
+                               map(differences(a, b), fmt::format("{} - {}", o.a, o.b))};
+  write_png(o.out, side_by_side(pictures));
+  const float difference = max_abs_difference(a.image, b.image);
+  if (o.json) {
+    nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};
+    fmt::print("{}\n", json.dump(2));
+    return Exit::done;
+  }
+  fmt::print("{:<24} {:>14} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "method", "evaluations", "mean", "longest",
+             "overflowed", "cull ms", "shade ms");
+  print_side(a);
+  print_side(b);
+  fmt::print("largest difference of the pictures: {:.3g}\npicture: {}\n", difference, o.out);
+  return Exit::done;
+}
+
+}  // namespace
+
+Run add_compare(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("compare", "Two methods side by side: heat maps, difference, numbers");
+  auto o = std::make_shared<CompareOptions>();
+  o->request.size = "640x360";
+  command->add_option("a", o->a, "a method")->required();
+  command->add_option("b", o->b, "another")->required();
+  add_common_options(*command, o->request);
+  command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
+      ->capture_default_str();
+  command->add_option("--out", o->out, "picture, .png")->capture_default_str();
+  command->add_flag("--json", o->json, "print the numbers as JSON");
+  command->footer("Example:\n  lamp compare tiled clustered posts --lights 16384 --out posts.png");
+  return [o] { return compare(*o); };
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,118 @@
+// lamp list: methods, scenes, devices.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.h"
+#include "gpu/context.h"
+#include "lamplight/method.h"
+#include "scene/builtin.h"
+
+namespace lamp::app {
+namespace {
+
+nlohmann::json option_json(const OptionSpec& spec) {
+  nlohmann::json json{{"key", spec.key}, {"help", spec.help}, {"default", spec.fallback}};
+  if (!spec.choices.empty())
+    json["choices"] = spec.choices;
+  else
+    json.update({{"min", spec.min}, {"max", spec.max}});
+  return json;
+}
+
+nlohmann::json methods_json() {
+  nlohmann::json array = nlohmann::json::array();
+  for (const Method& m : methods()) {
+    nlohmann::json options = nlohmann::json::array();
+    for (const OptionSpec& spec : m.options) options.push_back(option_json(spec));
+    array.push_back({{"name", m.name},
+                     {"title", m.title},
+                     {"source", m.source},
+                     {"summary", m.summary},
+                     {"result", m.result},
+                     {"ordered", m.ordered},
+                     {"approximate", m.approximate},
+                     {"needs_depth", m.needs_depth},
+                     {"any_depth", m.any_depth},
+                     {"options", options}});
+  }
+  return array;
+}
+
+void print_option(const OptionSpec& spec) {
+  const std::string values =
+      spec.choices.empty() ? fmt::format("{} .. {}", spec.min, spec.max) : fmt::format("{}", fmt::join(spec.choices, " | "));
+  fmt::print("    {:<16} {} (default {}): {}\n", spec.key, values, spec.fallback, spec.help);
+}
+
+void print_methods() {
+  for (const Method& m : methods()) {
+    fmt::print("{:<14} {}{}{}\n  {}\n  {}\n", m.name, m.title, m.ordered ? "" : " [unordered]",
+               m.approximate ? " [approximate]" : "", m.summary, m.source);
+    for (const OptionSpec& spec : m.options) print_option(spec);
+  }
+}
+
+nlohmann::json scenes_json() {
+  nlohmann::json array = nlohmann::json::array();
+  for (const BuiltinScene& scene : builtin_scenes()) array.push_back({{"name", scene.name}, {"summary", scene.summary}});
+  return array;
+}
+
+void print_scenes() {
+  for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<12} {}\n", scene.name, scene.summary);
+  fmt::print("Any .gltf or .glb file is a scene too.\n");
+}
+
+nlohmann::json devices_json(std::span<const DeviceRow> rows) {
+  nlohmann::json array = nlohmann::json::array();
+  for (const DeviceRow& row : rows)
+    array.push_back({{"name", row.name},
+                     {"kind", row.kind},
+                     {"driver", row.driver},
+                     {"usable", row.problem.empty()},
+                     {"problem", row.problem}});
+  return array;
+}
+
+void print_devices(std::span<const DeviceRow> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    fmt::print("{} {} [{}] {} {}\n", i, rows[i].name, rows[i].kind, rows[i].driver, rows[i].problem);
+}
+
+Exit list(const std::string& what, bool json) {
+  if (what == "devices") {
+    const std::vector<DeviceRow> rows = list_devices();
+    if (json)
+      fmt::print("{}\n", devices_json(rows).dump(2));
+    else
+      print_devices(rows);
+    return rows.empty() ? Exit::no_device : Exit::done;
+  }
+  const bool is_methods = what == "methods";
+  if (json)
+    fmt::print("{}\n", (is_methods ? methods_json() : scenes_json()).dump(2));
+  else if (is_methods)
+    print_methods();
+  else
+    print_scenes();
+  return Exit::done;
+}
+
+}  // namespace
+
+Run add_list(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("list", "What there is: methods, scenes or devices");
+  auto what = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  command->add_option("what", *what, "methods, scenes or devices")
+      ->required()
+      ->check(CLI::IsMember({"methods", "scenes", "devices"}));
+  command->add_flag("--json", *json, "print an array of objects");
+  command->footer("Example:\n  lamp list methods --json");
+  return [what, json] { return list(*what, *json); };
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,119 @@
+// lamp render: one picture, its heat map, its numbers.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/pictures.h"
+#include "commands/stats.h"
+
+namespace lamp::app {
+namespace {
+
+struct RenderOptions {
+  Request request;
+  std::string out = "lamp.png";
+  std::string heatmap;
+  std::string overlay;
+  std::string stats;
+  std::string exposure = "auto";
+  std::uint32_t frames = 0;
+  bool json = false;
+};
+
+void write_picture(const std::filesystem::path& file, const HdrImage& image, const LdrImage& toned) {
+  if (file.extension() == ".exr")
+    write_exr(file, image);
+  else
+    write_png(file, toned);
+}
+
+void check_outputs(const RenderOptions& o) {
+  const std::string extension = std::filesystem::path(o.out).extension().string();
+  if (extension != ".png" && extension != ".exr")
+    throw Error(fmt::format("--out '{}': expected a name that ends in .png or .exr", o.out));
+  for (const std::string& file : {o.out, o.heatmap, o.overlay, o.stats})
+    if (!file.empty()) check_writable(file);
+}
+
+void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup) {
+  const auto line = [](const char* label, const std::string& text) { fmt::print("{:<10}{}\n", label, text); };
+  line("device", fmt::format("{} ({})", stats.device, stats.driver));
+  line("scene", fmt::format("{}, {}x{}", stats.scene, stats.width, stats.height));
+  line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
+  line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", stats.method, stats.path, stats.cells,
+                             static_cast<double>(stats.bytes.back().second) * 1e-6));
+  if (stats.findings)
+    line("pairs", fmt::format("{} of pixel and light walked, {:.1f} lights a pixel's list, longest {}",
+                              stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
+  if (stats.rendered.counters.overflowed_cells != 0)
+    line("overflow", fmt::format("{} cells did not fit and walked every light", stats.rendered.counters.overflowed_cells));
+  std::string passes;
+  for (const PassTime& pass : stats.rendered.passes)
+    passes += fmt::format("{}{} {:.3f}", passes.empty() ? "" : ", ", pass.name, pass.ms_median);
+  line("times", fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
+                            stats.rendered.shade_ms, stats.rendered.frame_ms, passes));
+  line("picture", o.out);
+  for (const auto& [label, file] : {std::pair{"heat map", o.heatmap}, {"overlay", o.overlay}, {"stats", o.stats}})
+    if (!file.empty()) line(label, file);
+}
+
+/// What the heat map shows, as findings without a truth.
+Findings walked(std::span<const gpu::Visit> visits, std::uint32_t width, std::uint32_t height) {
+  Verification verification(width);
+  verification.add(empty_truth(width, height), visits);
+  return verification.findings();
+}
+
+Exit render(const RenderOptions& o) {
+  check_outputs(o);
+  const ShadingPath path = parse_path(o.request.path);
+  const Method& method = parse_method(o.request.method);
+  const Setup setup = make_setup(o.request);
+  for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
+  Session session(o.request, setup);
+  Lighting lighting = session.lighting(method, o.request.options, path);
+  const bool software = session.context().row().kind == "CPU";
+  const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
+  Rendered rendered = session.renderer().render(lighting, frames, software ? 0 : 3);
+
+  const LdrImage toned = tone_map(rendered.image, parse_exposure(o.exposure, rendered.image));
+  write_picture(o.out, rendered.image, toned);
+  Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
+  const std::vector<gpu::Visit> visits = visit_all(session, lighting);
+  stats.findings = walked(visits, setup.view.width(), setup.view.height());
+  const std::vector<std::uint32_t> counts = walked_lights(visits);
+  const std::string title = fmt::format("{}, {} lights", method.name, stats.lights);
+  if (!o.heatmap.empty()) write_png(o.heatmap, heatmap_of(session, counts, {.title = title}));
+  if (!o.overlay.empty()) write_png(o.overlay, heatmap_of(session, counts, {.title = title, .overlay = &toned}));
+  const nlohmann::json json = to_json(stats);
+  if (!o.stats.empty()) write_text(o.stats, json.dump(2) + "\n");
+  if (o.json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    print_summary(o, stats, setup);
+  return Exit::done;
+}
+
+}  // namespace
+
+Run add_render(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("render", "Render one picture, with heat map and numbers");
+  auto o = std::make_shared<RenderOptions>();
+  add_common_options(*command, o->request);
+  add_method_options(*command, o->request);
+  command->add_option("--out", o->out, "picture, .png or .exr")->capture_default_str();
+  command->add_option("--heatmap", o->heatmap, "heat map of lights a cell, .png");
+  command->add_option("--overlay", o->overlay, "heat map over the picture, .png");
+  command->add_option("--stats", o->stats, "numbers, .json");
+  command->add_option("--exposure", o->exposure, "auto or a factor")->capture_default_str();
+  command->add_option("--frames", o->frames, "frames to time; default: 20, on a software device 1");
+  command->add_flag("--json", o->json, "print the numbers as JSON");
+  command->footer("Examples:\n"
+                  "  lamp render atrium --lights 4096 --out atrium.png --heatmap heat.png\n"
+                  "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
+  return [o] { return render(*o); };
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,168 @@
+// Parses common options; loads scenes; opens sessions.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "gpu/check.h"
+#include "scene/builtin.h"
+#include "scene/flight.h"
+#include "scene/gltf.h"
+#include "scene/place_lights.h"
+
+namespace lamp::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void unknown(const char* what, const std::string& given, std::span<const std::string_view> names) {
+  throw Error(fmt::format("{} '{}': there is none of that name; the nearest are {}", what, given,
+                          fmt::join(nearest_names(given, names), ", ")));
+}
+
+template <class Number>
+bool parse_number(std::string_view text, Number& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::pair<float, float> parse_range(const std::string& text) {
+  if (text.empty()) return {0.0F, 0.0F};
+  const std::size_t colon = text.find(':');
+  float low = 0.0F;
+  float high = 0.0F;
+  const bool parsed = parse_number(std::string_view(text).substr(0, colon), low) &&
+                      parse_number(colon == std::string::npos ? std::string_view(text)
+                                                              : std::string_view(text).substr(colon + 1),
+                                   high);
+  if (!parsed || !(low > 0.0F) || !(high >= low) || !std::isfinite(high))
+    throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX", text));
+  return {low, high};
+}
+
+std::string range_note(std::span<const Light> lights) {
+  if (lights.empty()) return "";
+  const auto [low, high] = std::ranges::minmax(lights, {}, &Light::range);
+  return fmt::format(" (range {:.2f} to {:.2f} m)", low.range, high.range);
+}
+
+void check_scene_lights(const Scene& scene) {
+  if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, Request& r) {
+  command.add_option("scene,--scene", r.scene, "a built-in scene (lamp list scenes), or a .gltf or .glb file")
+      ->capture_default_str();
+  command.add_option("--size", r.size, "picture size, WIDTHxHEIGHT")->capture_default_str();
+  command.add_option("--lights", r.lights, "generated lights, besides the scene's own")->capture_default_str();
+  command.add_option("--spots", r.spots, "fraction of the generated lights that are spots, 0 to 1")
+      ->check(CLI::Range(0.0F, 1.0F))
+      ->capture_default_str();
+  command.add_option("--range", r.range, "range of generated lights, MIN:MAX in metres; default: from their density");
+  command.add_option("--seed", r.seed, "of the generated lights")->capture_default_str();
+  command.add_option("--camera", r.camera, "a camera of the scene by name; default: its first");
+  command.add_option("--frame", r.frame, "frame of the scene's camera flight instead of a camera; lights move too");
+  command.add_option("--projection", r.projection, "camera, perspective, infinite, orthographic or off-centre")
+      ->capture_default_str();
+  command.add_option("--brdf", r.brdf, "ggx or blinn-phong")->capture_default_str();
+  command.add_option("--device", r.device, "number or part of the name of a device (lamp list devices)");
+  command.add_option("--shader-dir", r.shader_dir, "a checkout of Lamplight whose shaders are compiled anew, with glslc");
+}
+
+void add_method_options(CLI::App& command, Request& r) {
+  command.add_option("--method", r.method, "culling method (lamp list methods)")->capture_default_str();
+  command.add_option("--option", r.options, "option of the method, KEY=VALUE; may be given more than once")
+      ->allow_extra_args(false);
+  command.add_option("--path", r.path, "forward, tiled-deferred, deferred or standard-deferred")->capture_default_str();
+}
+
+glm::uvec2 parse_size(const std::string& text) {
+  const std::size_t x = text.find('x');
+  glm::uvec2 size(0);
+  if (x == std::string::npos || !parse_number(std::string_view(text).substr(0, x), size.x) ||
+      !parse_number(std::string_view(text).substr(x + 1), size.y) || size.x == 0 || size.y == 0)
+    throw Error(fmt::format("--size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1280x720", text));
+  return size;
+}
+
+ShadingPath parse_path(const std::string& text) {
+  const auto found = std::ranges::find(path_names(), text);
+  if (found == path_names().end()) unknown("--path", text, path_names());
+  return static_cast<ShadingPath>(found - path_names().begin());
+}
+
+Brdf parse_brdf(const std::string& text) {
+  if (text == "ggx") return Brdf::ggx;
+  if (text == "blinn-phong") return Brdf::blinn_phong;
+  throw Error(fmt::format("--brdf '{}': expected ggx or blinn-phong", text));
+}
+
+const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
+
+Scene load_scene(const std::string& name) {
+  const auto builtin = std::ranges::find(builtin_scenes(), std::string_view(name), &BuiltinScene::name);
+  if (builtin != builtin_scenes().end()) return builtin->make();
+  const std::string extension = fs::path(name).extension().string();
+  if (extension == ".gltf" || extension == ".glb") return load_gltf(fs::path(name));
+  std::vector<std::string_view> names;
+  for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+  throw Error(fmt::format("scene '{}': is neither a built-in scene nor a .gltf or .glb file; the nearest are {}", name,
+                          fmt::join(nearest_names(name, names), ", ")));
+}
+
+Setup make_setup(const Request& request) {
+  const glm::uvec2 size = parse_size(request.size);
+  const auto [min_range, max_range] = parse_range(request.range);
+  Setup setup;
+  setup.scene = load_scene(request.scene);
+  check_scene_lights(setup.scene);
+  Camera camera = find_camera(setup.scene, request.camera);
+  if (request.frame >= 0) {
+    if (!setup.scene.flight) throw Error(fmt::format("scene '{}': has no camera flight for --frame", request.scene));
+    camera = flight_camera(*setup.scene.flight, static_cast<std::uint32_t>(request.frame));
+  }
+  setup.view = view_of(camera, size.x, size.y, request.projection);
+
+  const std::vector<Light> generated =
+      place_lights(setup.scene, {.count = request.lights,
+                                 .spots = request.spots,
+                                 .min_range = min_range,
+                                 .max_range = max_range,
+                                 .seed = request.seed,
+                                 .frame = static_cast<std::uint32_t>(std::max(0, request.frame)),
+                                 .frames = setup.scene.flight ? setup.scene.flight->frames : 300});
+  setup.lights = pack(setup.scene.lights);
+  const std::vector<shared::Light> packed = pack(generated);
+  setup.lights.insert(setup.lights.end(), packed.begin(), packed.end());
+  setup.lights_note = fmt::format("{} generated{} + {} of the scene", generated.size(), range_note(generated),
+                                  setup.scene.lights.size());
+  return setup;
+}
+
+Session::Session(const Request& request, const Setup& setup, ContextInfo::Validation validation)
+    : setup_(setup), brdf_(parse_brdf(request.brdf)), shaders_(request.shader_dir) {
+  context_ = std::make_unique<Context>(ContextInfo{.device = request.device, .validation = validation});
+  gpu_scene_ = std::make_unique<GpuScene>(*context_, setup.scene);
+  renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
+                                         static_cast<std::uint32_t>(setup.lights.size()));
+  renderer_->set_frame(setup.view, setup.lights);
+}
+
+Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
+  return {context_->device(), shaders_,
+          {.method = &method,
+           .options = take(resolve_options(method, options)),
+           .width = setup_.view.width(),
+           .height = setup_.view.height(),
+           .light_capacity = static_cast<std::uint32_t>(setup_.lights.size()),
+           .path = path,
+           .brdf = brdf_,
+           .transparency = !gpu_scene_->blended().empty()}};
+}
+
+}  // namespace lamp::app

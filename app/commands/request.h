@@ -1,0 +1,76 @@
+// What the options common to all commands ask for, and the scene, lights and camera they come to.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace lamp::app {
+
+struct Request {
+  std::string scene = "atrium";
+  std::string size = "1280x720";
+  std::uint32_t lights = 4096;
+  float spots = 0.5F;
+  std::string range;  ///< "MIN:MAX", empty: automatic
+  std::uint64_t seed = 1;
+  std::string method = "clustered";
+  std::vector<std::string> options;
+  std::string path = "deferred";
+  std::string brdf = "ggx";
+  std::string camera;
+  int frame = -1;  ///< of the flight; -1: the camera
+  std::string projection = "camera";
+  std::string device;
+  std::string shader_dir;
+};
+
+/// Adds the options to a command, with their defaults and examples in the help text.
+void add_common_options(CLI::App& command, Request& request);
+/// Adds `--method`, `--option` and `--path`.
+void add_method_options(CLI::App& command, Request& request);
+
+/// A request made concrete on the host: nothing of it needs a device.
+struct Setup {
+  Scene scene;
+  View view;
+  std::vector<shared::Light> lights;
+  std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
+};
+[[nodiscard]] Setup make_setup(const Request& request);
+
+/// The scene of a name or a file. Throws Error with the nearest names.
+[[nodiscard]] Scene load_scene(const std::string& name);
+
+/// "1280x720" to numbers, each 1 or more.
+[[nodiscard]] glm::uvec2 parse_size(const std::string& text);
+[[nodiscard]] ShadingPath parse_path(const std::string& text);
+[[nodiscard]] Brdf parse_brdf(const std::string& text);
+[[nodiscard]] const Method& parse_method(const std::string& text);
+
+/// Device, renderer and what they need, for one Setup.
+class Session {
+ public:
+  Session(const Request& request, const Setup& setup,
+          ContextInfo::Validation validation = ContextInfo::Validation::off);
+
+  [[nodiscard]] Lighting lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const;
+  [[nodiscard]] Renderer& renderer() { return *renderer_; }
+  [[nodiscard]] Context& context() { return *context_; }
+
+ private:
+  const Setup& setup_;
+  Brdf brdf_;
+  ShaderLibrary shaders_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<GpuScene> gpu_scene_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace lamp::app

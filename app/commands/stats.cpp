@@ -1,0 +1,68 @@
+// Stats to JSON.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/stats.h"
+
+namespace lamp::app {
+
+Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup, Rendered rendered,
+                 std::uint32_t frames) {
+  const DeviceRow& row = session.context().row();
+  const Plan& plan = lighting.runner().plan();
+  Stats stats{.device = row.name,
+              .driver = row.driver,
+              .scene = request.scene,
+              .method = std::string(lighting.info().method->name),
+              .options = lighting.info().options,
+              .path = std::string(path_names()[static_cast<std::size_t>(lighting.info().path)]),
+              .width = setup.view.width(),
+              .height = setup.view.height(),
+              .lights = setup.lights.size(),
+              .frames = frames,
+              .rendered = std::move(rendered),
+              .cells = plan.cells};
+  stats.rendered.image.pixels = {};
+  for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, buffer.bytes);
+  stats.bytes.emplace_back("total", plan.bytes());
+  return stats;
+}
+
+nlohmann::json to_json(const Stats& s) {
+  nlohmann::json json{{"device", s.device},
+                      {"driver", s.driver},
+                      {"scene", s.scene},
+                      {"method", s.method},
+                      {"options", nlohmann::json::object()},
+                      {"path", s.path},
+                      {"width", s.width},
+                      {"height", s.height},
+                      {"lights", s.lights},
+                      {"frames", s.frames},
+                      {"passes", nlohmann::json::array()},
+                      {"cull_ms", s.rendered.cull_ms},
+                      {"shade_ms", s.rendered.shade_ms},
+                      {"frame_ms", s.rendered.frame_ms},
+                      {"bytes", nlohmann::json::object()},
+                      {"cells", s.cells},
+                      {"overflowed_cells", s.rendered.counters.overflowed_cells}};
+  for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
+  for (const PassTime& pass : s.rendered.passes)
+    json["passes"].push_back({{"name", pass.name},
+                              {"ms_median", pass.ms_median},
+                              {"ms_p5", pass.ms_p5},
+                              {"ms_p95", pass.ms_p95}});
+  for (const auto& [name, bytes] : s.bytes) json["bytes"][name] = bytes;
+  if (s.findings) {
+    const Findings& f = *s.findings;
+    json["missed"] = f.missed;
+    json["evaluations"] = f.evaluations;
+    json["useful"] = f.useful;
+    json["waste"] = f.waste();
+    json["excess"] = f.excess();
+    json["list_mean"] = f.list_mean();
+    json["list_max"] = f.list_max;
+  }
+  if (s.image_max_abs_diff) json["image_max_abs_diff"] = *s.image_max_abs_diff;
+  return json;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,36 @@
+// Stats: what a run of one method took and gave; as the JSON object of the design, and as rows of a table.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/request.h"
+#include "render/verification.h"
+
+namespace lamp::app {
+
+struct Stats {
+  std::string device, driver, scene, method;
+  Options options;
+  std::string path;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::size_t lights = 0;
+  std::uint32_t frames = 0;
+  Rendered rendered;  ///< its picture is not kept
+  std::vector<std::pair<std::string, std::uint64_t>> bytes;
+  std::uint64_t cells = 0;
+  std::optional<Findings> findings;
+  std::optional<float> image_max_abs_diff;
+};
+
+/// Fills what request, session and lighting know.
+[[nodiscard]] Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup,
+                               Rendered rendered, std::uint32_t frames);
+
+[[nodiscard]] nlohmann::json to_json(const Stats& stats);
+
+}  // namespace lamp::app

@@ -1,0 +1,155 @@
+// lamp verify: every method against the oracle and against brute force's picture.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/stats.h"
+
+namespace lamp::app {
+namespace {
+
+struct VerifyOptions {
+  Request request;
+  std::vector<std::string> methods;
+  bool json = false;
+};
+
+/// A method under test: its look-ups, and what they were found to hold.
+struct Candidate {
+  Candidate(Lighting separate_lighting, std::uint32_t width)
+      : lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+  Lighting lighting;
+  Verification separate;
+  Verification fused;
+};
+
+void progress(std::string_view text) {
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", text);
+}
+
+std::vector<const Method*> wanted_methods(const VerifyOptions& o) {
+  std::vector<const Method*> wanted;
+  for (const std::string& name : o.methods) wanted.push_back(&parse_method(name));
+  if (wanted.empty())
+    for (const Method& method : methods()) wanted.push_back(&method);
+  if (wanted.size() != 1 && !o.request.options.empty())
+    throw Error("--option: belongs to one method; name it with --method");
+  return wanted;
+}
+
+void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& candidates) {
+  using Passes = vulkan::PlanRunner::Passes;
+  for (Candidate& candidate : candidates) {
+    progress(fmt::format("verify rows {} .. {}: {}", truth.first_row, truth.first_row + truth.rows,
+                         candidate.lighting.info().method->name));
+    candidate.separate.add(truth, session.renderer().visit(candidate.lighting, truth));
+    if (candidate.lighting.runner().plan().fused)
+      candidate.fused.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused));
+  }
+}
+
+/// Adds the fused look-up's misses and disorder to the separate one's.
+Findings merged(const Candidate& candidate) {
+  Findings findings = candidate.separate.findings();
+  const Findings fused = candidate.fused.findings();
+  findings.missed += fused.missed;
+  findings.unordered = findings.unordered || fused.unordered;
+  if (findings.first_miss.empty()) findings.first_miss = fused.first_miss;
+  return findings;
+}
+
+bool passes(const Stats& stats, const Method& method) {
+  if (method.approximate) return true;
+  if (stats.findings->missed != 0 || (method.ordered && stats.findings->unordered)) return false;
+  return !method.ordered || *stats.image_max_abs_diff == 0.0F;
+}
+
+void print_table(std::span<const Stats> rows) {
+  fmt::print("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed", "evaluations",
+             "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
+  for (const Stats& s : rows) {
+    const Findings& f = *s.findings;
+    const Method& method = parse_method(s.method);
+    const char* verdict = !passes(s, method) ? "FAILED" : method.approximate && f.missed != 0 ? "approximate" : "ok";
+    fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9.2f} {:>9.1f} {:>9} {:>10} {:>11.3g} {:>10.3f}  {}\n", s.method,
+               f.missed, f.evaluations, f.waste(), f.excess(), f.list_mean(), f.list_max,
+               s.rendered.counters.overflowed_cells, *s.image_max_abs_diff, s.rendered.cull_ms, verdict);
+    if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
+    if (method.ordered && f.unordered) fmt::print("  a list does not ascend\n");
+  }
+}
+
+Stats render_candidate(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
+                       const HdrImage& reference) {
+  progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
+  Rendered rendered = session.renderer().render(candidate.lighting);
+  float difference = max_abs_difference(rendered.image, reference);
+  if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
+    Lighting fused = session.lighting(*candidate.lighting.info().method, o.request.options, ShadingPath::tiled_deferred);
+    difference = std::max(difference, max_abs_difference(session.renderer().render(fused).image, reference));
+  }
+  Stats stats = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1);
+  stats.image_max_abs_diff = difference;
+  return stats;
+}
+
+Exit verify(const VerifyOptions& o) {
+  const ShadingPath path = parse_path(o.request.path);
+  const std::vector<const Method*> wanted = wanted_methods(o);
+  const Setup setup = make_setup(o.request);
+  Session session(o.request, setup);
+  Lighting brute = session.lighting(parse_method("all"), {}, path);
+  progress("verify picture: brute force");
+  const HdrImage reference = session.renderer().render(brute).image;
+  const std::vector<float> depth = session.renderer().read_depth();
+
+  std::vector<Candidate> candidates;
+  for (const Method* method : wanted)
+    candidates.emplace_back(session.lighting(*method, o.request.options, path), setup.view.width());
+  for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
+                 [&](const Truth& truth) { visit_band(session, truth, candidates); });
+
+  std::vector<Stats> rows;
+  bool good = true;
+  for (Candidate& candidate : candidates) {
+    rows.push_back(render_candidate(o, session, setup, candidate, reference));
+    rows.back().findings = merged(candidate);
+    good = good && passes(rows.back(), *candidate.lighting.info().method);
+  }
+  progress("");
+  if (o.json) {
+    nlohmann::json array = nlohmann::json::array();
+    for (const Stats& stats : rows) array.push_back(to_json(stats));
+    fmt::print("{}\n", array.dump(2));
+  } else {
+    fmt::print("{} ({}), {} {}x{}, {} lights: {}\n", session.context().row().name, session.context().row().driver,
+               o.request.scene, setup.view.width(), setup.view.height(), setup.lights.size(), setup.lights_note);
+    print_table(rows);
+  }
+  return good ? Exit::done : Exit::check_failed;
+}
+
+}  // namespace
+
+Run add_verify(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("verify", "Check methods against the oracle and brute force; exit 1 on a miss");
+  auto o = std::make_shared<VerifyOptions>();
+  o->request.size = "640x360";
+  o->request.lights = 1024;
+  add_common_options(*command, o->request);
+  command->add_option("--method", o->methods, "method to check; may be given more than once; default: all of them")
+      ->allow_extra_args(false);
+  command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
+      ->capture_default_str();
+  command->add_flag("--json", o->json, "print an array of Stats objects, one a method");
+  command->footer("Examples:\n"
+                  "  lamp verify atrium --lights 8192\n"
+                  "  lamp verify blocks --method tiled --option tile=8 --projection orthographic");
+  return [o] { return verify(*o); };
+}
+
+}  // namespace lamp::app

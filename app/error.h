@@ -1,0 +1,26 @@
+// The one exception of the tools: thrown where bad input is found, caught once in main.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "lamplight/error.h"
+
+namespace lamp::app {
+
+/// Exit codes of `lamp`.
+enum class Exit : int { done = 0, check_failed = 1, bad_input = 2, no_device = 3 };
+
+/// One line: what, where, what was expected ("scene.gltf: light 3: range must be > 0, got -1").
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& line, Exit exit = Exit::bad_input) : std::runtime_error(line), exit_(exit) {}
+  explicit Error(const lamp::Error& error, Exit exit = Exit::bad_input) : Error(error.text(), exit) {}
+  [[nodiscard]] Exit exit() const { return exit_; }
+
+ private:
+  Exit exit_;
+};
+
+}  // namespace lamp::app

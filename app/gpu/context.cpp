@@ -1,0 +1,191 @@
+// Makes instance and device, submits, collects validation messages.
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/context.h"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "gpu/check.h"
+#include "gpu/device_choice.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
+
+bool has_layer(std::string_view name) {
+  std::uint32_t count = 0;
+  vkEnumerateInstanceLayerProperties(&count, nullptr);
+  std::vector<VkLayerProperties> layers(count);
+  vkEnumerateInstanceLayerProperties(&count, layers.data());
+  return std::ranges::any_of(layers, [&](const auto& layer) { return name == layer.layerName; });
+}
+
+bool has_debug_utils(const char* layer) {
+  std::uint32_t count = 0;
+  vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
+  return std::ranges::any_of(extensions, [](const auto& extension) {
+    return std::string_view(extension.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  });
+}
+
+VkInstance make_instance(ContextInfo::Validation validation) {
+  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                      .pApplicationName = "lamp",
+                                      .apiVersion = VK_API_VERSION_1_3};
+  constexpr std::array FEATURES{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                         .enabledValidationFeatureCount = FEATURES.size(),
+                                         .pEnabledValidationFeatures = FEATURES.data()};
+  const bool validate = validation == ContextInfo::Validation::on;
+  if (validate && !has_layer(VALIDATION_LAYER))
+    throw Error("validation was asked for but the layer is missing: install vulkan-validationlayers", Exit::no_device);
+  std::vector<const char*> layers;
+  std::vector<const char*> extensions;
+  if (validate) layers.push_back(VALIDATION_LAYER);
+  if (has_debug_utils(nullptr) || validate) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (validate) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  const VkInstanceCreateInfo create{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = validate ? &features : nullptr,
+                                    .pApplicationInfo = &application,
+                                    .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                                    .ppEnabledLayerNames = layers.data(),
+                                    .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data()};
+  VkInstance instance = VK_NULL_HANDLE;
+  check(vkCreateInstance(&create, nullptr, &instance), "creating a Vulkan instance");
+  return instance;
+}
+
+std::uint32_t graphics_queue_family(VkPhysicalDevice physical) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  constexpr VkQueueFlags NEEDED = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if ((families[i].queueFlags & NEEDED) == NEEDED && families[i].timestampValidBits != 0) return i;
+  throw Error("the device has no queue with graphics, compute and timestamps", Exit::no_device);
+}
+
+}  // namespace
+
+struct Context::Messages {
+  std::mutex mutex;
+  std::vector<std::string> lines;
+
+  static VkBool32 receive(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    auto& messages = *static_cast<Messages*>(user);
+    const std::lock_guard lock(messages.mutex);
+    messages.lines.emplace_back(data->pMessage);
+    return VK_FALSE;
+  }
+};
+
+std::vector<DeviceRow> list_devices() {
+  const VkInstance instance = make_instance(ContextInfo::Validation::off);
+  std::vector<DeviceRow> rows;
+  for (VkPhysicalDevice physical : physical_devices(instance)) rows.push_back(describe(physical));
+  vkDestroyInstance(instance, nullptr);
+  return rows;
+}
+
+Context::Context(const ContextInfo& info) : messages_(std::make_unique<Messages>()) {
+  instance_ = make_instance(info.validation);
+  if (info.validation == ContextInfo::Validation::on) create_messenger();
+  physical_ = choose_device(instance_, info.device);
+  row_ = describe(physical_);
+  create_device();
+}
+
+void Context::create_messenger() {
+  const VkDebugUtilsMessengerCreateInfoEXT create{
+      .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+      .messageSeverity =
+          VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+      .pfnUserCallback = &Messages::receive,
+      .pUserData = messages_.get()};
+  const auto create_function = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+  check(create_function(instance_, &create, nullptr, &messenger_), "creating a debug messenger");
+}
+
+void Context::create_device() {
+  queue_family_ = graphics_queue_family(physical_);
+  vulkan::RequiredFeatures features;
+  VkPhysicalDeviceFeatures has{};
+  vkGetPhysicalDeviceFeatures(physical_, &has);
+  if (has.depthClamp == VK_FALSE) throw Error("device " + row_.name + ": lacks the feature depthClamp", Exit::no_device);
+  features.base.features.depthClamp = VK_TRUE;
+  features.base.features.samplerAnisotropy = has.samplerAnisotropy;
+
+  const float priority = 1.0F;
+  const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                      .queueFamilyIndex = queue_family_,
+                                      .queueCount = 1,
+                                      .pQueuePriorities = &priority};
+  const auto extensions = vulkan::required_extensions();
+  const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features.base,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
+  check(vkCreateDevice(physical_, &create, nullptr, &handle_), "creating the device");
+  vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
+  device_ = take(vulkan::make_device(physical_, handle_), Exit::no_device);
+
+  const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                     .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                     .queueFamilyIndex = queue_family_};
+  check(vkCreateCommandPool(handle_, &pool, nullptr, &pool_), "creating a command pool");
+  const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  check(vkCreateFence(handle_, &fence, nullptr, &fence_), "creating a fence");
+}
+
+Context::~Context() {
+  if (handle_ != VK_NULL_HANDLE) {
+    vkDestroyFence(handle_, fence_, nullptr);
+    vkDestroyCommandPool(handle_, pool_, nullptr);
+    vkDestroyDevice(handle_, nullptr);
+  }
+  if (messenger_ != VK_NULL_HANDLE)
+    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
+  vkDestroyInstance(instance_, nullptr);
+}
+
+void Context::submit(const std::function<void(VkCommandBuffer)>& record) {
+  const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                             .commandPool = pool_,
+                                             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                             .commandBufferCount = 1};
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  check(vkAllocateCommandBuffers(handle_, &allocate, &commands), "allocating a command buffer");
+  const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+  check(vkBeginCommandBuffer(commands, &begin), "beginning a command buffer");
+  record(commands);
+  check(vkEndCommandBuffer(commands), "ending a command buffer");
+  const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                         .commandBuffer = commands};
+  const VkSubmitInfo2 submit{
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer};
+  check(vkQueueSubmit2(queue_, 1, &submit, fence_), "submitting to the device");
+  check(vkWaitForFences(handle_, 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the device");
+  check(vkResetFences(handle_, 1, &fence_), "resetting a fence");
+  check(vkResetCommandPool(handle_, pool_, 0), "resetting the command pool");
+  vkFreeCommandBuffers(handle_, pool_, 1, &commands);
+}
+
+std::vector<std::string> Context::take_messages() {
+  const std::lock_guard lock(messages_->mutex);
+  return std::exchange(messages_->lines, {});
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,66 @@
+// The tools' own Vulkan: instance, the best device, one queue, one-time command buffers, validation messages.
+// Promise: headless; a GPU if there is one, else a software device; the same object works for both.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lamplight/vulkan.h"
+
+namespace lamp::app {
+
+struct DeviceRow {
+  std::string name;
+  std::string kind;    ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+  std::string driver;  ///< name and version
+  std::string problem; ///< why it cannot be used, or empty
+};
+
+/// What `--device` may name: a row's number, or a part of its name.
+[[nodiscard]] std::vector<DeviceRow> list_devices();
+
+struct ContextInfo {
+  std::string device;                               ///< empty: the best
+  enum class Validation { off, on } validation = Validation::off;  ///< core and synchronization validation
+};
+
+class Context {
+ public:
+  /// Throws Error with Exit::no_device and one line that says what is missing.
+  explicit Context(const ContextInfo& info = {});
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  [[nodiscard]] const vulkan::Device& device() const { return device_; }
+  [[nodiscard]] const DeviceRow& row() const { return row_; }
+
+  /// Records, submits and waits.
+  void submit(const std::function<void(VkCommandBuffer)>& record);
+
+  /// Validation messages since the last call (warnings and errors).
+  [[nodiscard]] std::vector<std::string> take_messages();
+
+
+ private:
+  struct Messages;
+  void create_messenger();
+  void create_device();
+
+  std::unique_ptr<Messages> messages_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice handle_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::uint32_t queue_family_ = 0;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  vulkan::Device device_;
+  DeviceRow row_;
+};
+
+}  // namespace lamp::app

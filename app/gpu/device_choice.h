@@ -1,0 +1,18 @@
+// Which device: the best that can run Lamplight, or the one that the user named.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "gpu/context.h"
+
+namespace lamp::app {
+
+[[nodiscard]] DeviceRow describe(VkPhysicalDevice physical);
+
+/// Throws Error (Exit::no_device) with the devices there are when none fits.
+[[nodiscard]] VkPhysicalDevice choose_device(VkInstance instance, std::string_view wanted);
+
+[[nodiscard]] std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
+
+}  // namespace lamp::app

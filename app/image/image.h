@@ -1,0 +1,61 @@
+// Pictures on the CPU: linear HDR in, files out.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamp::app {
+
+/// Linear Rec. 709 radiance (or anything else in four channels), row by row from the top.
+struct HdrImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<glm::vec4> pixels;
+};
+
+/// sRGB-encoded eight bit, row by row from the top.
+struct LdrImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<glm::u8vec4> pixels;
+};
+
+/// Exposure that puts the log-average luminance at middle grey (Reinhard et al. 2002), from pixels > 0 alone;
+/// 1 for a black picture.
+[[nodiscard]] float automatic_exposure(const HdrImage& image);
+
+/// Exposure, a filmic tone curve (cited in the .cpp), sRGB encoding. Alpha becomes 255. A pixel that is not
+/// a number becomes magenta, an infinite one white.
+[[nodiscard]] LdrImage tone_map(const HdrImage& image, float exposure);
+
+/// Writes next to `file` under a temporary name, then renames: nothing half-written stays behind.
+/// Throws Error (file, what is wrong) when the folder is missing or not writable.
+void write_png(const std::filesystem::path& file, const LdrImage& image);
+/// EXR, 32-bit float R, G, B.
+void write_exr(const std::filesystem::path& file, const HdrImage& image);
+/// Text (JSON, CSV) the same way.
+void write_text(const std::filesystem::path& file, std::string_view text);
+
+/// Reads an 8-bit PNG (golden pictures). Throws Error.
+[[nodiscard]] LdrImage read_png(const std::filesystem::path& file);
+
+/// Pictures side by side, tops aligned, with a few pixels between; what a lower one leaves free is dark.
+[[nodiscard]] LdrImage side_by_side(std::span<const LdrImage> images);
+
+/// Draws `text` (ASCII, one line or more; other letters show as '?') with its top left at (x, y); `scale` 1 is about 7
+/// pixels high.
+void draw_text(LdrImage& image, std::int32_t x, std::int32_t y, std::string_view text, glm::u8vec3 color,
+               std::uint32_t scale = 1);
+/// The size in pixels that draw_text takes.
+[[nodiscard]] glm::uvec2 text_size(std::string_view text, std::uint32_t scale = 1);
+
+/// Fills a rectangle (clipped to the picture), mixing by alpha 0 .. 1.
+void fill_rect(LdrImage& image, glm::ivec2 min, glm::ivec2 size, glm::u8vec3 color, float alpha = 1.0F);
+
+}  // namespace lamp::app

@@ -1,0 +1,24 @@
+// The geometry passes: depth pre-pass, and the G-buffer.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/mesh_pass.h"
+
+namespace lamp::app {
+
+class Geometry {
+ public:
+  Geometry(const vulkan::Device& device, const ShaderLibrary& shaders);
+
+  void record_depth(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
+                    const Targets& targets) const;
+  void record_gbuffer(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
+                      const Targets& targets) const;
+
+ private:
+  vulkan::Pipeline depth_opaque_;
+  vulkan::Pipeline depth_masked_;
+  vulkan::Pipeline gbuffer_;
+};
+
+}  // namespace lamp::app

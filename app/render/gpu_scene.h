@@ -1,0 +1,61 @@
+// A scene on the GPU: vertices, materials, instances, textures, and the draws it consists of.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu/transfer.h"
+#include "render/shaders/scene_data.h"
+#include "scene/scene.h"
+
+namespace lamp::app {
+
+/// All instances of one mesh.
+struct Draw {
+  std::uint32_t mesh = 0;
+  std::uint32_t first_instance = 0;
+  std::uint32_t instances = 0;
+  glm::vec3 center{0.0F};  ///< world space, of the first instance; transparent draws are sorted by it
+};
+
+class GpuScene {
+ public:
+  GpuScene(Context& context, const Scene& scene);
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] std::span<const Draw> opaque() const { return opaque_; }  ///< opaque and masked, by material
+  [[nodiscard]] std::span<const Draw> blended() const { return blended_; }  ///< one instance each
+  [[nodiscard]] const Material& material_of(const Draw& draw) const;
+
+  [[nodiscard]] vulkan::Resource materials() const { return vulkan::Resource::storage(materials_.handle()); }
+  [[nodiscard]] vulkan::Resource instances() const { return vulkan::Resource::storage(instances_.handle()); }
+  [[nodiscard]] vulkan::Resource surroundings() const { return vulkan::Resource::storage(surroundings_.handle()); }
+  /// A material's five textures at bindings 5 .. 9.
+  [[nodiscard]] std::array<vulkan::Bound, 5> textures(std::uint32_t material) const;
+
+  void bind_geometry(VkCommandBuffer commands) const;
+  void draw(VkCommandBuffer commands, const Draw& draw) const;
+
+ private:
+  void upload_textures(Context& context);
+  void make_draws(Context& context);
+  [[nodiscard]] VkSampler sampler(const vulkan::Device& device, const Texture& texture);
+
+  const Scene* scene_;
+  vulkan::Buffer vertices_;
+  vulkan::Buffer indices_;
+  vulkan::Buffer materials_;
+  vulkan::Buffer instances_;
+  vulkan::Buffer surroundings_;
+  std::vector<GpuImage> images_;  ///< the scene's, then one white texel
+  std::array<vulkan::OwnedSampler, 18> samplers_;
+  std::vector<std::array<VkSampler, 5>> material_samplers_;
+  std::vector<Draw> opaque_;
+  std::vector<Draw> blended_;
+};
+
+/// The vertex attributes of mesh.vert.
+[[nodiscard]] std::vector<VkVertexInputAttributeDescription> vertex_attributes();
+
+}  // namespace lamp::app

@@ -1,0 +1,33 @@
+// The heat map: how many lights the cell of each pixel holds, on a logarithmic scale, with a legend in the picture.
+// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), figures 1.5, 1.8 and 1.9.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "image/image.h"
+
+namespace lamp::app {
+
+struct Heatmap {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::span<const std::uint32_t> counts;  ///< width * height: lights in the pixel's cell; NO_CELL where there is none
+  std::uint32_t scale_max = 0;            ///< lights at the top of the scale; 0: the next power of two over the largest
+  std::string title;                      ///< drawn into the picture ("tiled, 4096 lights")
+  const LdrImage* overlay = nullptr;      ///< not null: the map is laid over this picture
+};
+
+/// Pixels without a cell (sky) are drawn dark and counted nowhere.
+inline constexpr std::uint32_t NO_CELL = ~0U;
+
+/// The colour of a count on the scale 1 .. scale_max (log2), 0 black.
+[[nodiscard]] glm::u8vec3 heat_color(std::uint32_t count, std::uint32_t scale_max);
+
+/// The map with its log-scale legend, tick numbers, title, mean and maximum drawn below or beside it.
+[[nodiscard]] LdrImage draw_heatmap(const Heatmap& map);
+
+}  // namespace lamp::app

@@ -1,0 +1,81 @@
+// Lights a picture: one method, one shading path. Culls, shades, adds transparent surfaces.
+// Promise: every path works over every look-up.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "lamplight/method.h"
+#include "render/geometry.h"
+
+namespace lamp::app {
+
+enum class ShadingPath : std::uint8_t {
+  forward,            ///< Forward+: fragments walk their cell
+  tiled_deferred,     ///< one fused dispatch where the method has one, else as `deferred`
+  deferred,           ///< cull, then shade in compute
+  standard_deferred,  ///< no cull: one volume a light, added up by blending
+};
+enum class Brdf : std::uint32_t { ggx = 0, blinn_phong = 1 };
+
+/// "forward", "tiled-deferred", "deferred", "standard-deferred", in the order of ShadingPath.
+[[nodiscard]] std::span<const std::string_view> path_names();
+
+struct LightingInfo {
+  const Method* method = nullptr;
+  Options options;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t light_capacity = 0;
+  ShadingPath path = ShadingPath::deferred;
+  Brdf brdf = Brdf::ggx;
+  bool transparency = false;  ///< the scene has blended surfaces
+};
+
+/// What a frame is lit with.
+struct LightingFrame {
+  const GpuScene& scene;
+  const FrameData& data;
+  const Targets& targets;
+  const Geometry& geometry;
+  glm::vec3 eye{0.0F};
+};
+
+class Lighting {
+ public:
+  /// Throws Error when the plan does not fit the device.
+  Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info);
+
+  /// Geometry, cull, shade; leaves the picture in targets.hdr and the depth in targets.depth.
+  void record(vulkan::Recorder& recorder, const LightingFrame& frame);
+  /// Only the cull, over the depth that is there.
+  void record_cull(vulkan::Recorder& recorder, const LightingFrame& frame);
+
+  [[nodiscard]] const LightingInfo& info() const { return info_; }
+  [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
+  [[nodiscard]] bool fused() const;
+  /// Whether a pass of this name (of the times) belongs to the cull.
+  [[nodiscard]] bool is_cull_pass(std::string_view name) const;
+
+ private:
+  using Passes = vulkan::PlanRunner::Passes;
+  void build_shade(const vulkan::Device& device, const ShaderLibrary& shaders);
+  void build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders);
+  void shade_forward(vulkan::Recorder& recorder, const LightingFrame& frame);
+  void shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame);
+  void add_volumes(vulkan::Recorder& recorder, const LightingFrame& frame);
+  void add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame);
+
+  LightingInfo info_;
+  vulkan::PlanRunner runner_;
+  std::optional<vulkan::PlanRunner> any_depth_runner_;  ///< for transparent surfaces, if the method needs another
+  vulkan::Pipeline shade_;
+  vulkan::Pipeline volumes_;
+  vulkan::Pipeline transparent_;
+};
+
+/// A method's plan for these traits, or its error thrown.
+[[nodiscard]] Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device);
+
+}  // namespace lamp::app

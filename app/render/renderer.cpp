@@ -1,0 +1,235 @@
+// Submits frames and reads them back.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include "gpu/check.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t MAX_PASSES = 64;
+
+std::unique_ptr<Targets> make_targets(const vulkan::Device& device, std::uint32_t width, std::uint32_t height) {
+  const std::uint32_t limit = device.traits.max_image_size;
+  if (width == 0 || height == 0 || width > limit || height > limit)
+    throw Error(fmt::format("size {}x{}: expected 1 to {} pixels a side on this device", width, height, limit));
+  return std::make_unique<Targets>(device, width, height);
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+/// Sorts the frames' timestamps by pass.
+class TimeTable {
+ public:
+  void add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
+    double cull = 0.0;
+    double shade = 0.0;
+    double frame = 0.0;
+    for (const auto& [name, ms] : times) {
+      if (!samples_.contains(name)) order_.push_back(name);
+      samples_[name].push_back(ms);
+      frame += ms;
+      if (lighting.is_cull_pass(name)) cull += ms;
+      if (is_shade_pass(name)) shade += ms;
+    }
+    cull_.push_back(cull);
+    shade_.push_back(shade);
+    frame_.push_back(frame);
+  }
+
+  void fill(Rendered& rendered, const Lighting& lighting) const {
+    for (const std::string& name : order_) {
+      const std::vector<double>& ms = samples_.at(name);
+      rendered.passes.push_back({.name = name,
+                                 .ms_median = percentile(ms, 0.5),
+                                 .ms_p5 = percentile(ms, 0.05),
+                                 .ms_p95 = percentile(ms, 0.95),
+                                 .cull = lighting.is_cull_pass(name),
+                                 .shade = is_shade_pass(name)});
+    }
+    rendered.cull_ms = percentile(cull_, 0.5);
+    rendered.shade_ms = percentile(shade_, 0.5);
+    rendered.frame_ms = percentile(frame_, 0.5);
+  }
+
+ private:
+  static bool is_shade_pass(std::string_view name) {
+    return name == "forward+ shading" || name == "deferred shading" || name == "cull and shade" ||
+           name == "light volumes";
+  }
+
+  std::vector<std::string> order_;
+  std::map<std::string, std::vector<double>, std::less<>> samples_;
+  std::vector<double> cull_, shade_, frame_;
+};
+
+vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
+  return take(vulkan::Buffer::create(
+      device, {.name = name,
+               .bytes = bytes,
+               .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+               .memory = vulkan::MemoryUse::readback}));
+}
+
+template <class T>
+std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
+  std::vector<T> values(count);
+  if (count != 0) std::memcpy(values.data(), buffer.mapped().data(), count * sizeof(T));
+  return values;
+}
+
+}  // namespace
+
+Truth empty_truth(std::uint32_t width, std::uint32_t height) {
+  Truth truth{.rows = height};
+  truth.offsets.assign(std::size_t{width} * height + 1, 0);
+  return truth;
+}
+
+Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
+                   std::uint32_t height, std::uint32_t light_capacity)
+    : context_(context),
+      shaders_(shaders),
+      scene_(scene),
+      targets_(make_targets(context.device(), width, height)),
+      data_(context.device(), light_capacity),
+      geometry_(context.device(), shaders),
+      timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {}
+
+void Renderer::set_frame(const View& view, std::span<const shared::Light> lights) {
+  view_ = view;
+  data_.set(view, lights);
+}
+
+LightingFrame Renderer::lighting_frame() const {
+  return {.scene = scene_,
+          .data = data_,
+          .targets = *targets_,
+          .geometry = geometry_,
+          .eye = glm::vec3(view_.world_from_view()[3])};
+}
+
+void Renderer::record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) const {
+  recorder.barrier({copies_from(image.transfer_source()), copies_to(vulkan::Resource::storage(buffer.handle()))});
+  const VkBufferImageCopy whole{.imageSubresource = {image.aspect(), 0, 0, 1},
+                                .imageExtent = {targets_->width, targets_->height, 1}};
+  vkCmdCopyImageToBuffer(recorder.commands(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.handle(), 1,
+                         &whole);
+  recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
+}
+
+Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up) {
+  const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
+  const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
+  const vulkan::Buffer counters = readback(context_.device(), "counters read-back", sizeof(shared::Counters));
+  const VkBuffer counted = lighting.runner().buffer(lighting.runner().plan().counters);
+  TimeTable times;
+  for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
+    const bool last = i + 1 == frames + warm_up;
+    context_.submit([&](VkCommandBuffer commands) {
+      timestamps_.reset(commands);
+      vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
+      data_.record_upload(recorder);
+      lighting.record(recorder, lighting_frame());
+      if (!last) return;
+      record_readback(recorder, targets_->hdr, picture);
+      if (counted == VK_NULL_HANDLE) return;
+      recorder.barrier({copies_from(vulkan::Resource::storage(counted)),
+                        copies_to(vulkan::Resource::storage(counters.handle()))});
+      const VkBufferCopy whole{.size = sizeof(shared::Counters)};
+      vkCmdCopyBuffer(commands, counted, counters.handle(), 1, &whole);
+      recorder.barrier({host_reads(vulkan::Resource::storage(counters.handle()))});
+    });
+    if (i >= warm_up) times.add(timestamps_.read(), lighting);
+  }
+  tracker_.forget(picture.handle());
+  tracker_.forget(counters.handle());
+  Rendered rendered{
+      .image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
+  times.fill(rendered, lighting);
+  if (counted != VK_NULL_HANDLE) rendered.counters = copy_out<shared::Counters>(counters, 1)[0];
+  return rendered;
+}
+
+std::vector<float> Renderer::read_depth() {
+  const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
+  const vulkan::Buffer buffer = readback(context_.device(), "depth read-back", pixels * sizeof(float));
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    record_readback(recorder, targets_->depth, buffer);
+  });
+  tracker_.forget(buffer.handle());
+  return copy_out<float>(buffer, pixels);
+}
+
+vulkan::Pipeline Renderer::visit_pipeline(Lighting& lighting, vulkan::PlanRunner::Passes which) const {
+  const Plan& plan = lighting.runner().plan();
+  const bool fused = which == vulkan::PlanRunner::Passes::fused;
+  const LookUp& lookup = fused ? plan.fused->lookup : plan.lookup;
+  vulkan::PipelineInfo info{.name = "visit",
+                            .constants = lighting.runner().lookup({}, which).constants,
+                            .push_constant_bytes = 2 * sizeof(std::uint32_t)};
+  info.constants.push_back({0, fused ? plan.fused->group_width : 16U});
+  info.constants.push_back({1, fused ? plan.fused->group_height : 16U});
+  for (std::uint32_t i = 0; i < 5; ++i)
+    info.bindings.push_back({i, i == 1 ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
+    info.bindings.push_back({LOOKUP_BINDING + i, vulkan::descriptor_type(lookup.bindings[i].resource)});
+  return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv("visit@" + lookup.name)));
+}
+
+std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which) {
+  const std::size_t pixels = std::size_t{targets_->width} * truth.rows;
+  const vulkan::Pipeline pipeline = visit_pipeline(lighting, which);
+  const vulkan::Buffer offsets =
+      upload_buffer(context_, "truth offsets", bytes_of(truth.offsets), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const vulkan::Buffer lights =
+      upload_buffer(context_, "truth lights", bytes_of(truth.lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const vulkan::Buffer found = readback(context_.device(), "visits", std::max<std::size_t>(1, pixels) * sizeof(gpu::Visit));
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
+  const bool fused = which == vulkan::PlanRunner::Passes::fused;
+  const std::uint32_t group_width = fused ? lighting.runner().plan().fused->group_width : 16;
+  const std::uint32_t group_height = fused ? lighting.runner().plan().fused->group_height : 16;
+
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    data_.record_upload(recorder);
+    lighting.runner().record(recorder, inputs, which);
+    std::vector<vulkan::Bound> bound{{0, data_.frame()},
+                                     {1, targets_->depth.sampled()},
+                                     {2, vulkan::Resource::storage(offsets.handle())},
+                                     {3, vulkan::Resource::storage(lights.handle())},
+                                     {4, vulkan::Resource::storage(found.handle())}};
+    std::vector<vulkan::Use> uses{reads(data_.frame(), COMPUTE), reads(targets_->depth.sampled(), COMPUTE)};
+    for (const vulkan::Bound& b : lighting.runner().lookup(inputs, which).resources) {
+      bound.push_back(b);
+      uses.push_back(reads(b.resource, COMPUTE));
+    }
+    uses.push_back({.resource = vulkan::Resource::storage(found.handle()),
+                    .stages = COMPUTE,
+                    .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+    recorder.begin_pass("visit", uses);
+    recorder.bind(pipeline, bound);
+    const std::uint32_t rows[] = {truth.first_row, truth.rows};
+    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(rows), rows);
+    vkCmdDispatch(commands, (targets_->width + group_width - 1) / group_width,
+                  (targets_->height + group_height - 1) / group_height, 1);
+    recorder.end_pass();
+    recorder.barrier({host_reads(vulkan::Resource::storage(found.handle()))});
+  });
+  tracker_.forget(found.handle());
+  return copy_out<gpu::Visit>(found, pixels);
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,77 @@
+// Renders a scene with any lighting, reads pictures back, and walks look-ups for heat maps and verification.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "image/image.h"
+#include "lamplight/reference.h"
+#include "lamplight/shared/counters.h"
+#include "render/lighting.h"
+
+namespace lamp::app {
+
+/// Times of a pass over all timed frames, milliseconds.
+struct PassTime {
+  std::string name;
+  double ms_median = 0.0;
+  double ms_p5 = 0.0;
+  double ms_p95 = 0.0;
+  bool cull = false;
+  bool shade = false;
+};
+
+struct Rendered {
+  HdrImage image;
+  std::vector<PassTime> passes;
+  double cull_ms = 0.0;   ///< medians of the frames' sums
+  double shade_ms = 0.0;
+  double frame_ms = 0.0;
+  shared::Counters counters{};
+};
+
+class Renderer {
+ public:
+  /// Throws Error when a size is 0 or beyond the device's limits.
+  Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
+           std::uint32_t height, std::uint32_t light_capacity);
+
+  /// Camera and lights of the next frames.
+  void set_frame(const View& view, std::span<const shared::Light> lights);
+
+  /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
+  [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
+
+  /// The depth of the last frame, device depth, row by row; 0 is sky.
+  [[nodiscard]] std::vector<float> read_depth();
+
+  /// Culls the last frame's depth and walks the look-up of every pixel of the truth's rows. With `Passes::fused`, the
+  /// look-up that culls in the shader.
+  [[nodiscard]] std::vector<gpu::Visit> visit(Lighting& lighting, const Truth& truth,
+                                              vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
+
+  [[nodiscard]] const Targets& targets() const { return *targets_; }
+  [[nodiscard]] const vulkan::Device& device() const { return context_.device(); }
+  [[nodiscard]] const View& view() const { return view_; }
+
+ private:
+  [[nodiscard]] LightingFrame lighting_frame() const;
+  [[nodiscard]] vulkan::Pipeline visit_pipeline(Lighting& lighting, vulkan::PlanRunner::Passes which) const;
+  void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) const;
+
+  Context& context_;
+  const ShaderLibrary& shaders_;
+  const GpuScene& scene_;
+  std::unique_ptr<Targets> targets_;
+  FrameData data_;
+  Geometry geometry_;
+  View view_;
+  vulkan::AccessTracker tracker_;
+  vulkan::Timestamps timestamps_;
+};
+
+/// A truth without lights: for heat maps, where nothing is checked.
+[[nodiscard]] Truth empty_truth(std::uint32_t width, std::uint32_t height);
+
+}  // namespace lamp::app

@@ -1,0 +1,26 @@
+// The G-buffer: base colour (sRGB 8), normal and material (2 x 32 bits), emitted radiance (half float).
+// Based on: octahedral normals: Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors,
+// JCGT 3:2 (2014).
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_GBUFFER
+#define LAMP_GBUFFER
+
+vec2 octahedral(vec3 n) {
+  const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+  const vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+  return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * signs;
+}
+
+vec3 from_octahedral(vec2 p) {
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  const float fold = max(-n.z, 0.0);
+  n.x += n.x >= 0.0 ? -fold : fold;
+  n.y += n.y >= 0.0 ? -fold : fold;
+  return normalize(n);
+}
+
+uvec2 pack_surface(vec3 normal, float metallic, float roughness, float occlusion) {
+  return uvec2(packSnorm2x16(octahedral(normal)), packUnorm4x8(vec4(metallic, roughness, occlusion, 0.0)));
+}
+
+#endif

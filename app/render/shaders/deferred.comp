@@ -1,0 +1,44 @@
+// Deferred shading in compute: each pixel reads the G-buffer once and walks the lights of its cell, the sum in registers.
+// With a fused look-up the same dispatch culls first.
+// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.3.3; Andersson, Parallel Graphics in Frostbite
+// (2009).
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+#include "scene_data.h"
+
+layout(local_size_x_id = 0, local_size_y_id = 1) in;
+layout(constant_id = 11) const bool WALK = true;  // false: only the surroundings; light volumes add the rest
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
+  Surroundings surroundings;
+  DirectionalData directional_lights[];
+};
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
+#include "lookup.glsl"
+#include "common/deferred_surface.glsl"
+#include "common/punctual.glsl"
+#include "common/surroundings.glsl"
+
+void main() {
+  lookup_prepare();
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(uvec2(pixel), frame.size_px))) return;
+  const float depth = texelFetch(depth_image, pixel, 0).x;
+  if (depth <= 0.0) {
+    imageStore(hdr_image, pixel, vec4(surroundings.sky, 1.0));
+    return;
+  }
+  const float z_view = z_view_of(frame, depth);
+  const Surface s = read_surface(pixel, z_view);
+  precise vec3 sum = vec3(0.0);
+  uint light;
+  if (WALK)
+    for (Walk walk = walk_begin(uvec2(pixel), z_view); walk_next(walk, light);) sum += shade_light(s, lights[light]);
+  const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
+  imageStore(hdr_image, pixel, vec4(shade_surroundings(s, emission) + sum, 1.0));
+}

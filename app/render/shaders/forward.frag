@@ -1,0 +1,40 @@
+// Forward+: each fragment walks the lights of its cell. Also for transparent surfaces, at their own depth.
+// Based on: Harada, McKee, Yang, Forward+: Bringing Deferred Lighting to the Next Level, Eurographics (2012).
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "common/frame.glsl"
+#include "common/material.glsl"
+#include "lamplight/shared/light.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
+  Surroundings surroundings;
+  DirectionalData directional_lights[];
+};
+#include "lookup.glsl"
+#include "common/punctual.glsl"
+#include "common/surroundings.glsl"
+#include "common/eye.glsl"
+
+layout(location = 0) out vec4 out_color;
+
+void main() {
+  const vec4 color = material_color();
+  const vec3 normal = material_normal(gl_FrontFacing);
+  const vec3 factors = material_factors();
+  const vec3 emission = material_emission();
+  if (is_cut_out(color.a)) discard;
+
+  const float z_view = z_view_of(frame, gl_FragCoord.z);
+  const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
+  const Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
+  precise vec3 sum = vec3(0.0);
+  uint light;
+  for (Walk walk = walk_begin(uvec2(gl_FragCoord.xy), z_view); walk_next(walk, light);)
+    sum += shade_light(s, lights[light]);
+  const float alpha = materials[material_index].alpha_mode == ALPHA_BLEND ? color.a : 1.0;
+  out_color = vec4(shade_surroundings(s, emission) + sum, alpha);
+}

@@ -1,0 +1,79 @@
+// What shading reads besides frame and lights: materials, instances, ambient and directional light.
+// Promise: scalar layout, the same bytes in C++ and in GLSL.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_SCENE_DATA_H
+#define LAMP_SCENE_DATA_H
+
+#include "lamplight/shared/glsl.h"
+
+#ifdef __cplusplus
+namespace lamp::app::gpu {
+using namespace lamp::shared;
+#define LAMP_CONST inline constexpr uint
+#else
+#define LAMP_CONST const uint
+#endif
+
+LAMP_CONST ALPHA_OPAQUE = 0u;
+LAMP_CONST ALPHA_MASK = 1u;
+LAMP_CONST ALPHA_BLEND = 2u;
+
+// A texture of a material: (u', v') = (dot(u_row, uv), dot(v_row, uv)) + offset.
+struct TextureData {
+  vec2 u_row;
+  vec2 v_row;
+  vec2 offset;
+  uint uv;       // which set, 0 or 1
+  uint present;  // 0: reads as 1
+};
+
+struct MaterialData {
+  vec4 base_color;  // linear
+  vec3 emissive;    // radiance
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float occlusion_strength;
+  float alpha_cutoff;
+  uint alpha_mode;
+  TextureData base_color_texture;
+  TextureData metallic_roughness_texture;
+  TextureData normal_texture;
+  TextureData occlusion_texture;
+  TextureData emissive_texture;
+};
+
+struct InstanceData {
+  mat4 world_from_object;
+  vec3 normal_x;  // columns of the normal matrix
+  vec3 normal_y;
+  vec3 normal_z;
+};
+
+struct DirectionalData {
+  vec3 direction;    // unit, the way the light travels
+  vec3 illuminance;  // lux times colour
+};
+
+// Followed in its buffer by directional_count of DirectionalData.
+struct Surroundings {
+  vec3 ambient;  // irradiance from everywhere
+  vec3 sky;      // radiance of pixels that nothing covers
+  uint directional_count;
+};
+
+// What the visit shader found at a pixel.
+struct Visit {
+  uint visited;       // lights walked
+  uint cell;          // of the look-up; NO_CELL for sky
+  uint missed;        // lights of the truth that the walk did not bring
+  uint first_missed;  // the first of them
+  uint unordered;     // 1: a light did not ascend
+};
+
+#ifdef __cplusplus
+}  // namespace lamp::app::gpu
+#endif
+#undef LAMP_CONST
+
+#endif

@@ -1,0 +1,74 @@
+// Walks the look-up of every pixel and writes down what it found; against the oracle's lists, what it missed.
+// Promise: sees exactly what shading sees, because it reads through the same look-up.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "lamplight/shared/frame.h"
+#include "scene_data.h"
+
+layout(local_size_x_id = 0, local_size_y_id = 1) in;
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1) uniform texture2D depth_image;
+layout(set = 0, binding = 2, scalar) readonly buffer OffsetBuffer { uint truth_offsets[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer TruthBuffer { uint truth[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer VisitBuffer { Visit visits[]; };
+layout(push_constant) uniform Push {
+  uint first_row;  // rows to answer for
+  uint rows;
+};
+#include "lookup.glsl"
+#include "common/frame.glsl"
+
+const uint NONE = ~0u;
+
+// The oracle's lights that an ascending walk passes over are missed. One that is not ascending is searched anew.
+bool walk_brings(uvec2 pixel, float z_view, uint wanted) {
+  uint light;
+  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);)
+    if (light == wanted) return true;
+  return false;
+}
+
+void main() {
+  lookup_prepare();
+  const uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, frame.size_px)) || pixel.y < first_row || pixel.y >= first_row + rows) return;
+  const uint index = (pixel.y - first_row) * frame.size_px.x + pixel.x;
+  const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
+  if (depth <= 0.0) {
+    visits[index] = Visit(0u, NONE, 0u, NONE, 0u);
+    return;
+  }
+  const float z_view = z_view_of(frame, depth);
+  const uint end = truth_offsets[index + 1u];
+  uint next = truth_offsets[index];
+  Visit visit = Visit(0u, lookup_cell(pixel, z_view), 0u, NONE, 0u);
+  uint last = 0u;
+  uint light;
+  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) {
+    if (visit.visited > 0u && light <= last) visit.unordered = 1u;
+    last = light;
+    ++visit.visited;
+    for (; next < end && truth[next] < light; ++next) {
+      ++visit.missed;
+      visit.first_missed = min(visit.first_missed, truth[next]);
+    }
+    if (next < end && truth[next] == light) ++next;
+  }
+  for (; next < end; ++next) {
+    ++visit.missed;
+    visit.first_missed = min(visit.first_missed, truth[next]);
+  }
+  if (visit.unordered != 0u) {
+    visit.missed = 0u;
+    visit.first_missed = NONE;
+    for (next = truth_offsets[index]; next < end; ++next) {
+      if (walk_brings(pixel, z_view, truth[next])) continue;
+      ++visit.missed;
+      visit.first_missed = min(visit.first_missed, truth[next]);
+    }
+  }
+  visits[index] = visit;
+}

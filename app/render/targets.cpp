@@ -1,0 +1,22 @@
+// Formats and usages of the targets.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/targets.h"
+
+namespace lamp::app {
+
+Targets::Targets(const vulkan::Device& device, std::uint32_t wide, std::uint32_t high) : width(wide), height(high) {
+  const auto make = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
+    return GpuImage(device, {.name = name, .width = wide, .height = high, .format = format, .usage = usage});
+  };
+  constexpr VkImageUsageFlags GBUFFER = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  depth = make("depth", VK_FORMAT_D32_SFLOAT,
+               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  base_color = make("base colour", VK_FORMAT_R8G8B8A8_SRGB, GBUFFER);
+  surface = make("surface", VK_FORMAT_R32G32_UINT, GBUFFER);
+  emission = make("emission", VK_FORMAT_R16G16B16A16_SFLOAT, GBUFFER);
+  hdr = make("hdr", VK_FORMAT_R32G32B32A32_SFLOAT,
+             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+}
+
+}  // namespace lamp::app

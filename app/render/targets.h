@@ -1,0 +1,21 @@
+// What a picture is drawn into: depth, G-buffer, HDR.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gpu/image.h"
+
+namespace lamp::app {
+
+struct Targets {
+  Targets(const vulkan::Device& device, std::uint32_t width, std::uint32_t height);
+
+  std::uint32_t width;
+  std::uint32_t height;
+  GpuImage depth;       ///< D32, reversed
+  GpuImage base_color;  ///< RGBA8 sRGB
+  GpuImage surface;     ///< RG32 unsigned: normal; metallic, roughness, occlusion
+  GpuImage emission;    ///< RGBA16F
+  GpuImage hdr;         ///< RGBA32F: pictures are compared bit for bit
+};
+
+}  // namespace lamp::app

@@ -1,0 +1,31 @@
+// Cameras to views: a scene's cameras by name, frames of its flight, and the projections that tests ask for.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lamplight/view.h"
+#include "scene/scene.h"
+
+namespace lamp::app {
+
+/// The camera at a frame of a flight (wraps around), on a closed Catmull-Rom loop through its keys, with +Y up.
+/// Throws Error for a flight without keys or frames.
+[[nodiscard]] Camera flight_camera(const Flight& flight, std::uint32_t frame);
+
+/// Projections of `--projection`: `camera` (as the camera says), `perspective` (finite far), `infinite`,
+/// `orthographic` (a window that shows about the same part of the scene), `off-centre` (a window that is not
+/// symmetric).
+[[nodiscard]] std::span<const std::string_view> projection_names();
+
+/// The view of a camera for a picture. Throws Error for an unknown projection (with the nearest names) or a bad size.
+[[nodiscard]] View view_of(const Camera& camera, std::uint32_t width, std::uint32_t height,
+                           std::string_view projection);
+
+/// The scene's camera of that name, or its first when the name is empty. Throws Error with the names there are.
+[[nodiscard]] const Camera& find_camera(const Scene& scene, std::string_view name);
+
+}  // namespace lamp::app

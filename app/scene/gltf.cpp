@@ -1,0 +1,78 @@
+// glTF 2.0 (.gltf, .glb) to a Scene, through tinygltf.
+// Based on: Khronos, glTF 2.0 specification; KHR_lights_punctual; KHR_texture_transform.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/default_view.h"
+#include "scene/gltf_cameras.h"
+#include "scene/gltf_document.h"
+#include "scene/gltf_error.h"
+#include "scene/gltf_images.h"
+#include "scene/gltf_lights.h"
+#include "scene/gltf_material.h"
+#include "scene/gltf_meshes.h"
+#include "scene/gltf_nodes.h"
+
+namespace lamp::app {
+namespace {
+
+/// What glTF does not say: how light it is where no light reaches.
+constexpr glm::vec3 AMBIENT{0.02F, 0.02F, 0.025F};
+constexpr glm::vec3 SKY{0.01F, 0.012F, 0.02F};
+
+/// Squares of distances in the scene must fit floats.
+void check_extent(const Box& box, const std::string& file) {
+  constexpr float FURTHEST = 1e15F;
+  const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+  const float furthest = std::max({reach.x, reach.y, reach.z});
+  if (!(furthest <= FURTHEST)) {
+    gltf_fail(file, "scene", fmt::format("reaches {} m, expected at most {} m from the origin", furthest, FURTHEST));
+  }
+}
+
+Scene to_scene(GltfDocument document, std::string name) {
+  Scene scene;
+  scene.name = std::move(name);
+  scene.ambient = AMBIENT;
+  scene.sky = SKY;
+
+  GltfMaterials materials = read_materials(document);
+  scene.materials = std::move(materials.materials);
+  const std::vector<PlacedNode> nodes = place_nodes(document);
+  add_meshes(document, nodes, scene);
+
+  GltfLights lights = read_lights(document, nodes);
+  scene.lights = std::move(lights.lights);
+  scene.directional_lights = std::move(lights.directional_lights);
+
+  const Box box = bounds(scene);
+  check_extent(box, document.origin.file);
+  scene.cameras = read_cameras(document, nodes);
+  const bool has_eye = !scene.cameras.empty() && !scene.cameras[0].orthographic;
+  scene.flight = has_eye ? flight_at(scene.cameras[0]) : default_flight(box);
+  if (scene.cameras.empty()) scene.cameras.push_back(default_camera(box));
+
+  // Last, as it takes longest: every other mistake in the file has been found by now.
+  scene.images = read_images(document, materials.images);
+  scene.notes = std::move(document.notes);
+  return scene;
+}
+
+}  // namespace
+
+Scene load_gltf(const std::filesystem::path& file) {
+  GltfOrigin origin{file.string(), file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")};
+  const std::vector<std::byte> bytes = read_bytes(file, origin, "");
+  return to_scene(read_document(bytes, std::move(origin)), file.stem().string());
+}
+
+Scene load_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder, const std::string& name) {
+  return to_scene(read_document(bytes, {name, folder}), name);
+}
+
+}  // namespace lamp::app

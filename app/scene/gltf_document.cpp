@@ -1,0 +1,229 @@
+// A glTF file, read and checked: the model as tinygltf gives it, and the bytes of its buffers.
+// Based on: Khronos, glTF 2.0 specification.
+// Promise: indices between elements, buffer views and numbers that the loader reads are in range; see gltf_check.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_document.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "scene/gltf_check.h"
+#include "scene/gltf_container.h"
+#include "scene/gltf_error.h"
+
+namespace lamp::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr auto EXTENSIONS = std::to_array<std::string_view>(
+    {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization", "KHR_texture_transform"});
+
+bool is_supported(std::string_view extension) { return std::ranges::find(EXTENSIONS, extension) != EXTENSIONS.end(); }
+
+/// Nothing in glTF nests deeply, and converting a value recurses as deep as it nests.
+void check_depth(std::string_view text, const std::string& file) {
+  constexpr int DEEPEST = 64;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (text[i] == '{' || text[i] == '['))
+      ++depth;
+    else if (!quoted && (text[i] == '}' || text[i] == ']'))
+      --depth;
+    if (depth > DEEPEST) gltf_fail(file, "JSON", fmt::format("nested too deep, expected at most {} levels", DEEPEST));
+  }
+}
+
+json parse_json(std::string_view text, const std::string& file) {
+  check_depth(text, file);
+  try {
+    return json::parse(text);
+  } catch (const json::exception& error) {
+    // "[json.exception.parse_error.101] parse error at line 1 ...": the code in brackets helps nobody.
+    const std::string_view what = error.what();
+    const std::size_t bracket = what.find("] ");
+    gltf_fail(file, "JSON", bracket == std::string_view::npos ? what : what.substr(bracket + 2));
+  }
+}
+
+void check_version(const json& document, const std::string& file) {
+  const auto version = document["asset"]["version"].get<std::string>();
+  if (!version.starts_with("2.")) {
+    gltf_fail(file, "asset", fmt::format("version is '{}', expected 2.0", version));
+  }
+}
+
+/// The extensions of a list ("extensionsUsed") that the loader does not know.
+std::vector<std::string> unsupported(const json& document, const char* list) {
+  std::vector<std::string> names = document.value(list, std::vector<std::string>{});
+  std::erase_if(names, [](const std::string& name) { return is_supported(name); });
+  return names;
+}
+
+void check_extensions(const json& document, const std::string& file, std::vector<std::string>& notes) {
+  if (const auto names = unsupported(document, "extensionsRequired"); !names.empty()) {
+    gltf_fail(
+        file, "extensionsRequired",
+        fmt::format("{} not supported, expected none but {}", fmt::join(names, ", "), fmt::join(EXTENSIONS, ", ")));
+  }
+  if (const auto names = unsupported(document, "extensionsUsed"); !names.empty()) {
+    notes.push_back(one_line(fmt::format("extensions that are not supported, left out: {}", fmt::join(names, ", "))));
+  }
+}
+
+/// An array of the document, by reference: data URIs can be long.
+const json& elements(const json& document, const char* array) {
+  static const json NONE = json::array();
+  const auto found = document.find(array);
+  return found == document.end() ? NONE : *found;
+}
+
+/// Says which parts of the file have no effect here.
+void note_left_out(const json& document, std::vector<std::string>& notes) {
+  for (const char* part : {"animations", "skins"}) {
+    const std::size_t count = elements(document, part).size();
+    if (count > 0) notes.push_back(fmt::format("{} {} left out: the scene stands still", count, part));
+  }
+  std::size_t morphed = 0;
+  for (const json& mesh : elements(document, "meshes")) {
+    for (const json& primitive : mesh["primitives"]) morphed += primitive.contains("targets") ? 1 : 0;
+  }
+  if (morphed > 0) notes.push_back(fmt::format("morph targets of {} primitives left out", morphed));
+}
+
+std::vector<std::vector<std::byte>> read_buffers(const json& document, const GltfOrigin& origin,
+                                                 std::optional<std::span<const std::byte>> binary) {
+  std::vector<std::vector<std::byte>> buffers;
+  for (const json& buffer : elements(document, "buffers")) {
+    const std::string element = fmt::format("buffer {}", buffers.size());
+    const auto length = buffer["byteLength"].get<std::size_t>();
+    std::vector<std::byte> bytes;
+    if (buffer.contains("uri")) {
+      bytes = read_uri(buffer["uri"].get_ref<const std::string&>(), origin, element, length);
+    } else if (buffers.empty() && binary) {
+      const std::span<const std::byte> chunk = binary->first(std::min(length, binary->size()));
+      bytes.assign(chunk.begin(), chunk.end());
+    } else {
+      gltf_fail(origin.file, element, "uri is missing, expected one (or the binary chunk of a .glb for buffer 0)");
+    }
+    if (bytes.size() < length) {
+      gltf_fail(origin.file, element,
+                fmt::format("byteLength is {}, expected at most the {} bytes there are", length, bytes.size()));
+    }
+    buffers.push_back(std::move(bytes));
+  }
+  return buffers;
+}
+
+std::vector<GltfImage> read_images(const json& document, const std::string& file) {
+  std::vector<GltfImage> images;
+  for (const json& image : elements(document, "images")) {
+    if (image.contains("uri") == image.contains("bufferView")) {
+      gltf_fail(file, fmt::format("image {}", images.size()), "expected either a uri or a bufferView");
+    }
+    const std::string uri = image.value("uri", "");
+    const std::string fallback = uri.starts_with("data:") ? fmt::format("image {}", images.size()) : uri;
+    images.push_back({image.value("name", fallback), uri, image.value("bufferView", -1)});
+  }
+  return images;
+}
+
+/// Drops what the loader never reads, so that it is neither converted nor stored.
+void prune(json& value) {
+  if (value.is_array()) {
+    for (json& element : value) prune(element);
+  }
+  if (!value.is_object()) return;
+  value.erase("extras");
+  for (auto& [key, member] : value.items()) {
+    if (key == "extensions" && member.is_object()) {
+      for (auto it = member.begin(); it != member.end();)
+        it = is_supported(it.key()) ? std::next(it) : member.erase(it);
+    }
+    prune(member);
+  }
+}
+
+/// tinygltf fills in defaults. Buffers and images stay out of it: it would read them without our checks.
+tinygltf::Model convert(json document, const std::string& file) {
+  for (const char* part : {"buffers", "images", "animations", "skins"}) document.erase(part);
+  prune(document);
+  const std::string text = document.dump();
+  tinygltf::TinyGLTF loader;
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), "")) {
+    gltf_fail(file, "", error.empty() ? "cannot be read as glTF 2.0" : error);
+  }
+  return model;
+}
+
+void check_buffer_views(const GltfDocument& document) {
+  const auto& views = document.model.bufferViews;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::size_t size = document.buffers[static_cast<std::size_t>(views[i].buffer)].size();
+    if (views[i].byteOffset > size || views[i].byteLength > size - views[i].byteOffset) {
+      gltf_fail(document.origin.file, fmt::format("bufferView {}", i),
+                fmt::format("{} bytes from byte {}, expected to end within the {} bytes of buffer {}",
+                            views[i].byteLength, views[i].byteOffset, size, views[i].buffer));
+    }
+  }
+}
+
+/// Accessors without data stand for zeros; a file of a few bytes must not ask for gigabytes of them.
+void check_zero_accessors(const GltfDocument& document) {
+  constexpr std::size_t MOST = 1 << 20;
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
+    const tinygltf::Accessor& accessor = document.model.accessors[i];
+    if (accessor.bufferView >= 0) continue;
+    total += accessor.count;
+    if (total > MOST) {
+      gltf_fail(document.origin.file, fmt::format("accessor {}", i),
+                fmt::format("count is {} without a bufferView, expected at most {} of all such accessors together",
+                            accessor.count, MOST));
+    }
+  }
+}
+
+}  // namespace
+
+std::span<const std::byte> GltfDocument::view_bytes(int buffer_view) const {
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(buffer_view)];
+  return std::span(buffers[static_cast<std::size_t>(view.buffer)]).subspan(view.byteOffset, view.byteLength);
+}
+
+GltfDocument read_document(std::span<const std::byte> bytes, GltfOrigin origin) {
+  GltfDocument document;
+  document.origin = std::move(origin);
+  const std::string& file = document.origin.file;
+
+  const GltfContainer container = split_container(bytes, file);
+  json parsed = parse_json(container.json, file);
+  check_gltf(parsed, file);
+  check_version(parsed, file);
+  check_extensions(parsed, file, document.notes);
+  note_left_out(parsed, document.notes);
+
+  document.buffers = read_buffers(parsed, document.origin, container.binary);
+  document.images = read_images(parsed, file);
+  document.model = convert(std::move(parsed), file);
+  check_buffer_views(document);
+  check_zero_accessors(document);
+  return document;
+}
+
+}  // namespace lamp::app

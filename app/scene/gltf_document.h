@@ -1,0 +1,39 @@
+// A glTF file, read and checked: the model as tinygltf gives it, and the bytes of its buffers.
+// Based on: Khronos, glTF 2.0 specification.
+// Promise: indices between elements, buffer views and numbers that the loader reads are in range; see gltf_check.h.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_resources.h"
+
+namespace lamp::app {
+
+/// An image that nobody has decoded yet: from a URI, or a part of a buffer (`uri` empty).
+struct GltfImage {
+  std::string name;
+  std::string uri;
+  int buffer_view = -1;
+};
+
+struct GltfDocument {
+  GltfOrigin origin;
+  tinygltf::Model model;  ///< without buffers and images, which are here
+  std::vector<std::vector<std::byte>> buffers;
+  std::vector<GltfImage> images;
+  std::vector<std::string> notes;  ///< what was left out, for Scene::notes
+
+  /// The bytes of a buffer view.
+  [[nodiscard]] std::span<const std::byte> view_bytes(int buffer_view) const;
+};
+
+/// Reads the container, the JSON and the buffers. Throws Error.
+[[nodiscard]] GltfDocument read_document(std::span<const std::byte> bytes, GltfOrigin origin);
+
+}  // namespace lamp::app

@@ -1,0 +1,82 @@
+// The lights that nodes of a glTF file carry.
+// Based on: Khronos, KHR_lights_punctual.
+// Promise: every light passes lamp::check_lights.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_lights.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/constants.hpp>
+#include <limits>
+#include <optional>
+
+#include "scene/gltf_error.h"
+
+namespace lamp::app {
+namespace {
+
+/// The light's place in the file's list, or nothing if the node has none.
+std::optional<std::size_t> light_index(const tinygltf::Node& node) {
+  const auto found = node.extensions.find("KHR_lights_punctual");
+  if (found == node.extensions.end()) return std::nullopt;
+  return static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
+}
+
+/// Where the node's -Z axis points.
+glm::vec3 forward(const GltfDocument& document, const PlacedNode& placed) {
+  const glm::dvec3 axis = -glm::dvec3(placed.world_from_node[2]);
+  if (!(glm::length(axis) > 1e-12)) {
+    gltf_fail(document.origin.file, fmt::format("node {}", placed.node),
+              "its transform leaves the light no direction, expected a scale in z that is not 0");
+  }
+  return glm::normalize(axis);
+}
+
+glm::vec3 color_of(const tinygltf::Light& from) {
+  return from.color.empty() ? glm::vec3(1.0F) : glm::vec3(from.color[0], from.color[1], from.color[2]);
+}
+
+void set_cone(const tinygltf::SpotLight& from, const std::string& file, const std::string& element, Light& light) {
+  light.inner_angle = static_cast<float>(from.innerConeAngle);
+  light.outer_angle = static_cast<float>(from.outerConeAngle);
+  // Compared as floats: exporters write pi/2 rounded up.
+  if (light.outer_angle > glm::half_pi<float>()) {
+    gltf_fail(file, element, fmt::format("outerConeAngle is {}, expected 0 .. pi/2 radians", from.outerConeAngle));
+  }
+  if (light.inner_angle > light.outer_angle) {
+    gltf_fail(file, element,
+              fmt::format("innerConeAngle is {}, expected at most outerConeAngle, {}", from.innerConeAngle,
+                          from.outerConeAngle));
+  }
+}
+
+}  // namespace
+
+GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode> nodes) {
+  GltfLights result;
+  for (const PlacedNode& placed : nodes) {
+    const auto index = light_index(document.model.nodes[static_cast<std::size_t>(placed.node)]);
+    if (!index) continue;
+    const tinygltf::Light& from = document.model.lights[*index];
+    if (from.type == "directional") {
+      const float lux = static_cast<float>(from.intensity);
+      result.directional_lights.push_back({forward(document, placed), color_of(from) * lux});
+      continue;
+    }
+    Light light;
+    light.type = from.type == "spot" ? LightType::spot : LightType::point;
+    light.position = glm::vec3(placed.world_from_node[3]);
+    light.color = color_of(from);
+    light.intensity = static_cast<float>(from.intensity);
+    // tinygltf says 0 where the file says nothing; the check refuses a 0 that is in the file.
+    light.range = from.range > 0.0 ? static_cast<float>(from.range) : std::numeric_limits<float>::infinity();
+    if (light.type == LightType::spot) {
+      light.direction = forward(document, placed);
+      set_cone(from.spot, document.origin.file, fmt::format("light {}", *index), light);
+    }
+    result.lights.push_back(light);
+  }
+  return result;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,24 @@
+// The lights that nodes of a glTF file carry.
+// Based on: Khronos, KHR_lights_punctual.
+// Promise: every light passes lamp::check_lights.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/gltf_document.h"
+#include "scene/gltf_nodes.h"
+#include "scene/scene.h"
+
+namespace lamp::app {
+
+struct GltfLights {
+  std::vector<Light> lights;
+  std::vector<DirectionalLight> directional_lights;
+};
+
+/// In the order of the nodes. Throws Error.
+[[nodiscard]] GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode> nodes);
+
+}  // namespace lamp::app

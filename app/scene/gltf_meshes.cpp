@@ -1,0 +1,122 @@
+// The meshes of a glTF file that its scene places, as meshes and instances of a Scene.
+// Based on: Khronos, glTF 2.0 specification, sections 3.7.2 (meshes) and 3.5.3 (transforms that mirror).
+// Promise: front faces stay counter-clockwise: a mesh that is placed mirrored gets a mirrored copy.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "scene/gltf_error.h"
+#include "scene/gltf_primitive.h"
+
+namespace lamp::app {
+namespace {
+
+// One small accessor may be used by any number of primitives: bounds on what that adds up to.
+constexpr std::size_t VERTICES_MAX = std::size_t{1} << 26;
+constexpr std::size_t INDICES_MAX = std::size_t{1} << 28;
+constexpr std::size_t INSTANCES_MAX = std::size_t{1} << 22;
+
+class MeshBuilder {
+ public:
+  MeshBuilder(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
+
+  /// The scene's meshes, one a primitive, of a mesh of the file; made when first asked for.
+  const std::vector<std::uint32_t>& meshes(std::size_t mesh, bool mirrored) {
+    const auto [found, added] = made_.try_emplace({mesh, mirrored});
+    if (added) found->second = mirrored ? mirror(meshes(mesh, false)) : convert(mesh);
+    return found->second;
+  }
+
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+
+ private:
+  std::vector<std::uint32_t> convert(std::size_t mesh) {
+    std::vector<std::uint32_t> result;
+    const auto& primitives = document_.model.meshes[mesh].primitives;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const auto material =
+          primitives[i].material < 0 ? scene_.materials.size() - 1 : static_cast<std::size_t>(primitives[i].material);
+      const Texture& normal_texture = scene_.materials[material].normal_texture;
+      const auto normal_uv = normal_texture.image < 0 ? std::nullopt : std::optional(normal_texture.uv);
+      const std::optional<Triangles> triangles = read_primitive(document_, {mesh, i}, normal_uv, document_.notes);
+      if (!triangles) ++left_out_;
+      if (triangles) result.push_back(append(*triangles, static_cast<std::uint32_t>(material), mesh));
+    }
+    return result;
+  }
+
+  std::uint32_t append(const Triangles& triangles, std::uint32_t material, std::size_t mesh) {
+    if (triangles.vertices.size() > VERTICES_MAX - scene_.vertices.size() ||
+        triangles.indices.size() > INDICES_MAX - scene_.indices.size()) {
+      gltf_fail(
+          document_.origin.file, fmt::format("mesh {}", mesh),
+          fmt::format("the scene grows beyond {} vertices or {} indices, expected fewer", VERTICES_MAX, INDICES_MAX));
+    }
+    scene_.meshes.push_back({static_cast<std::uint32_t>(scene_.indices.size()),
+                             static_cast<std::uint32_t>(triangles.indices.size()),
+                             static_cast<std::uint32_t>(scene_.vertices.size()), material});
+    scene_.vertices.insert(scene_.vertices.end(), triangles.vertices.begin(), triangles.vertices.end());
+    scene_.indices.insert(scene_.indices.end(), triangles.indices.begin(), triangles.indices.end());
+    return static_cast<std::uint32_t>(scene_.meshes.size() - 1);
+  }
+
+  /// Copies with each triangle turned round and each tangent frame of the other hand, as mirroring undoes both.
+  std::vector<std::uint32_t> mirror(const std::vector<std::uint32_t>& originals) {
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t original : originals) {
+      const Mesh mesh = scene_.meshes[original];
+      Triangles triangles;
+      std::uint32_t vertex_count = 0;
+      for (std::uint32_t i = 0; i < mesh.index_count; ++i) {
+        triangles.indices.push_back(scene_.indices[mesh.first_index + i]);
+        vertex_count = std::max(vertex_count, triangles.indices.back() + 1);
+      }
+      for (std::size_t i = 0; i + 3 <= triangles.indices.size(); i += 3) {
+        std::swap(triangles.indices[i + 1], triangles.indices[i + 2]);
+      }
+      for (std::uint32_t i = 0; i < vertex_count; ++i) {
+        triangles.vertices.push_back(scene_.vertices[mesh.vertex_offset + i]);
+        triangles.vertices.back().tangent.w *= -1.0F;
+      }
+      result.push_back(append(triangles, mesh.material, original));
+    }
+    return result;
+  }
+
+  GltfDocument& document_;
+  Scene& scene_;
+  std::map<std::pair<std::size_t, bool>, std::vector<std::uint32_t>> made_;
+  std::size_t left_out_ = 0;
+};
+
+}  // namespace
+
+void add_meshes(GltfDocument& document, std::span<const PlacedNode> nodes, Scene& scene) {
+  MeshBuilder builder(document, scene);
+  for (const PlacedNode& placed : nodes) {
+    const int mesh = document.model.nodes[static_cast<std::size_t>(placed.node)].mesh;
+    if (mesh < 0) continue;
+    const bool mirrored = glm::determinant(glm::dmat3(placed.world_from_node)) < 0.0;
+    for (const std::uint32_t made : builder.meshes(static_cast<std::size_t>(mesh), mirrored)) {
+      scene.instances.push_back({made, glm::mat4(placed.world_from_node)});
+    }
+    if (scene.instances.size() > INSTANCES_MAX) {
+      gltf_fail(document.origin.file, fmt::format("node {}", placed.node),
+                fmt::format("the scene grows beyond {} instances, expected fewer", INSTANCES_MAX));
+    }
+  }
+  if (builder.left_out() > 0) {
+    document.notes.push_back(fmt::format("{} primitives of points or lines left out", builder.left_out()));
+  }
+  if (scene.instances.empty()) {
+    gltf_fail(document.origin.file, "scene", "has no triangles, expected a node with a mesh that has some");
+  }
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,30 @@
+// Where the bytes of buffers and images come from: data URIs and files next to the scene.
+// Based on: RFC 2397 (data URIs), RFC 3986 (percent encoding), RFC 4648 (base64).
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace lamp::app {
+
+/// The file that is loaded: its name for messages, and the folder that relative URIs start from (empty: none).
+struct GltfOrigin {
+  std::string file;
+  std::filesystem::path folder;
+};
+
+/// The first `limit` bytes of a regular file. Throws Error: `origin.file`, `element`, why not.
+[[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& path, const GltfOrigin& origin,
+                                                const std::string& element,
+                                                std::size_t limit = std::numeric_limits<std::size_t>::max());
+
+/// The first `limit` bytes of what a URI names: base64 data, or a file by a relative path.
+[[nodiscard]] std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin,
+                                              const std::string& element,
+                                              std::size_t limit = std::numeric_limits<std::size_t>::max());
+
+}  // namespace lamp::app

@@ -1,0 +1,131 @@
+// Generated lights: one random sequence a light, drawn in a fixed order, so that no light depends on another.
+// Based on: uniform directions by Archimedes' cylinder; Lissajous paths; HSV hues.
+// Promise: all of a light's path lies in open air; frame f and frame f + frames are the same.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/place_lights.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "error.h"
+#include "scene/procedural_random.h"
+
+namespace lamp::app {
+namespace {
+
+using procedural::Random;
+
+constexpr double OVERLAP = 24.0;       // lights whose range holds a point of open air, with automatic ranges
+constexpr float AUTOMATIC_MIN = 0.6F;  // of the mean range; the mean of the cubes is then 0.995
+constexpr float AUTOMATIC_MAX = 1.4F;
+constexpr float WARM_WHITES = 0.2F;  // part of the lights that have no hue
+constexpr float DOWNWARDS = 0.7F;    // added to a spot's unit direction: most look down, some sideways, few up
+constexpr float DEGREE = std::numbers::pi_v<float> / 180.0F;
+constexpr double TURN = 2.0 * std::numbers::pi;
+
+struct Ranges {
+  float min = 0.0F;
+  float max = 0.0F;
+};
+
+Ranges ranges_of(const OpenAir& air, const PlaceLights& how) {
+  if (how.min_range != 0.0F || how.max_range != 0.0F) return {how.min_range, how.max_range};
+  const double volume_of_one = OVERLAP * air.volume() / std::max(how.count, 1U);
+  const double range = std::cbrt(3.0 * volume_of_one / (4.0 * std::numbers::pi));
+  const auto capped = [&](double r) { return std::min(static_cast<float>(r), std::max(air.diagonal_m, air.cell_m)); };
+  return {capped(AUTOMATIC_MIN * range), capped(AUTOMATIC_MAX * range)};
+}
+
+void check(const PlaceLights& how) {
+  const bool is_fraction = how.spots >= 0.0F && how.spots <= 1.0F;  // false for a NaN
+  if (!is_fraction) {
+    throw Error(fmt::format("spots: the fraction must lie in 0 .. 1, got {}", how.spots));
+  }
+  const bool automatic = how.min_range == 0.0F && how.max_range == 0.0F;
+  const bool is_range = how.min_range > 0.0F && how.min_range <= how.max_range && std::isfinite(how.max_range);
+  if (!automatic && !is_range) {
+    throw Error(fmt::format("range: expected 0 < min <= max, both finite, got {}:{}", how.min_range, how.max_range));
+  }
+  if (how.frames == 0) throw Error("frames: a path must have at least 1 frame, got 0");
+}
+
+// A seed for light i that shares no pattern with its neighbours' (Steele et al., SplitMix, OOPSLA 2014).
+std::uint64_t seed_of(std::uint64_t seed, std::uint32_t i) {
+  std::uint64_t h = seed * 0x9E3779B97F4A7C15ULL + i + 1;
+  h = (h ^ (h >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  h = (h ^ (h >> 27U)) * 0x94D049BB133111EBULL;
+  return h ^ (h >> 31U);
+}
+
+glm::vec3 draw_color(Random& random) {
+  const float hue = 6.0F * random.unit();
+  const float saturation = random.between(0.35F, 0.9F);
+  const bool warm_white = random.chance(WARM_WHITES);
+  if (warm_white) return {1.0F, 0.78F, 0.5F};
+  const auto channel = [&](float shift) {
+    const float k = std::fmod(hue + shift, 6.0F);
+    return 1.0F - saturation * std::clamp(std::min(k, 4.0F - k), 0.0F, 1.0F);
+  };
+  return {channel(5.0F), channel(3.0F), channel(1.0F)};
+}
+
+glm::vec3 draw_direction(Random& random) {
+  const double y = 2.0 * random.unit() - 1.0;
+  const double angle = TURN * random.unit();
+  const double side = std::sqrt(1.0 - y * y);
+  return glm::normalize(glm::vec3(side * std::cos(angle), y - DOWNWARDS, side * std::sin(angle)));
+}
+
+// A point of the closed path of a light at a time in turns.
+glm::vec3 draw_position(Random& random, const OpenAir& air, float range, double time) {
+  const AirCell& cell = air.cells[random.below(static_cast<std::uint32_t>(air.cells.size()))];
+  glm::vec3 position;
+  for (int axis = 0; axis < 3; ++axis) {
+    // In cells: the path's middle inside its cell, and how far from it, along this axis, there is only air.
+    const float middle = random.between(0.01F, 0.99F);
+    const float room = std::min(middle, 1.0F - middle) + static_cast<float>(cell.clearance - 1);
+    const float amplitude = std::min(0.5F * range, 0.98F * room * air.cell_m);
+    const double phase = random.unit();
+    const double waves = 1 + random.below(3);
+    const double swing = std::sin(TURN * (waves * time + phase));
+    position[axis] = cell.min[axis] + middle * air.cell_m + amplitude * static_cast<float>(swing);
+  }
+  return position;
+}
+
+Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& ranges, std::uint32_t i) {
+  Random random(seed_of(how.seed, i));
+  Light light;
+  const float log_share = random.unit();
+  light.range = std::clamp(ranges.min * std::pow(ranges.max / ranges.min, log_share), ranges.min, ranges.max);
+  light.position = draw_position(random, air, light.range, static_cast<double>(how.frame % how.frames) / how.frames);
+  light.color = draw_color(random);
+  // About 9 lux at a third of the range, whatever the range.
+  light.intensity = light.range * light.range;
+  light.direction = draw_direction(random);
+  light.outer_angle = random.between(15.0F, 45.0F) * DEGREE;
+  light.inner_angle = light.outer_angle * random.between(0.6F, 0.9F);
+  light.type = random.chance(how.spots) ? LightType::spot : LightType::point;
+  return light;
+}
+
+}  // namespace
+
+std::vector<Light> place_lights(const OpenAir& air, const PlaceLights& how) {
+  check(how);
+  const Ranges ranges = ranges_of(air, how);
+  std::vector<Light> lights(how.count);
+  tbb::parallel_for(std::uint32_t{0}, how.count, [&](std::uint32_t i) { lights[i] = make_light(air, how, ranges, i); });
+  return lights;
+}
+
+std::vector<Light> place_lights(const Scene& scene, const PlaceLights& how) {
+  check(how);
+  return how.count == 0 ? std::vector<Light>{} : place_lights(find_open_air(scene), how);
+}
+
+}  // namespace lamp::app

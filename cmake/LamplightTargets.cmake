@@ -1,0 +1,29 @@
+# What every target of the project has in common: language level, warnings, sanitizers.
+include_guard()
+
+function(lamplight_configure target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  if(PROJECT_IS_TOP_LEVEL)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                             -Wno-missing-field-initializers -Werror)
+    if(LAMPLIGHT_SANITIZE)
+      target_compile_options(${target} PRIVATE -fsanitize=${LAMPLIGHT_SANITIZE} -fno-sanitize-recover=all
+                                               -fno-omit-frame-pointer)
+      target_link_options(${target} PUBLIC -fsanitize=${LAMPLIGHT_SANITIZE})
+    endif()
+  endif()
+endfunction()
+
+# A static library from every .cpp in a folder, so that a new file needs no line here.
+function(lamplight_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;LINK")
+  set(sources)
+  foreach(folder IN LISTS arg_FOLDERS)
+    file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(${target} STATIC ${sources})
+  lamplight_configure(${target})
+  target_link_libraries(${target} PUBLIC ${arg_LINK})
+endfunction()

@@ -1,0 +1,39 @@
+// Lights as a user describes them, and their checked GPU form.
+// Based on: Khronos, KHR_lights_punctual.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "lamplight/error.h"
+#include "lamplight/shared/light.h"
+
+namespace lamp {
+
+enum class LightType : std::uint32_t { point = shared::LIGHT_POINT, spot = shared::LIGHT_SPOT };
+
+/// A punctual light in world space: metres, radians, candela, linear Rec. 709.
+struct Light {
+  LightType type = LightType::point;
+  glm::vec3 position{0.0F};
+  float range = std::numeric_limits<float>::infinity();  ///< m, >= 0; 0 reaches nothing, infinity everything
+  glm::vec3 color{1.0F};                                 ///< linear Rec. 709, >= 0
+  float intensity = 1.0F;                                ///< candela, >= 0
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};                ///< spots: where it looks; any length but 0
+  float inner_angle = 0.0F;                              ///< spots: radians, 0 .. outer_angle
+  float outer_angle = 0.785398163F;                      ///< spots: radians, half-angle of the cone, 0 .. pi/2
+};
+
+/// The first light that breaks the ranges above, as an error that names it ("light 3: range must be ..."); or nothing.
+[[nodiscard]] std::optional<Error> check_lights(std::span<const Light> lights);
+
+/// The 64-byte GPU record of a checked light.
+[[nodiscard]] shared::Light pack(const Light& light);
+
+/// `pack` for many.
+[[nodiscard]] std::vector<shared::Light> pack(std::span<const Light> lights);
+
+}  // namespace lamp

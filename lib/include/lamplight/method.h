@@ -1,0 +1,81 @@
+// Methods: one row each in one explicit table, found by name; their options; the problem they plan for.
+// Promise: the command line, the tests, the bench and the docs loop over `methods()`; nothing registers itself.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lamplight/error.h"
+#include "lamplight/plan.h"
+
+namespace lamp {
+
+/// An option of a method: a choice among words, or an integer in a range.
+struct OptionSpec {
+  std::string_view key;
+  std::string_view help;
+  std::string_view fallback;              ///< the value when nobody sets it
+  std::vector<std::string_view> choices;  ///< not empty: one of these
+  long long min = 0;                      ///< choices empty: an integer min .. max
+  long long max = 0;
+};
+
+/// Options that have been checked against a method and completed with its defaults.
+class Options {
+ public:
+  [[nodiscard]] std::uint32_t integer(std::string_view key) const;
+  [[nodiscard]] const std::string& word(std::string_view key) const;
+  [[nodiscard]] const std::map<std::string, std::string, std::less<>>& all() const { return values_; }
+
+ private:
+  friend Result<Options> resolve_options(const struct Method&, const std::vector<std::string>&);
+  std::map<std::string, std::string, std::less<>> values_;
+};
+
+inline constexpr std::uint32_t MAX_LIGHTS = 1U << 24;
+
+/// What a method plans for. Sizes in pixels, 1 .. traits.max_image_size; light_capacity up to MAX_LIGHTS.
+struct Problem {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t light_capacity = 0;
+  Options options;
+  DeviceTraits traits;
+};
+
+struct Method {
+  std::string_view name;
+  std::string_view title;    ///< a few words
+  std::string_view source;   ///< author, title, venue, section
+  std::string_view summary;  ///< one sentence: the idea
+  std::string_view result;   ///< what it makes: the name of its look-up
+  bool ordered = true;       ///< lists ascend
+  bool approximate = false;  ///< may miss lights, by the paper's design
+  bool needs_depth = true;   ///< reads the depth buffer
+  bool any_depth = false;    ///< the look-up is right for any depth of a pixel, not only the depth buffer's
+  std::vector<OptionSpec> options;
+  Plan (*plan)(const Problem&) = nullptr;
+};
+
+/// Every method, in the order of the docs.
+[[nodiscard]] std::span<const Method> methods();
+
+/// The method of that name, or an error with the nearest names.
+[[nodiscard]] Result<const Method*> find_method(std::string_view name);
+
+/// Checks "key=value" settings against the method's options and completes them.
+/// Errors name the option, what was given and what was expected.
+[[nodiscard]] Result<Options> resolve_options(const Method& method, const std::vector<std::string>& settings);
+
+/// Checks sizes and capacity, makes the plan and checks it (`plan_check`).
+[[nodiscard]] Result<Plan> make_plan(const Method& method, const Problem& problem);
+
+/// The names nearest to `wanted`, nearest first, at most `count`, for error messages.
+[[nodiscard]] std::vector<std::string> nearest_names(std::string_view wanted, std::span<const std::string_view> names,
+                                                     std::size_t count = 3);
+
+}  // namespace lamp

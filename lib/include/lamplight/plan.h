@@ -1,0 +1,143 @@
+// A plan: what a method does to one frame, as data. Buffers, passes, and how to look the result up.
+// Based on: the dispatch lists of NVIDIA's Real-time Denoisers (NRD); the library allocates nothing here.
+// Promise: a plan needs no device, so its memory is known before a GPU exists.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lamplight/error.h"
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+
+namespace lamp {
+
+/// A resource of a plan: one of the inputs below, or `PLAN_BUFFER + i` for the plan's i-th buffer.
+using ResourceId = std::uint32_t;
+
+inline constexpr ResourceId INPUT_FRAME = 0;   ///< storage buffer, one shared::Frame
+inline constexpr ResourceId INPUT_LIGHTS = 1;  ///< storage buffer, shared::Light[light capacity]
+inline constexpr ResourceId INPUT_DEPTH = 2;   ///< sampled image, device depth, one sample a pixel
+inline constexpr ResourceId PLAN_BUFFER = 3;   ///< the first buffer of the plan
+inline constexpr ResourceId NO_RESOURCE = ~0U;
+
+enum class Access : std::uint8_t { read, write, read_write };
+
+/// A resource at a shader's binding. The binding number is the place in its list.
+struct Binding {
+  ResourceId resource = NO_RESOURCE;
+  Access access = Access::read;
+};
+
+enum class BufferMemory : std::uint8_t {
+  device,  ///< GPU only
+  upload,  ///< written by host passes, read by the GPU
+};
+
+struct BufferDesc {
+  std::string name;
+  std::uint64_t bytes = 0;  ///< > 0, a multiple of 4
+  BufferMemory memory = BufferMemory::device;
+  bool zeroed = false;    ///< filled with zeros at the start of every frame
+  bool indirect = false;  ///< holds group or draw counts
+};
+
+/// How many work groups a compute pass has, or how many vertices and instances a raster pass draws.
+struct Extent {
+  std::uint32_t x = 1;                   ///< groups in x; raster: vertices of an instance
+  std::uint32_t y = 1;                   ///< groups in y; raster: instances
+  std::uint32_t z = 1;                   ///< groups in z; raster: unused
+  std::uint32_t lights_per_group = 0;    ///< not 0: x (raster: y) is ceil(light count of the frame / this)
+  ResourceId indirect = NO_RESOURCE;     ///< not NO_RESOURCE: read from this buffer instead
+  std::uint64_t indirect_offset = 0;     ///< bytes, a multiple of 4
+};
+
+enum class PassKind : std::uint8_t { compute, raster, host };
+
+/// Raster passes have no colour attachment: fragments write to buffers.
+struct RasterState {
+  std::string vertex_shader;
+  std::uint32_t width = 0;   ///< viewport, pixels
+  std::uint32_t height = 0;  ///< viewport, pixels
+  std::uint32_t samples = 1;
+  enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
+};
+
+/// What a host pass sees: the frame's lights as the host knows them, and the buffers it declared, mapped, in order.
+struct HostContext {
+  std::span<const shared::Light> lights;
+  const shared::Frame* frame = nullptr;
+  std::span<const std::span<std::byte>> buffers;
+};
+using HostFunction = void (*)(const HostContext&);
+
+/// One step. Barriers follow from the declared accesses; the name becomes its debug label and its row in the times.
+struct Pass {
+  std::string name;
+  PassKind kind = PassKind::compute;
+  std::string shader;                    ///< compute or fragment shader; name in the shader table ("methods/tiled")
+  std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ...
+  std::vector<Binding> bindings;         ///< set 0, bindings 0, 1, 2, ...
+  Extent extent;
+  RasterState raster;           ///< raster passes
+  HostFunction host = nullptr;  ///< host passes; they run while recording, before every GPU pass
+};
+
+/// How a shader reads the result: the file lookup/NAME.glsl, its constants and its buffers.
+struct LookUp {
+  std::string name;
+  std::vector<std::uint32_t> constants;  ///< specialization constants LOOKUP_CONSTANT + 0, 1, ...
+  std::vector<Binding> bindings;         ///< set 0, bindings LOOKUP_BINDING + 0, 1, ...; all read
+};
+
+/// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl).
+inline constexpr std::uint32_t LOOKUP_CONSTANT = 100;
+inline constexpr std::uint32_t LOOKUP_BINDING = 16;
+
+/// A compute shader that culls and shades in one dispatch includes this look-up, whose walk reads shared memory.
+/// The shader's work group must be `group_width` x `group_height` pixels.
+struct FusedLookUp {
+  LookUp lookup;
+  std::vector<Pass> passes;  ///< what must run before, instead of Plan::passes
+  std::uint32_t group_width = 0;
+  std::uint32_t group_height = 0;
+};
+
+struct Plan {
+  std::vector<BufferDesc> buffers;
+  std::vector<Pass> passes;
+  LookUp lookup;
+  std::optional<FusedLookUp> fused;
+  std::uint64_t cells = 1;                ///< cells of the look-up
+  std::uint32_t light_capacity = 0;       ///< the problem's
+  ResourceId counters = NO_RESOURCE;      ///< shared::Counters, or NO_RESOURCE if nothing can overflow
+
+  /// Adds a buffer and returns its id.
+  ResourceId add(BufferDesc buffer);
+  /// Bytes of all buffers together.
+  [[nodiscard]] std::uint64_t bytes() const;
+};
+
+/// What plans and checks ask of a device. The defaults are the least that Vulkan 1.3 guarantees.
+struct DeviceTraits {
+  std::uint64_t max_storage_buffer_bytes = 1ULL << 27;
+  std::array<std::uint32_t, 3> max_groups{65535, 65535, 65535};
+  std::uint32_t max_group_invocations = 256;
+  std::uint32_t shared_memory_bytes = 16384;
+  std::uint32_t max_image_size = 4096;  ///< pixels a side
+  std::uint32_t subgroup_size = 32;
+};
+
+/// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond
+/// the limit, a binding to nothing, a read of what nothing wrote, too many groups, a host pass after a GPU pass,
+/// a shader that does not exist. The first such problem, or nothing.
+[[nodiscard]] std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
+
+}  // namespace lamp

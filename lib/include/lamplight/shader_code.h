@@ -1,0 +1,25 @@
+// The compiled shaders: SPIR-V embedded in the binary, found by name.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace lamp {
+
+/// One compiled shader. A name is the path below the shader root without its extension, and "@look-up" for a variant.
+struct ShaderCode {
+  std::string_view name;
+  std::span<const std::uint32_t> spirv;
+  std::string_view source;  ///< file it was built from, for live recompilation
+  std::string_view lookup;  ///< look-up it was built with, or empty
+};
+
+/// The shaders of the library.
+[[nodiscard]] std::span<const ShaderCode> library_shaders();
+
+/// The shader of that name in a table, or nullptr.
+[[nodiscard]] const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_view name);
+
+}  // namespace lamp

@@ -1,0 +1,29 @@
+// What a frame's passes know of the camera: matrices, size, light count.
+// Promise: 224 bytes in C++ and in GLSL; bound as a storage buffer.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMPLIGHT_SHARED_FRAME_H
+#define LAMPLIGHT_SHARED_FRAME_H
+
+#include "glsl.h"
+
+#ifdef __cplusplus
+namespace lamp::shared {
+#endif
+
+struct Frame {
+  mat4 clip_from_view;   // reversed depth, Vulkan clip space (y down); no shear (see view.h)
+  mat4 view_from_world;  // rigid
+  mat4 world_from_view;
+  vec3 eye_world;        // m, world_from_view * (0,0,0)
+  uint light_count;      // lights of this frame, at most the plan's capacity
+  uvec2 size_px;         // width, height
+  uint reserved0;
+  uint reserved1;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Frame) == 224);
+}  // namespace lamp::shared
+#endif
+
+#endif

@@ -1,0 +1,47 @@
+// A light as the GPU reads it, and its 16-byte bounds.
+// Based on: Khronos, KHR_lights_punctual (units, range window, cone).
+// Promise: Light is 64 bytes, LightBounds 16 bytes, in C++ and in GLSL.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMPLIGHT_SHARED_LIGHT_H
+#define LAMPLIGHT_SHARED_LIGHT_H
+
+#include "glsl.h"
+
+#ifdef __cplusplus
+namespace lamp::shared {
+#define LAMP_CONST inline constexpr uint
+#else
+#define LAMP_CONST const uint
+#endif
+
+LAMP_CONST LIGHT_POINT = 0u;
+LAMP_CONST LIGHT_SPOT = 1u;
+
+// World space. A point light leaves the direction and the angles unread.
+struct Light {
+  vec3 position;      // m
+  float range;        // m, >= 0; 0 reaches nothing, infinity reaches everything
+  vec3 intensity;     // candela, linear Rec. 709: colour times intensity
+  uint type;          // LIGHT_POINT or LIGHT_SPOT
+  vec3 direction;     // unit length; where a spot looks
+  float outer_angle;  // radians, half-angle of the cone, 0 .. pi/2; light is exactly 0 outside
+  float inner_angle;  // radians, 0 .. outer_angle; full intensity inside
+  float cos_outer;    // cos(outer_angle)
+  float spot_scale;   // 1 / max(0.001, cos(inner_angle) - cos(outer_angle))
+  uint reserved;      // 0
+};
+
+// View space (looks down -Z). A sphere that encloses everything the light reaches, widened by the
+// rounding of 32-bit arithmetic so that no test against it can lose a light.
+struct LightBounds {
+  vec3 center;   // m
+  float radius;  // m; negative: the light reaches nothing
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Light) == 64 && sizeof(LightBounds) == 16);
+}  // namespace lamp::shared
+#endif
+#undef LAMP_CONST
+
+#endif

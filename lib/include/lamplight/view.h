@@ -1,0 +1,69 @@
+// The camera: projection, pose and size, and the way from a depth sample back to a position.
+// Conventions: world right-handed, +Y up; view space looks down -Z, `z_view` is the positive distance ahead;
+// Vulkan clip space with reversed depth (near 1, far 0, infinite far allowed; 0 is sky). Pixel (0,0) is top left.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "lamplight/error.h"
+#include "lamplight/shared/frame.h"
+
+namespace lamp {
+
+/// A camera and a picture size. All numbers are 32-bit values (what the GPU sees) held in double precision,
+/// so that the oracle and the GPU speak of the same camera.
+class View {
+ public:
+  /// `clip_from_view` may be any perspective or orthographic projection, off-centre too, whose x and y do not mix:
+  /// only the entries [0][0], [1][1], the z column, the w column's x, y, z and [3][3] may differ from 0.
+  /// Errors: a size of 0, a number that is not finite in 32 bits, shear, a singular matrix, depth that is not reversed,
+  /// a projection that looks along +Z, a `view_from_world` that is not rigid within 1e-4 (mirrors are allowed).
+  [[nodiscard]] static Result<View> create(std::uint32_t width, std::uint32_t height, const glm::dmat4& clip_from_view,
+                                           const glm::dmat4& view_from_world);
+
+  [[nodiscard]] std::uint32_t width() const { return width_; }
+  [[nodiscard]] std::uint32_t height() const { return height_; }
+  [[nodiscard]] const glm::dmat4& clip_from_view() const { return clip_from_view_; }
+  [[nodiscard]] const glm::dmat4& view_from_world() const { return view_from_world_; }
+  [[nodiscard]] const glm::dmat4& world_from_view() const { return world_from_view_; }
+  [[nodiscard]] bool orthographic() const { return clip_from_view_[2][3] == 0.0; }
+
+  /// Metres ahead of the eye of a device depth in (0, 1].
+  [[nodiscard]] double z_view(double device_depth) const;
+
+  /// View-space position of the point at `pixel` (continuous; centres at +0.5) that lies `z_view` metres ahead.
+  [[nodiscard]] glm::dvec3 view_position(glm::dvec2 pixel, double z_view) const;
+
+  /// World-space position of the depth sample of a pixel.
+  [[nodiscard]] glm::dvec3 world_position(std::uint32_t x, std::uint32_t y, double device_depth) const;
+
+  /// The GPU's record of this view.
+  [[nodiscard]] shared::Frame frame(std::uint32_t light_count) const;
+
+ private:
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  glm::dmat4 clip_from_view_{1.0};
+  glm::dmat4 view_from_world_{1.0};
+  glm::dmat4 world_from_view_{1.0};
+};
+
+/// Edges of a projection's window at 1 m ahead (perspective) or in metres (orthographic): left < right, bottom < top.
+struct Window {
+  double left, right, bottom, top;
+};
+
+inline constexpr double INFINITE_FAR = std::numeric_limits<double>::infinity();
+
+/// Reversed-depth perspective through `window` (tangents), `near_m` > 0, `far_m` > `near_m` or INFINITE_FAR.
+[[nodiscard]] glm::dmat4 perspective(const Window& window, double near_m, double far_m);
+
+/// Reversed-depth orthographic projection, `near_m` < `far_m`, both finite.
+[[nodiscard]] glm::dmat4 orthographic(const Window& window, double near_m, double far_m);
+
+/// The symmetric window of a vertical field of view (radians) and an aspect ratio (width over height).
+[[nodiscard]] Window symmetric_window(double fov_y, double aspect);
+
+}  // namespace lamp

@@ -1,0 +1,10 @@
+// Lamplight for Vulkan 1.3: device requirements, the Culler, and below it plan runner, recorder, pipelines, buffers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lamplight/vulkan/buffer.h"       // IWYU pragma: export
+#include "lamplight/vulkan/culler.h"       // IWYU pragma: export
+#include "lamplight/vulkan/device.h"       // IWYU pragma: export
+#include "lamplight/vulkan/pipeline.h"     // IWYU pragma: export
+#include "lamplight/vulkan/plan_runner.h"  // IWYU pragma: export
+#include "lamplight/vulkan/recorder.h"     // IWYU pragma: export

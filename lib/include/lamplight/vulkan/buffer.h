@@ -1,0 +1,46 @@
+// A buffer and its memory.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "lamplight/vulkan/device.h"
+#include "lamplight/vulkan/owned.h"
+
+namespace lamp::vulkan {
+
+enum class MemoryUse : std::uint8_t {
+  device,    ///< GPU only
+  upload,    ///< host writes, GPU reads; mapped
+  readback,  ///< GPU writes, host reads; mapped
+};
+
+struct BufferInfo {
+  std::string name;
+  std::uint64_t bytes = 0;  ///< > 0
+  VkBufferUsageFlags usage = 0;
+  MemoryUse memory = MemoryUse::device;
+};
+
+class Buffer {
+ public:
+  Buffer() = default;
+  /// Errors name the buffer and its size.
+  [[nodiscard]] static Result<Buffer> create(const Device& device, const BufferInfo& info);
+
+  [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+  /// Host-visible buffers: their bytes, coherent; others: empty.
+  [[nodiscard]] std::span<std::byte> mapped() const { return {mapped_, mapped_ == nullptr ? 0 : bytes_}; }
+
+ private:
+  OwnedMemory memory_;  // outlives the buffer
+  OwnedBuffer buffer_;
+  std::uint64_t bytes_ = 0;
+  std::byte* mapped_ = nullptr;
+};
+
+}  // namespace lamp::vulkan

@@ -1,0 +1,63 @@
+// What Lamplight needs of a device, and what it knows of one that an engine already has.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "lamplight/error.h"
+#include "lamplight/plan.h"
+
+namespace lamp::vulkan {
+
+/// The features to enable, chained for VkDeviceCreateInfo::pNext or to merge into an engine's own chain.
+/// Vulkan 1.3: scalar block layout, synchronization2, dynamic rendering, maintenance4.
+struct RequiredFeatures {
+  RequiredFeatures();
+  RequiredFeatures(const RequiredFeatures&) = delete;
+  RequiredFeatures& operator=(const RequiredFeatures&) = delete;
+
+  VkPhysicalDeviceFeatures2 base{};
+  VkPhysicalDeviceVulkan12Features vulkan12{};
+  VkPhysicalDeviceVulkan13Features vulkan13{};
+};
+
+/// The device extensions to enable: VK_KHR_push_descriptor.
+[[nodiscard]] std::span<const char* const> required_extensions();
+
+/// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
+[[nodiscard]] std::optional<Error> check_device(VkPhysicalDevice physical);
+
+/// Limits for planning.
+[[nodiscard]] DeviceTraits traits_of(VkPhysicalDevice physical);
+
+/// An engine's device, with what recording needs at hand. Plain handles; destroys nothing.
+struct Device {
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice handle = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties memory{};
+  DeviceTraits traits;
+  float timestamp_period_ns = 1.0F;
+  PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;         ///< null without VK_EXT_debug_utils
+  PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;             ///< null without VK_EXT_debug_utils
+  PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;     ///< null without VK_EXT_debug_utils
+
+  /// Gives an object its debug name, where the instance has VK_EXT_debug_utils.
+  void name(VkObjectType type, std::uint64_t object, std::string_view text) const;
+};
+
+/// Errors: `check_device`'s, or a device on which the extension was not enabled.
+[[nodiscard]] Result<Device> make_device(VkPhysicalDevice physical, VkDevice device);
+
+/// The index of a memory type with all of `wanted`, preferring one that also has `preferred`.
+[[nodiscard]] Result<std::uint32_t> find_memory_type(const Device& device, std::uint32_t type_bits,
+                                                     VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred = 0);
+
+/// The name of a result for error lines ("VK_ERROR_OUT_OF_DEVICE_MEMORY").
+[[nodiscard]] std::string result_text(VkResult result);
+
+}  // namespace lamp::vulkan

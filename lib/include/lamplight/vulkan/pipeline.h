@@ -1,0 +1,71 @@
+// Compute and graphics pipelines with push descriptors, from SPIR-V and plain descriptions.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lamplight/vulkan/device.h"
+#include "lamplight/vulkan/owned.h"
+
+namespace lamp::vulkan {
+
+struct DescriptorBinding {
+  std::uint32_t binding = 0;
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+};
+
+struct Constant {
+  std::uint32_t id = 0;
+  std::uint32_t value = 0;
+};
+
+/// What every pipeline has.
+struct PipelineInfo {
+  std::string name;
+  std::vector<Constant> constants;
+  std::vector<DescriptorBinding> bindings;  ///< of set 0, all stages
+  std::uint32_t push_constant_bytes = 0;    ///< all stages
+};
+
+/// The fixed state that Lamplight's graphics passes differ in.
+struct GraphicsState {
+  std::vector<VkVertexInputAttributeDescription> attributes;  ///< of one interleaved vertex buffer, binding 0
+  std::uint32_t vertex_bytes = 0;
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;  ///< front faces are counter-clockwise
+  bool dynamic_cull = false;                 ///< cull mode set while recording
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  std::vector<VkFormat> colors;
+  VkFormat depth = VK_FORMAT_UNDEFINED;
+  bool depth_write = false;
+  bool depth_clamp = false;
+  VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
+  enum class Blend : std::uint8_t { none, add, over } blend = Blend::none;  ///< of every colour attachment
+};
+
+class Pipeline {
+ public:
+  Pipeline() = default;
+  [[nodiscard]] static Result<Pipeline> compute(const Device& device, const PipelineInfo& info,
+                                                std::span<const std::uint32_t> spirv);
+  /// `fragment` may be empty: depth only.
+  [[nodiscard]] static Result<Pipeline> graphics(const Device& device, const PipelineInfo& info,
+                                                 std::span<const std::uint32_t> vertex,
+                                                 std::span<const std::uint32_t> fragment, const GraphicsState& state);
+
+  [[nodiscard]] VkPipeline handle() const { return pipeline_.get(); }
+  [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
+  [[nodiscard]] VkPipelineBindPoint bind_point() const { return bind_point_; }
+
+ private:
+  [[nodiscard]] static std::optional<Error> make_layout(const Device& device, const PipelineInfo& info, Pipeline& out);
+
+  OwnedSetLayout set_layout_;
+  OwnedPipelineLayout layout_;
+  OwnedPipeline pipeline_;
+  VkPipelineBindPoint bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+};
+
+}  // namespace lamp::vulkan

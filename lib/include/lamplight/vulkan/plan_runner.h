@@ -1,0 +1,75 @@
+// Runs a plan: owns its buffers and pipelines, records its passes, hands out its look-up.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lamplight/plan.h"
+#include "lamplight/shared/frame.h"
+#include "lamplight/vulkan/recorder.h"
+
+namespace lamp::vulkan {
+
+/// SPIR-V by shader name; the library's embedded shaders by default (`embedded_shaders`).
+using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::string_view name)>;
+[[nodiscard]] Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name);
+
+/// What a frame brings. The buffers and the depth image must live until the frame is done.
+struct PlanInputs {
+  VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame
+  VkBuffer lights = VK_NULL_HANDLE;   ///< shared::Light[light_count]
+  Resource depth;                     ///< sampled image; unset for methods that do not need it
+  std::uint32_t light_count = 0;
+  std::span<const shared::Light> host_lights;   ///< for host passes
+  const shared::Frame* host_frame = nullptr;    ///< for host passes
+};
+
+/// A look-up's resources at their bindings, and its constants with their ids.
+struct BoundLookUp {
+  std::string_view name;
+  std::vector<Constant> constants;
+  std::vector<Bound> resources;
+};
+
+class PlanRunner {
+ public:
+  enum class Passes : std::uint8_t { separate, fused };
+
+  PlanRunner() = default;
+  /// Allocates the buffers and builds the pipelines of a checked plan.
+  [[nodiscard]] static Result<PlanRunner> create(const Device& device, Plan plan,
+                                                 const ShaderSource& shaders = embedded_shaders);
+
+  /// Records the passes: all of them, or those that a fused shader needs before it.
+  void record(Recorder& recorder, const PlanInputs& inputs, Passes which = Passes::separate);
+
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate) const;
+  /// The buffer of a plan's resource, VK_NULL_HANDLE for inputs.
+  [[nodiscard]] VkBuffer buffer(ResourceId id) const;
+
+ private:
+  struct BuiltPass {
+    Pass pass;
+    Pipeline pipeline;
+  };
+  [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
+  [[nodiscard]] static Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
+                                                            const ShaderSource& shaders);
+  void record_host(const Pass& pass, const PlanInputs& inputs) const;
+  void record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const;
+  void dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
+  void draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
+  void zero_buffers(Recorder& recorder) const;
+
+  Plan plan_;
+  std::vector<Buffer> buffers_;
+  std::vector<BuiltPass> separate_;
+  std::vector<BuiltPass> fused_;
+};
+
+/// The descriptor type of a plan's resource.
+[[nodiscard]] VkDescriptorType descriptor_type(ResourceId id);
+
+}  // namespace lamp::vulkan

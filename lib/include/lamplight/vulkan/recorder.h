@@ -1,0 +1,116 @@
+// Records passes: barriers from declared uses, debug labels, timestamps, push descriptors.
+// Promise: between two uses of a resource stands the smallest barrier that orders them; a pass that declares all its
+// uses needs no thought about synchronization.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lamplight/vulkan/buffer.h"
+#include "lamplight/vulkan/pipeline.h"
+
+namespace lamp::vulkan {
+
+/// A buffer or an image, as a descriptor and as something to synchronise.
+struct Resource {
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while used this way
+  VkSampler sampler = VK_NULL_HANDLE;
+
+  [[nodiscard]] static Resource storage(VkBuffer buffer) { return {.buffer = buffer}; }
+};
+
+/// How a pass uses a resource.
+struct Use {
+  Resource resource;
+  VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  VkAccessFlags2 access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  bool discard = false;  ///< images: the old contents may be lost
+};
+
+/// A resource at a descriptor binding.
+struct Bound {
+  std::uint32_t binding = 0;
+  Resource resource;
+};
+
+/// Remembers, over any number of command buffers of one queue, who last touched what.
+class AccessTracker {
+ public:
+  /// Puts a barrier for these uses into the command buffer, if one is needed, and remembers them.
+  void barrier(VkCommandBuffer commands, std::span<const Use> uses);
+  /// Takes over a resource that somebody else synchronised: it is in `resource.layout` and needs no barrier to be read.
+  void assume(const Resource& resource);
+  /// Forgets a buffer that is about to be destroyed: its handle may come back as another's.
+  void forget(VkBuffer buffer);
+
+ private:
+  struct State {
+    VkPipelineStageFlags2 write_stages = 0;
+    VkAccessFlags2 write_access = 0;
+    VkPipelineStageFlags2 read_stages = 0;   // since the write
+    VkPipelineStageFlags2 visible_stages = 0;  // stages that already wait for the write
+    VkAccessFlags2 visible_access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  };
+  std::map<std::uint64_t, State> states_;
+};
+
+/// Begin and end times of named passes.
+class Timestamps {
+ public:
+  struct Time {
+    std::string pass;
+    double ms = 0.0;
+  };
+  Timestamps() = default;
+  [[nodiscard]] static Result<Timestamps> create(const Device& device, std::uint32_t max_passes);
+  void reset(VkCommandBuffer commands);
+  void begin(VkCommandBuffer commands, std::string_view pass);
+  void end(VkCommandBuffer commands);
+  /// Milliseconds of each pass, after the work is done.
+  [[nodiscard]] std::vector<Time> read() const;
+
+ private:
+  VkDevice device_ = VK_NULL_HANDLE;
+  OwnedQueryPool pool_;
+  float period_ns_ = 1.0F;
+  std::uint32_t max_passes_ = 0;
+  std::vector<std::string> passes_;
+};
+
+class Recorder {
+ public:
+  /// `timestamps` may be null.
+  Recorder(const Device& device, VkCommandBuffer commands, AccessTracker& tracker, Timestamps* timestamps = nullptr)
+      : device_(device), commands_(commands), tracker_(tracker), timestamps_(timestamps) {}
+
+  /// Barrier, label, timestamp.
+  void begin_pass(std::string_view name, const std::vector<Use>& uses);
+  void end_pass();
+  /// Only the barrier: for transfers between passes.
+  void barrier(const std::vector<Use>& uses) { tracker_.barrier(commands_, uses); }
+
+  /// Binds a pipeline and pushes its descriptors.
+  void bind(const Pipeline& pipeline, std::span<const Bound> resources);
+  /// Pushes descriptors that change between draws.
+  void push(const Pipeline& pipeline, std::span<const Bound> resources);
+
+  [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
+
+ private:
+  const Device& device_;
+  VkCommandBuffer commands_;
+  AccessTracker& tracker_;
+  Timestamps* timestamps_;
+};
+
+}  // namespace lamp::vulkan

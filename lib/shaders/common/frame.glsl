@@ -1,0 +1,53 @@
+// From pixels and device depth to positions, and the planes of a tile, for every projection of view.h.
+// Based on: planes straight from the matrix: Gribb, Hartmann, Fast Extraction of Viewing Frustum Planes (2001).
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_FRAME
+#define LAMP_COMMON_FRAME
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+
+// Metres ahead of the eye of a device depth in (0, 1]: clip.z = A z + B and clip.w = C z + D, solved for -z.
+float z_view_of(Frame frame, float device_depth) {
+  const mat4 m = frame.clip_from_view;
+  precise const float z = (m[3][3] * device_depth - m[3][2]) / (m[2][2] - m[2][3] * device_depth);
+  return -z;
+}
+
+// View-space position z_view metres ahead at a pixel (continuous: centres at +0.5).
+vec3 view_position(Frame frame, vec2 pixel, float z_view) {
+  const mat4 m = frame.clip_from_view;
+  precise const float z = -z_view;
+  precise const float w = m[2][3] * z + m[3][3];
+  precise const vec2 ndc = pixel / vec2(frame.size_px) * 2.0 - 1.0;
+  precise const vec2 xy = (ndc * w - m[2].xy * z - m[3].xy) / vec2(m[0][0], m[1][1]);
+  return vec3(xy, z);
+}
+
+vec3 world_position(Frame frame, vec2 pixel, float z_view) {
+  const vec3 p = view_position(frame, pixel, z_view);
+  precise const vec3 world = frame.world_from_view[0].xyz * p.x + frame.world_from_view[1].xyz * p.y +
+                             frame.world_from_view[2].xyz * p.z + frame.world_from_view[3].xyz;
+  return world;
+}
+
+vec4 clip_row(Frame frame, int row) {
+  const mat4 m = frame.clip_from_view;
+  return vec4(m[0][row], m[1][row], m[2][row], m[3][row]);
+}
+
+vec4 unit_plane(vec4 plane) { return plane / length(plane.xyz); }
+
+// The four side planes (left, right, top, bottom) of a rectangle of pixels, positive inside. View space, unit normals.
+void side_planes(Frame frame, vec2 min_px, vec2 max_px, out vec4 planes[4]) {
+  const vec2 low = min_px / vec2(frame.size_px) * 2.0 - 1.0;
+  const vec2 high = max_px / vec2(frame.size_px) * 2.0 - 1.0;
+  const vec4 x = clip_row(frame, 0);
+  const vec4 y = clip_row(frame, 1);
+  const vec4 w = clip_row(frame, 3);
+  planes[0] = unit_plane(x - low.x * w);
+  planes[1] = unit_plane(high.x * w - x);
+  planes[2] = unit_plane(y - low.y * w);
+  planes[3] = unit_plane(high.y * w - y);
+}
+
+#endif

@@ -1,0 +1,21 @@
+// Look-up: every light.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/frame.h"
+
+layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+
+struct Walk {
+  uint at;
+  uint end;
+};
+
+void lookup_prepare() {}
+
+uint lookup_cell(uvec2 pixel, float z_view) { return 0u; }
+
+Walk walk_begin(uvec2 pixel, float z_view) { return Walk(0u, lookup_frame.light_count); }
+
+bool walk_next(inout Walk walk, out uint light) {
+  light = walk.at++;
+  return light < walk.end;
+}

@@ -1,0 +1,36 @@
+// Look-up: one list a tile, a count and its lights; a count beyond the capacity means every light.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/frame.h"
+
+layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
+layout(constant_id = 101) const uint LOOKUP_CAPACITY = 512;
+layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+layout(set = 0, binding = 17, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
+
+struct Walk {
+  uint at;
+  uint end;
+  bool overflowed;
+};
+
+void lookup_prepare() {}
+
+uint lookup_cell(uvec2 pixel, float z_view) {
+  const uvec2 tile = pixel / LOOKUP_TILE_PX;
+  const uint tiles_wide = (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  return tile.x + tiles_wide * tile.y;
+}
+
+Walk walk_begin(uvec2 pixel, float z_view) {
+  const uint base = lookup_cell(pixel, z_view) * (1u + LOOKUP_CAPACITY);
+  const uint count = lookup_lists[base];
+  if (count > LOOKUP_CAPACITY) return Walk(0u, lookup_frame.light_count, true);
+  return Walk(base + 1u, base + 1u + count, false);
+}
+
+bool walk_next(inout Walk walk, out uint light) {
+  if (walk.at >= walk.end) return false;
+  light = walk.overflowed ? walk.at : lookup_lists[walk.at];
+  ++walk.at;
+  return true;
+}

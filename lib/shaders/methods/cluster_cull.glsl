@@ -1,0 +1,67 @@
+// The clusters of one tile, by one work group: batches of lights against the tile's sides, then one thread a slice walks
+// the survivors in order. Count and fill visit exactly the same pairs.
+// Needs: TILE_PX, SLICES, NEAR_MM, FAR_M; `frame`, `bounds`; the macro VISIT(light), used by the thread of a slice.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_METHODS_CLUSTER_CULL
+#define LAMP_METHODS_CLUSTER_CULL
+#include "common/frame.glsl"
+#include "common/slices.glsl"
+#include "common/volume_tests.glsl"
+
+const uint BATCH = 256u;  // the largest work group
+shared uint s_survivors[BATCH / 32u];
+shared LightBounds s_bounds[BATCH];
+
+// The view-space box around the part of a tile between two depths.
+void cluster_box(uvec2 tile, float z_begin, float z_end, out vec3 box_min, out vec3 box_max) {
+  const bool perspective = frame.clip_from_view[2][3] != 0.0;
+  if (perspective) z_begin = max(z_begin, 0.0);
+  box_min = vec3(3e38);
+  box_max = vec3(-3e38);
+  for (uint i = 0u; i < 8u; ++i) {
+    const vec2 corner = vec2((tile + uvec2(i & 1u, i >> 1 & 1u)) * TILE_PX);
+    const vec3 p = view_position(frame, corner, (i & 4u) == 0u ? z_begin : z_end);
+    box_min = min(box_min, p);
+    box_max = max(box_max, p);
+  }
+}
+
+uint cluster_index(uvec2 tile, uint slice) {
+  return tile.x + gl_NumWorkGroups.x * (tile.y + gl_NumWorkGroups.y * slice);
+}
+
+void visit_clusters(uvec2 tile) {
+  const uint thread = gl_LocalInvocationIndex;
+  const uint threads = gl_WorkGroupSize.x;
+  const uint slice = min(thread, SLICES - 1u);
+  const float z_begin = slice_begin(slice);
+  const float z_end = slice_end(slice);
+  vec3 box_min;
+  vec3 box_max;
+  cluster_box(tile, z_begin, z_end, box_min, box_max);
+  vec4 planes[4];
+  side_planes(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), planes);
+
+  for (uint first = 0u; first < frame.light_count; first += threads) {
+    if (thread < threads / 32u) s_survivors[thread] = 0u;
+    barrier();  // cleared bits before they are set
+    if (first + thread < frame.light_count) {
+      const LightBounds sphere = bounds[first + thread];
+      s_bounds[thread] = sphere;
+      if (sphere_touches_sides(sphere, planes)) atomicOr(s_survivors[thread / 32u], 1u << (thread % 32u));
+    }
+    barrier();  // bits and bounds before the slices read them
+    if (thread < SLICES) {
+      for (uint word = 0u; word < threads / 32u; ++word) {
+        for (uint bits = s_survivors[word]; bits != 0u; bits &= bits - 1u) {
+          const uint i = word * 32u + uint(findLSB(bits));
+          if (sphere_touches_depths(s_bounds[i], z_begin, z_end) && sphere_touches_box(s_bounds[i], box_min, box_max))
+            VISIT(first + i);
+        }
+      }
+    }
+    barrier();  // slices done before the next batch overwrites
+  }
+}
+
+#endif

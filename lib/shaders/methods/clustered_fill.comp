@@ -1,0 +1,34 @@
+// Writes each cluster's lights, ascending, at the place that the scan gave it.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint TILE_PX = 64;
+layout(constant_id = 2) const uint SLICES = 24;
+layout(constant_id = 3) const uint NEAR_MM = 500;
+layout(constant_id = 4) const uint FAR_M = 500;
+layout(constant_id = 5) const uint ENTRIES = 1;
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
+layout(set = 0, binding = 3, scalar) writeonly buffer ListBuffer { uint lists[]; };
+
+uint at = 0u;
+uint end = 0u;  // equal to `at` for a cluster that does not fit
+#define VISIT(light) if (at < end) lists[at++] = light
+#include "methods/cluster_cull.glsl"
+
+void main() {
+  const uint slice = gl_LocalInvocationIndex;
+  if (slice < SLICES) {
+    const uvec2 range = ranges[cluster_index(gl_WorkGroupID.xy, slice)];
+    at = range.x;
+    const bool fits = range.x <= ENTRIES && range.y <= ENTRIES - range.x;
+    end = fits ? range.x + range.y : range.x;
+  }
+  visit_clusters(gl_WorkGroupID.xy);
+}

@@ -1,0 +1,42 @@
+// The table of methods: one row each, in the order of the docs. A new method is one more row here.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "lamplight/method.h"
+#include "methods/methods.h"
+
+namespace lamp {
+
+std::span<const Method> methods() {
+  static const std::vector<Method> table{all_method(), tiled_method(), tiled_bits_method(), clustered_method()};
+  return table;
+}
+
+Result<const Method*> find_method(std::string_view name) {
+  const auto found = std::ranges::find(methods(), name, &Method::name);
+  if (found != methods().end()) return &*found;
+  std::vector<std::string_view> names;
+  for (const Method& method : methods()) names.push_back(method.name);
+  std::string message = "there is no such method; the nearest are";
+  for (const std::string& near : nearest_names(name, names)) message += " " + near;
+  return Error{"method '" + std::string(name) + "'", message};
+}
+
+Result<Plan> make_plan(const Method& method, const Problem& problem) {
+  const std::uint32_t limit = problem.traits.max_image_size;
+  if (problem.width == 0 || problem.height == 0 || problem.width > limit || problem.height > limit)
+    return Error{"size " + std::to_string(problem.width) + "x" + std::to_string(problem.height),
+                 "expected 1 to " + std::to_string(limit) + " pixels a side on this device"};
+  if (problem.light_capacity > MAX_LIGHTS)
+    return Error{"light capacity", "expected at most " + std::to_string(MAX_LIGHTS) + ", got " +
+                                       std::to_string(problem.light_capacity)};
+  Plan plan = method.plan(problem);
+  plan.light_capacity = problem.light_capacity;
+  if (auto error = plan_check(plan, problem.traits)) {
+    error->source = "method " + std::string(method.name) + ": " + error->source;
+    return *error;
+  }
+  return plan;
+}
+
+}  // namespace lamp

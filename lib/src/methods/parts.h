@@ -1,0 +1,42 @@
+// What methods share as parts: counting cells, light bounds, counters.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "lamplight/method.h"
+#include "lamplight/shared/counters.h"
+
+namespace lamp::parts {
+
+[[nodiscard]] constexpr std::uint32_t divide_up(std::uint32_t value, std::uint32_t by) { return (value + by - 1) / by; }
+
+/// Tiles over a picture, the partial ones at the right and bottom included.
+struct TileGrid {
+  std::uint32_t width, height;
+  [[nodiscard]] std::uint64_t count() const { return std::uint64_t{width} * height; }
+};
+[[nodiscard]] inline TileGrid tile_grid(const Problem& problem, std::uint32_t tile_px) {
+  return {divide_up(problem.width, tile_px), divide_up(problem.height, tile_px)};
+}
+
+/// Threads of a work group that culls: a power of two, at most 256 and what the device takes.
+[[nodiscard]] inline std::uint32_t cull_threads(const Problem& problem, std::uint32_t wanted = 256) {
+  std::uint32_t threads = 32;
+  while (threads * 2 <= std::min({wanted, 256U, problem.traits.max_group_invocations})) threads *= 2;
+  return threads;
+}
+
+/// The light buffer's capacity, at least 1 so that no buffer is empty.
+[[nodiscard]] inline std::uint32_t capacity(const Problem& problem) { return std::max(1U, problem.light_capacity); }
+
+/// Adds the buffer of shared::LightBounds.
+[[nodiscard]] ResourceId add_light_bounds(Plan& plan, const Problem& problem);
+/// The pass that fills it: one thread a light, view-space sphere (shaders/methods/light_bounds.comp).
+[[nodiscard]] Pass light_bounds_pass(ResourceId bounds);
+
+/// Adds shared::Counters, zeroed every frame, and makes it the plan's.
+ResourceId add_counters(Plan& plan);
+
+}  // namespace lamp::parts

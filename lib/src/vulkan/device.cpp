@@ -1,0 +1,129 @@
+// Requirements, limits and entry points of a device.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/vulkan/device.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace lamp::vulkan {
+namespace {
+
+constexpr std::array<const char*, 1> EXTENSIONS{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+
+bool has_extension(VkPhysicalDevice physical, std::string_view name) {
+  std::uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName; });
+}
+
+template <class Function>
+void load(VkDevice device, const char* name, Function& out) {
+  out = reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
+}
+
+}  // namespace
+
+RequiredFeatures::RequiredFeatures() {
+  vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  vulkan13.synchronization2 = VK_TRUE;
+  vulkan13.dynamicRendering = VK_TRUE;
+  vulkan13.maintenance4 = VK_TRUE;
+  vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  vulkan12.scalarBlockLayout = VK_TRUE;
+  vulkan12.pNext = &vulkan13;
+  base.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  base.features.fragmentStoresAndAtomics = VK_TRUE;
+  base.pNext = &vulkan12;
+}
+
+std::span<const char* const> required_extensions() { return EXTENSIONS; }
+
+std::optional<Error> check_device(VkPhysicalDevice physical) {
+  VkPhysicalDeviceProperties properties{};
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  const std::string source = "device " + std::string(properties.deviceName);
+  if (properties.apiVersion < VK_API_VERSION_1_3)
+    return Error{source, "needs Vulkan 1.3, has " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+                             std::to_string(VK_API_VERSION_MINOR(properties.apiVersion))};
+  for (const char* extension : EXTENSIONS)
+    if (!has_extension(physical, extension)) return Error{source, std::string("lacks the extension ") + extension};
+  RequiredFeatures has;
+  vkGetPhysicalDeviceFeatures2(physical, &has.base);
+  const std::pair<VkBool32, const char*> needed[] = {{has.vulkan12.scalarBlockLayout, "scalarBlockLayout"},
+                                                     {has.vulkan13.synchronization2, "synchronization2"},
+                                                     {has.vulkan13.dynamicRendering, "dynamicRendering"},
+                                                     {has.vulkan13.maintenance4, "maintenance4"},
+                                                     {has.base.features.fragmentStoresAndAtomics,
+                                                      "fragmentStoresAndAtomics"}};
+  for (const auto& [supported, name] : needed)
+    if (supported == VK_FALSE) return Error{source, std::string("lacks the feature ") + name};
+  return std::nullopt;
+}
+
+DeviceTraits traits_of(VkPhysicalDevice physical) {
+  VkPhysicalDeviceVulkan11Properties v11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v11};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+  return {.max_storage_buffer_bytes = limits.maxStorageBufferRange,
+          .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
+                         limits.maxComputeWorkGroupCount[2]},
+          .max_group_invocations = limits.maxComputeWorkGroupInvocations,
+          .shared_memory_bytes = limits.maxComputeSharedMemorySize,
+          .max_image_size = limits.maxImageDimension2D,
+          .subgroup_size = v11.subgroupSize};
+}
+
+void Device::name(VkObjectType type, std::uint64_t object, std::string_view text) const {
+  if (set_object_name == nullptr) return;
+  const std::string terminated(text);
+  const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                           .objectType = type,
+                                           .objectHandle = object,
+                                           .pObjectName = terminated.c_str()};
+  set_object_name(handle, &info);
+}
+
+Result<Device> make_device(VkPhysicalDevice physical, VkDevice handle) {
+  if (auto error = check_device(physical)) return *error;
+  Device device{.physical = physical, .handle = handle, .traits = traits_of(physical)};
+  vkGetPhysicalDeviceMemoryProperties(physical, &device.memory);
+  VkPhysicalDeviceProperties properties{};
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  device.timestamp_period_ns = properties.limits.timestampPeriod;
+  load(handle, "vkCmdPushDescriptorSetKHR", device.push_descriptor_set);
+  load(handle, "vkCmdBeginDebugUtilsLabelEXT", device.begin_label);
+  load(handle, "vkCmdEndDebugUtilsLabelEXT", device.end_label);
+  load(handle, "vkSetDebugUtilsObjectNameEXT", device.set_object_name);
+  if (device.push_descriptor_set == nullptr)
+    return Error{"device " + std::string(properties.deviceName),
+                 "was created without VK_KHR_push_descriptor; enable required_extensions()"};
+  return device;
+}
+
+Result<std::uint32_t> find_memory_type(const Device& device, std::uint32_t type_bits, VkMemoryPropertyFlags wanted,
+                                       VkMemoryPropertyFlags preferred) {
+  for (const VkMemoryPropertyFlags flags : {wanted | preferred, wanted})
+    for (std::uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
+      if ((type_bits >> i & 1U) != 0 && (device.memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  return Error{"memory", "the device has no memory type with the properties " + std::to_string(wanted)};
+}
+
+std::string result_text(VkResult result) {
+  switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return "out of host memory (VK_ERROR_OUT_OF_HOST_MEMORY)";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "out of device memory (VK_ERROR_OUT_OF_DEVICE_MEMORY)";
+    case VK_ERROR_DEVICE_LOST:
+      return "the device was lost (VK_ERROR_DEVICE_LOST)";
+    default:
+      return "Vulkan error " + std::to_string(result);
+  }
+}
+
+}  // namespace lamp::vulkan

@@ -1,0 +1,213 @@
+// Builds pipelines: one push-descriptor set, optional push constants, specialization constants by id.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/vulkan/pipeline.h"
+
+#include <array>
+
+namespace lamp::vulkan {
+namespace {
+
+/// Specialization constants in the form Vulkan wants; refers to the list it was made from.
+class Specialization {
+ public:
+  explicit Specialization(const std::vector<Constant>& constants) {
+    for (std::uint32_t i = 0; i < constants.size(); ++i)
+      entries_.push_back({.constantID = constants[i].id,
+                          .offset = static_cast<std::uint32_t>(i * sizeof(Constant) + offsetof(Constant, value)),
+                          .size = sizeof(std::uint32_t)});
+    info_ = {.mapEntryCount = static_cast<std::uint32_t>(entries_.size()),
+             .pMapEntries = entries_.data(),
+             .dataSize = constants.size() * sizeof(Constant),
+             .pData = constants.data()};
+  }
+  [[nodiscard]] const VkSpecializationInfo* info() const { return &info_; }
+
+ private:
+  std::vector<VkSpecializationMapEntry> entries_;
+  VkSpecializationInfo info_{};
+};
+
+Result<OwnedShaderModule> make_module(const Device& device, const std::string& name,
+                                      std::span<const std::uint32_t> spirv) {
+  const VkShaderModuleCreateInfo create{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .codeSize = spirv.size_bytes(),
+                                        .pCode = spirv.data()};
+  VkShaderModule module = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreateShaderModule(device.handle, &create, nullptr, &module); r != VK_SUCCESS)
+    return Error{"shader " + name, result_text(r)};
+  return OwnedShaderModule(device.handle, module);
+}
+
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, const OwnedShaderModule& module,
+                                           const Specialization& specialization) {
+  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+          .stage = stage,
+          .module = module.get(),
+          .pName = "main",
+          .pSpecializationInfo = specialization.info()};
+}
+
+VkPipelineColorBlendAttachmentState blend_state(GraphicsState::Blend blend) {
+  VkPipelineColorBlendAttachmentState state{.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                                              VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+  if (blend == GraphicsState::Blend::none) return state;
+  const bool over = blend == GraphicsState::Blend::over;
+  state.blendEnable = VK_TRUE;
+  state.srcColorBlendFactor = over ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  state.dstColorBlendFactor = over ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  return state;
+}
+
+/// The state objects of a graphics pipeline, which point into each other; built in place, used once.
+struct GraphicsCreate {
+  VkVertexInputBindingDescription vertex_binding{};
+  VkPipelineVertexInputStateCreateInfo vertex{};
+  VkPipelineInputAssemblyStateCreateInfo assembly{};
+  VkPipelineViewportStateCreateInfo viewport{};
+  VkPipelineRasterizationStateCreateInfo raster{};
+  VkPipelineMultisampleStateCreateInfo multisample{};
+  VkPipelineDepthStencilStateCreateInfo depth{};
+  std::vector<VkPipelineColorBlendAttachmentState> blends;
+  VkPipelineColorBlendStateCreateInfo blend{};
+  std::vector<VkDynamicState> dynamics;
+  VkPipelineDynamicStateCreateInfo dynamic{};
+  VkPipelineRenderingCreateInfo rendering{};
+  VkGraphicsPipelineCreateInfo info{};
+
+  explicit GraphicsCreate(const GraphicsState& state) {
+    vertex_binding = {.stride = state.vertex_bytes};
+    vertex = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+              .vertexBindingDescriptionCount = state.attributes.empty() ? 0U : 1U,
+              .pVertexBindingDescriptions = &vertex_binding,
+              .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(state.attributes.size()),
+              .pVertexAttributeDescriptions = state.attributes.data()};
+    assembly = {.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+                .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    viewport = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+    raster = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+              .depthClampEnable = state.depth_clamp ? VK_TRUE : VK_FALSE,
+              .polygonMode = VK_POLYGON_MODE_FILL,
+              .cullMode = state.cull,
+              .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+              .lineWidth = 1.0F};
+    multisample = {.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+                   .rasterizationSamples = state.samples};
+    depth = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+             .depthTestEnable = state.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE,
+             .depthWriteEnable = state.depth_write ? VK_TRUE : VK_FALSE,
+             .depthCompareOp = state.depth_compare};
+    blends.assign(state.colors.size(), blend_state(state.blend));
+    blend = {.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+             .attachmentCount = static_cast<std::uint32_t>(blends.size()),
+             .pAttachments = blends.data()};
+    dynamics = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    if (state.dynamic_cull) dynamics.push_back(VK_DYNAMIC_STATE_CULL_MODE);
+    dynamic = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+               .dynamicStateCount = static_cast<std::uint32_t>(dynamics.size()),
+               .pDynamicStates = dynamics.data()};
+    rendering = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+                 .colorAttachmentCount = static_cast<std::uint32_t>(state.colors.size()),
+                 .pColorAttachmentFormats = state.colors.data(),
+                 .depthAttachmentFormat = state.depth};
+    info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+            .pNext = &rendering,
+            .pVertexInputState = &vertex,
+            .pInputAssemblyState = &assembly,
+            .pViewportState = &viewport,
+            .pRasterizationState = &raster,
+            .pMultisampleState = &multisample,
+            .pDepthStencilState = &depth,
+            .pColorBlendState = &blend,
+            .pDynamicState = &dynamic};
+  }
+  GraphicsCreate(const GraphicsCreate&) = delete;
+  GraphicsCreate& operator=(const GraphicsCreate&) = delete;
+};
+
+}  // namespace
+
+std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineInfo& info, Pipeline& out) {
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (const DescriptorBinding& binding : info.bindings)
+    bindings.push_back({.binding = binding.binding,
+                        .descriptorType = binding.type,
+                        .descriptorCount = 1,
+                        .stageFlags = VK_SHADER_STAGE_ALL});
+  const VkDescriptorSetLayoutCreateInfo set_create{
+      .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+      .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+      .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+      .pBindings = bindings.data()};
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreateDescriptorSetLayout(device.handle, &set_create, nullptr, &set_layout);
+      r != VK_SUCCESS)
+    return Error{"pipeline " + info.name, result_text(r)};
+  out.set_layout_ = OwnedSetLayout(device.handle, set_layout);
+
+  const VkPushConstantRange range{.stageFlags = VK_SHADER_STAGE_ALL, .size = info.push_constant_bytes};
+  const VkPipelineLayoutCreateInfo create{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .setLayoutCount = 1,
+                                          .pSetLayouts = &set_layout,
+                                          .pushConstantRangeCount = info.push_constant_bytes == 0 ? 0U : 1U,
+                                          .pPushConstantRanges = &range};
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreatePipelineLayout(device.handle, &create, nullptr, &layout); r != VK_SUCCESS)
+    return Error{"pipeline " + info.name, result_text(r)};
+  out.layout_ = OwnedPipelineLayout(device.handle, layout);
+  return std::nullopt;
+}
+
+Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& info,
+                                   std::span<const std::uint32_t> spirv) {
+  Pipeline pipeline;
+  if (auto error = make_layout(device, info, pipeline)) return *error;
+  const Result<OwnedShaderModule> module = make_module(device, info.name, spirv);
+  if (!module) return module.error();
+  const Specialization specialization(info.constants);
+  const VkComputePipelineCreateInfo create{
+      .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+      .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module.value(), specialization),
+      .layout = pipeline.layout_.get()};
+  VkPipeline handle = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreateComputePipelines(device.handle, VK_NULL_HANDLE, 1, &create, nullptr, &handle);
+      r != VK_SUCCESS)
+    return Error{"pipeline " + info.name, result_text(r)};
+  pipeline.pipeline_ = OwnedPipeline(device.handle, handle);
+  device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
+  return pipeline;
+}
+
+Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& info,
+                                    std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                                    const GraphicsState& state) {
+  Pipeline pipeline;
+  pipeline.bind_point_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  if (auto error = make_layout(device, info, pipeline)) return *error;
+  const Specialization specialization(info.constants);
+  std::vector<OwnedShaderModule> modules;
+  std::vector<VkPipelineShaderStageCreateInfo> stages;
+  const std::pair<VkShaderStageFlagBits, std::span<const std::uint32_t>> sources[] = {
+      {VK_SHADER_STAGE_VERTEX_BIT, vertex}, {VK_SHADER_STAGE_FRAGMENT_BIT, fragment}};
+  for (const auto& [stage, spirv] : sources) {
+    if (spirv.empty()) continue;
+    Result<OwnedShaderModule> module = make_module(device, info.name, spirv);
+    if (!module) return module.error();
+    modules.push_back(std::move(module.value()));
+    stages.push_back(stage_info(stage, modules.back(), specialization));
+  }
+  GraphicsCreate create(state);
+  create.info.stageCount = static_cast<std::uint32_t>(stages.size());
+  create.info.pStages = stages.data();
+  create.info.layout = pipeline.layout_.get();
+  VkPipeline handle = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &create.info, nullptr, &handle);
+      r != VK_SUCCESS)
+    return Error{"pipeline " + info.name, result_text(r)};
+  pipeline.pipeline_ = OwnedPipeline(device.handle, handle);
+  device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
+  return pipeline;
+}
+
+}  // namespace lamp::vulkan

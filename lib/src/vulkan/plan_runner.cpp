@@ -1,0 +1,211 @@
+// Allocates a plan's buffers, builds its pipelines, records its passes.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/vulkan/plan_runner.h"
+
+#include <algorithm>
+
+#include "lamplight/shader_code.h"
+
+namespace lamp::vulkan {
+namespace {
+
+Use use_of(const Resource& resource, Access access, VkPipelineStageFlags2 stages) {
+  VkAccessFlags2 flags = 0;
+  const bool sampled = resource.type == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+  if (access != Access::write) flags |= sampled ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  if (access != Access::read) flags |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  return {.resource = resource, .stages = stages, .access = flags};
+}
+
+BufferInfo buffer_info(const BufferDesc& desc) {
+  VkBufferUsageFlags usage =
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+  if (desc.indirect) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+  return {.name = desc.name,
+          .bytes = desc.bytes,
+          .usage = usage,
+          .memory = desc.memory == BufferMemory::upload ? MemoryUse::upload : MemoryUse::device};
+}
+
+PipelineInfo pipeline_info(const Pass& pass) {
+  PipelineInfo info{.name = pass.name};
+  for (std::uint32_t i = 0; i < pass.constants.size(); ++i) info.constants.push_back({i, pass.constants[i]});
+  for (std::uint32_t i = 0; i < pass.bindings.size(); ++i)
+    info.bindings.push_back({i, descriptor_type(pass.bindings[i].resource)});
+  return info;
+}
+
+GraphicsState graphics_state(const RasterState& raster) {
+  constexpr VkCullModeFlags CULL[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT};
+  return {.cull = CULL[static_cast<int>(raster.cull)], .samples = static_cast<VkSampleCountFlagBits>(raster.samples)};
+}
+
+Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const ShaderSource& shaders) {
+  if (pass.kind == PassKind::host) return Pipeline();
+  const auto shader = shaders(pass.shader);
+  if (!shader) return shader.error();
+  if (pass.kind == PassKind::compute) return Pipeline::compute(device, pipeline_info(pass), shader.value());
+  const auto vertex = shaders(pass.raster.vertex_shader);
+  if (!vertex) return vertex.error();
+  return Pipeline::graphics(device, pipeline_info(pass), vertex.value(), shader.value(), graphics_state(pass.raster));
+}
+
+std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
+  return (lights + lights_per_group - 1) / lights_per_group;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name) {
+  const ShaderCode* code = find_shader(library_shaders(), name);
+  if (code == nullptr) return Error{"shader " + std::string(name), "is not among the library's shaders"};
+  return std::vector<std::uint32_t>(code->spirv.begin(), code->spirv.end());
+}
+
+VkDescriptorType descriptor_type(ResourceId id) {
+  return id == INPUT_DEPTH ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+Result<std::vector<PlanRunner::BuiltPass>> PlanRunner::build(const Device& device, const std::vector<Pass>& passes,
+                                                             const ShaderSource& shaders) {
+  std::vector<BuiltPass> built;
+  for (const Pass& pass : passes) {
+    Result<Pipeline> pipeline = build_pipeline(device, pass, shaders);
+    if (!pipeline) return pipeline.error();
+    built.push_back({pass, std::move(pipeline.value())});
+  }
+  return built;
+}
+
+Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const ShaderSource& shaders) {
+  PlanRunner runner;
+  runner.plan_ = std::move(plan);
+  for (const BufferDesc& desc : runner.plan_.buffers) {
+    Result<Buffer> buffer = Buffer::create(device, buffer_info(desc));
+    if (!buffer) return buffer.error();
+    runner.buffers_.push_back(std::move(buffer.value()));
+  }
+  auto separate = build(device, runner.plan_.passes, shaders);
+  if (!separate) return separate.error();
+  runner.separate_ = std::move(separate.value());
+  if (runner.plan_.fused) {
+    auto fused = build(device, runner.plan_.fused->passes, shaders);
+    if (!fused) return fused.error();
+    runner.fused_ = std::move(fused.value());
+  }
+  return runner;
+}
+
+VkBuffer PlanRunner::buffer(ResourceId id) const {
+  return id < PLAN_BUFFER || id == NO_RESOURCE ? VK_NULL_HANDLE : buffers_[id - PLAN_BUFFER].handle();
+}
+
+Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs) const {
+  switch (id) {
+    case INPUT_FRAME:
+      return Resource::storage(inputs.frame);
+    case INPUT_LIGHTS:
+      return Resource::storage(inputs.lights);
+    case INPUT_DEPTH:
+      return inputs.depth;
+    default:
+      return Resource::storage(buffer(id));
+  }
+}
+
+BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
+  const LookUp& lookup = which == Passes::fused ? plan_.fused->lookup : plan_.lookup;
+  BoundLookUp bound{.name = lookup.name};
+  for (std::uint32_t i = 0; i < lookup.constants.size(); ++i)
+    bound.constants.push_back({LOOKUP_CONSTANT + i, lookup.constants[i]});
+  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
+    bound.resources.push_back({LOOKUP_BINDING + i, resource(lookup.bindings[i].resource, inputs)});
+  return bound;
+}
+
+void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {
+  assert(inputs.light_count <= plan_.light_capacity && "make a plan with a larger light capacity");
+  const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
+  zero_buffers(recorder);
+  for (const BuiltPass& built : passes) {
+    if (built.pass.kind == PassKind::host)
+      record_host(built.pass, inputs);
+    else
+      record_gpu(recorder, built, inputs);
+  }
+}
+
+void PlanRunner::zero_buffers(Recorder& recorder) const {
+  std::vector<Use> uses;
+  for (std::size_t i = 0; i < buffers_.size(); ++i)
+    if (plan_.buffers[i].zeroed)
+      uses.push_back({.resource = Resource::storage(buffers_[i].handle()),
+                      .stages = VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT});
+  recorder.barrier(uses);
+  for (const Use& use : uses) vkCmdFillBuffer(recorder.commands(), use.resource.buffer, 0, VK_WHOLE_SIZE, 0);
+}
+
+void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) const {
+  std::vector<std::span<std::byte>> mapped;
+  for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
+  pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped});
+}
+
+void PlanRunner::record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const {
+  const Pass& pass = built.pass;
+  const bool raster = pass.kind == PassKind::raster;
+  const VkPipelineStageFlags2 stages =
+      raster ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
+             : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  std::vector<Use> uses;
+  std::vector<Bound> bound;
+  for (std::uint32_t i = 0; i < pass.bindings.size(); ++i) {
+    const Resource used = resource(pass.bindings[i].resource, inputs);
+    uses.push_back(use_of(used, pass.bindings[i].access, stages));
+    bound.push_back({i, used});
+  }
+  if (pass.extent.indirect != NO_RESOURCE)
+    uses.push_back({.resource = resource(pass.extent.indirect, inputs),
+                    .stages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                    .access = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+  recorder.begin_pass(pass.name, uses);
+  recorder.bind(built.pipeline, bound);
+  if (raster)
+    draw(recorder.commands(), pass, inputs);
+  else
+    dispatch(recorder.commands(), pass, inputs);
+  recorder.end_pass();
+}
+
+void PlanRunner::dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const {
+  const Extent& extent = pass.extent;
+  if (extent.indirect != NO_RESOURCE)
+    return vkCmdDispatchIndirect(commands, buffer(extent.indirect), extent.indirect_offset);
+  const std::uint32_t x =
+      extent.lights_per_group == 0 ? extent.x : per_light(inputs.light_count, extent.lights_per_group);
+  if (x != 0) vkCmdDispatch(commands, x, extent.y, extent.z);
+}
+
+void PlanRunner::draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const {
+  const VkRect2D area{.extent = {pass.raster.width, pass.raster.height}};
+  const VkRenderingInfo rendering{
+      .sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1};
+  const VkViewport viewport{.width = static_cast<float>(pass.raster.width),
+                            .height = static_cast<float>(pass.raster.height),
+                            .maxDepth = 1.0F};
+  vkCmdBeginRendering(commands, &rendering);
+  vkCmdSetViewport(commands, 0, 1, &viewport);
+  vkCmdSetScissor(commands, 0, 1, &area);
+  const Extent& extent = pass.extent;
+  if (extent.indirect != NO_RESOURCE) {
+    vkCmdDrawIndirect(commands, buffer(extent.indirect), extent.indirect_offset, 1, sizeof(VkDrawIndirectCommand));
+  } else {
+    const std::uint32_t instances =
+        extent.lights_per_group == 0 ? extent.y : per_light(inputs.light_count, extent.lights_per_group);
+    vkCmdDraw(commands, extent.x, instances, 0, 0);
+  }
+  vkCmdEndRendering(commands);
+}
+
+}  // namespace lamp::vulkan

@@ -1,0 +1,166 @@
+// Barriers from uses, labels, timestamps, push descriptors.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/vulkan/recorder.h"
+
+#include <cassert>
+
+namespace lamp::vulkan {
+namespace {
+
+constexpr VkAccessFlags2 WRITES =
+    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+    VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+
+std::uint64_t key_of(const Resource& resource) {
+  return resource.image != VK_NULL_HANDLE ? reinterpret_cast<std::uint64_t>(resource.image)
+                                          : reinterpret_cast<std::uint64_t>(resource.buffer);
+}
+
+}  // namespace
+
+void AccessTracker::barrier(VkCommandBuffer commands, std::span<const Use> uses) {
+  VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  std::vector<VkImageMemoryBarrier2> images;
+  for (const Use& use : uses) {
+    State& state = states_[key_of(use.resource)];
+    const bool writes = (use.access & WRITES) != 0;
+    const bool image = use.resource.image != VK_NULL_HANDLE;
+    const bool changes_layout = image && (state.layout != use.resource.layout || use.discard);
+    const bool orders_write = state.write_stages != 0 && (writes || (use.stages & ~state.visible_stages) != 0 ||
+                                                          (use.access & ~state.visible_access) != 0);
+    const bool orders_reads = (writes || changes_layout) && state.read_stages != 0;
+
+    if (changes_layout) {
+      images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                        .srcStageMask = state.write_stages | state.read_stages,
+                        .srcAccessMask = state.write_access,
+                        .dstStageMask = use.stages,
+                        .dstAccessMask = use.access,
+                        .oldLayout = use.discard ? VK_IMAGE_LAYOUT_UNDEFINED : state.layout,
+                        .newLayout = use.resource.layout,
+                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                        .image = use.resource.image,
+                        .subresourceRange = {use.resource.aspect, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                             VK_REMAINING_ARRAY_LAYERS}});
+    } else if (orders_write || orders_reads) {
+      memory.srcStageMask |= (orders_write ? state.write_stages : 0) | (orders_reads ? state.read_stages : 0);
+      memory.srcAccessMask |= orders_write ? state.write_access : 0;
+      memory.dstStageMask |= use.stages;
+      memory.dstAccessMask |= use.access;
+    }
+
+    if (writes || changes_layout) {
+      // A layout change is a write too; what it made visible is exactly this use.
+      state = {.write_stages = use.stages,
+               .write_access = use.access & WRITES,
+               .read_stages = writes ? VkPipelineStageFlags2{0} : use.stages,
+               .visible_stages = writes ? VkPipelineStageFlags2{0} : use.stages,
+               .visible_access = writes ? VkAccessFlags2{0} : use.access,
+               .layout = use.resource.layout};
+    } else {
+      state.read_stages |= use.stages;
+      state.visible_stages |= use.stages;
+      state.visible_access |= use.access;
+    }
+  }
+  if (memory.srcStageMask == 0 && images.empty()) return;
+  const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                    .memoryBarrierCount = memory.srcStageMask == 0 ? 0U : 1U,
+                                    .pMemoryBarriers = &memory,
+                                    .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
+                                    .pImageMemoryBarriers = images.data()};
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void AccessTracker::assume(const Resource& resource) { states_[key_of(resource)] = {.layout = resource.layout}; }
+
+void AccessTracker::forget(VkBuffer buffer) { states_.erase(reinterpret_cast<std::uint64_t>(buffer)); }
+
+Result<Timestamps> Timestamps::create(const Device& device, std::uint32_t max_passes) {
+  Timestamps timestamps;
+  const VkQueryPoolCreateInfo create{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                     .queryCount = 2 * max_passes};
+  VkQueryPool pool = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreateQueryPool(device.handle, &create, nullptr, &pool); r != VK_SUCCESS)
+    return Error{"timestamps", result_text(r)};
+  timestamps.device_ = device.handle;
+  timestamps.pool_ = OwnedQueryPool(device.handle, pool);
+  timestamps.period_ns_ = device.timestamp_period_ns;
+  timestamps.max_passes_ = max_passes;
+  return timestamps;
+}
+
+void Timestamps::reset(VkCommandBuffer commands) {
+  passes_.clear();
+  vkCmdResetQueryPool(commands, pool_.get(), 0, 2 * max_passes_);
+}
+
+void Timestamps::begin(VkCommandBuffer commands, std::string_view pass) {
+  assert(passes_.size() < max_passes_ && "create Timestamps with room for every pass of the frame");
+  vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
+                       static_cast<std::uint32_t>(2 * passes_.size()));
+  passes_.emplace_back(pass);
+}
+
+void Timestamps::end(VkCommandBuffer commands) {
+  vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
+                       static_cast<std::uint32_t>(2 * passes_.size() - 1));
+}
+
+std::vector<Timestamps::Time> Timestamps::read() const {
+  std::vector<std::uint64_t> ticks(2 * passes_.size());
+  if (!ticks.empty())
+    vkGetQueryPoolResults(device_, pool_.get(), 0, static_cast<std::uint32_t>(ticks.size()),
+                          ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
+                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+  std::vector<Time> times;
+  for (std::size_t i = 0; i < passes_.size(); ++i)
+    times.push_back({passes_[i], static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * period_ns_ * 1e-6});
+  return times;
+}
+
+void Recorder::begin_pass(std::string_view name, const std::vector<Use>& uses) {
+  if (device_.begin_label != nullptr) {
+    const std::string terminated(name);
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                     .pLabelName = terminated.c_str()};
+    device_.begin_label(commands_, &label);
+  }
+  tracker_.barrier(commands_, uses);
+  if (timestamps_ != nullptr) timestamps_->begin(commands_, name);
+}
+
+void Recorder::end_pass() {
+  if (timestamps_ != nullptr) timestamps_->end(commands_);
+  if (device_.end_label != nullptr) device_.end_label(commands_);
+}
+
+void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> resources) {
+  vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
+  push(pipeline, resources);
+}
+
+void Recorder::push(const Pipeline& pipeline, std::span<const Bound> resources) {
+  std::vector<VkDescriptorBufferInfo> buffers(resources.size());
+  std::vector<VkDescriptorImageInfo> images(resources.size());
+  std::vector<VkWriteDescriptorSet> writes;
+  for (std::size_t i = 0; i < resources.size(); ++i) {
+    const auto& [binding, resource] = resources[i];
+    buffers[i] = {.buffer = resource.buffer, .range = VK_WHOLE_SIZE};
+    images[i] = {.sampler = resource.sampler, .imageView = resource.view, .imageLayout = resource.layout};
+    writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                      .dstBinding = binding,
+                      .descriptorCount = 1,
+                      .descriptorType = resource.type,
+                      .pImageInfo = &images[i],
+                      .pBufferInfo = &buffers[i]});
+  }
+  if (!writes.empty())
+    device_.push_descriptor_set(commands_, pipeline.bind_point(), pipeline.layout(), 0,
+                                static_cast<std::uint32_t>(writes.size()), writes.data());
+}
+
+}  // namespace lamp::vulkan

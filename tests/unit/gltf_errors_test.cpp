@@ -1,0 +1,246 @@
+// The glTF loader on bad input: one line that names the file, the element, what is wrong and what was expected.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "unit/gltf_builder.h"
+
+namespace {
+
+using namespace lamp::test;
+
+/// One of everything, all of it right: mesh 0 with indices (accessor 1), material, texture, lights, cameras, nodes.
+GltfBuilder full_scene() {
+  GltfBuilder builder = triangle();
+  json& primitive = builder.document["meshes"][0]["primitives"][0];
+  primitive["indices"] =
+      builder.accessor(builder.view(std::vector<std::uint16_t>{0, 1, 2}), UNSIGNED_SHORT, 3, "SCALAR");
+  primitive["material"] = 0;
+  primitive["attributes"]["NORMAL"] = builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+  builder.add("images", {{"uri", "data:image/png;base64," + std::string(PNG)}});
+  builder.add("samplers", {{"wrapS", 10497}});
+  builder.add("textures", {{"source", 0}, {"sampler", 0}});
+  builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  builder.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 2}}}});
+  builder.root({{"name", "camera"}, {"camera", 0}});
+  builder.root({{"extensions", builder.light({{"type", "point"}, {"range", 5}, {"intensity", 1}})}});
+  const json cone = {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}};
+  builder.root({{"extensions", builder.light({{"type", "spot"}, {"spot", cone}})}});
+  return builder;
+}
+
+/// Replaces the value at `pointer` ("" as value: removes it) and expects the loader to say `says`.
+struct Fault {
+  std::string pointer;
+  std::string value;
+  std::string says;
+};
+
+const std::string LIGHTS = "/extensions/KHR_lights_punctual/lights";
+const std::string BASE_COLOR = "/materials/0/pbrMetallicRoughness/baseColorTexture";
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> FAULTS{
+      {"/asset", "", "asset is missing, expected an object"},
+      {"/asset/version", "", "asset: version is missing, expected a string"},
+      {"/asset/version", "\"1.0\"", "asset: version is '1.0', expected 2.0"},
+      {"/extensionsRequired", R"(["KHR_draco_mesh_compression"])",
+       "extensionsRequired: KHR_draco_mesh_compression not supported, expected none but KHR_lights_punctual"},
+      {"/nodes", "{}", "nodes is an object, expected an array of at most"},
+      {"/nodes", "[7]", "nodes is [7], expected an array of at most 262144 objects"},
+      {"/scene", "3", "scene is 3, expected an index into scenes (1 there)"},
+      {"/scenes/0/nodes", "[0, 9]", "scene 0: nodes is [0,9], expected an array of indices into nodes (4 there)"},
+      {"/nodes/0/mesh", "1", "node 0: mesh is 1, expected an index into meshes (1 there)"},
+      {"/nodes/0/mesh", "-1", "node 0: mesh is -1, expected an index into meshes"},
+      {"/nodes/0/mesh", "0.5", "node 0: mesh is 0.5, expected an index into meshes"},
+      {"/nodes/0/children", "[4294967296]", "node 0: children is [4294967296], expected an array of indices"},
+      {"/nodes/0/children", "[0]", "node 0: is reached twice from the scene, expected a tree without cycles"},
+      {"/nodes/0/children", "[1]", "node 1: is reached twice from the scene, expected a tree without cycles"},
+      {"/nodes/0/translation", "[1, 2]", "node 0: translation is [1,2], expected 3 numbers"},
+      {"/nodes/0/translation", R"([0, "NaN", 0])", "node 0: translation is [0,\"NaN\",0], expected 3 numbers"},
+      {"/nodes/0/translation", "[1e30, 0, 0]", "node 0: its transform in the world is too large, expected numbers"},
+      {"/nodes/0/rotation", "[0, 0, 0, 0]", "node 0: rotation has length 0, expected a unit quaternion"},
+      {"/nodes/0/matrix", "[1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]", "node 0: matrix has a last row that is not 0 0 0 1"},
+      {"/nodes/1/scale", "[0, 0, 0]", "node 1: its transform flattens the camera, expected a scale that is not 0"},
+      {"/nodes/3/scale", "[1, 1, 0]", "node 3: its transform leaves the light no direction, expected a scale in z"},
+      {"/nodes/2/extensions/KHR_lights_punctual/light", "2",
+       "node 2 KHR_lights_punctual: light is 2, expected an index into extensions/KHR_lights_punctual/lights (2 "
+       "there)"},
+
+      {"/accessors/0/count", "0", "accessor 0: count is 0, expected an integer 1 .. 4294967295"},
+      {"/accessors/0/count", "4", "accessor 0: 4 elements of 12 bytes, 12 apart, from byte 0, expected to end within"},
+      {"/accessors/0/count", "4294967295", "accessor 0: 4294967295 elements of 12 bytes"},
+      {"/accessors/0/byteOffset", "9007199254740991",
+       "from byte 9007199254740991, expected to end within the 36 bytes"},
+      {"/accessors/0/byteOffset", "18446744073709551615", "byteOffset is 18446744073709551615, expected an integer"},
+      {"/accessors/0/byteOffset", "-4", "accessor 0: byteOffset is -4, expected an integer 0 .. 9007199254740992"},
+      {"/accessors/0/componentType", "5124", "componentType is 5124, expected one of 5120 5121 5122 5123 5125 5126"},
+      {"/accessors/0/type", "\"VEC5\"", "accessor 0: type is \"VEC5\", expected one of SCALAR VEC2"},
+      {"/accessors/0/type", "\"VEC2\"", "POSITION (accessor 0) has 2 components an element, expected 3"},
+      {"/accessors/0/bufferView", "7", "accessor 0: bufferView is 7, expected an index into bufferViews (3 there)"},
+      {"/accessors/1/componentType", "5126", "accessor 1: componentType is 5126, expected a SCALAR of 5121, 5123 or"},
+      {"/accessors/1/count", "2", "mesh 0 primitive 0: 2 indices, expected a multiple of 3 for triangles"},
+      {"/accessors/2/count", "2", "mesh 0 primitive 0: NORMAL (accessor 2) has 2 elements, expected 3, as many as"},
+      {"/accessors/2/componentType", "5125", "NORMAL (accessor 2) has componentType 5125, expected floats or normal"},
+      {"/bufferViews/0/buffer", "1", "bufferView 0: buffer is 1, expected an index into buffers (1 there)"},
+      {"/bufferViews/0/byteLength", "1000",
+       "bufferView 0: 1000 bytes from byte 0, expected to end within the 80 bytes"},
+      {"/bufferViews/0/byteOffset", "9007199254740000",
+       "bufferView 0: 36 bytes from byte 9007199254740000, expected to"},
+      {"/bufferViews/0/byteStride", "2", "bufferView 0: byteStride is 2, expected an integer 4 .. 252"},
+      {"/bufferViews/0/byteStride", "8", "byteStride of bufferView 0 is 8, expected at least 12, the size of an"},
+
+      {"/meshes/0/primitives", "", "mesh 0: primitives is missing, expected an array"},
+      {"/meshes/0/primitives/0/attributes", "{}", "mesh 0 primitive 0: POSITION is missing, expected an attribute"},
+      {"/meshes/0/primitives/0/attributes/POSITION", "9",
+       "attributes is an object, expected an object of indices into"},
+      {"/meshes/0/primitives/0/indices", "9", "mesh 0 primitive 0: indices is 9, expected an index into accessors (3"},
+      {"/meshes/0/primitives/0/material", "1",
+       "mesh 0 primitive 0: material is 1, expected an index into materials (1"},
+      {"/meshes/0/primitives/0/mode", "7", "mesh 0 primitive 0: mode is 7, expected one of 0 1 2 3 4 5 6"},
+      {"/meshes/0/primitives/0/mode", "1", "scene: has no triangles, expected a node with a mesh that has some"},
+      {BASE_COLOR + "/index", "5", "material 0 pbrMetallicRoughness baseColorTexture: index is 5, expected an index"},
+      {BASE_COLOR + "/texCoord", "2", "baseColorTexture: texCoord is 2, expected an integer 0 .. 1"},
+      {"/materials/0/alphaMode", "\"GLASS\"", "material 0: alphaMode is \"GLASS\", expected one of OPAQUE MASK BLEND"},
+      {"/materials/0/pbrMetallicRoughness/metallicFactor", "2", "metallicFactor is 2, expected a number 0 .. 1"},
+      {"/textures/0/source", "1", "texture 0: source is 1, expected an index into images (1 there)"},
+      {"/textures/0/sampler", "1", "texture 0: sampler is 1, expected an index into samplers (1 there)"},
+      {"/samplers/0/wrapS", "1", "sampler 0: wrapS is 1, expected one of 10497 33071 33648"},
+      {"/images/0/uri", "", "image 0: expected either a uri or a bufferView"},
+      {"/images/0/uri", "\"data:image/png;base64,AAAA\"", "image 0: cannot be decoded, expected a PNG or JPEG"},
+      {"/images/0/uri", "\"data:image/png;base64,!\"", "image 0: the data URI cannot be decoded, expected base64"},
+      {"/images/0/uri", "\"data:image/png,x\"", "image 0: uri begins 'data:image/png', expected 'data:TYPE;base64,'"},
+      {"/images/0/uri", "\"/etc/x.png\"", "image 0: uri is '/etc/x.png', expected a data URI or a relative path"},
+      {"/images/0/uri", "\"x.png\"", "image 0: uri is 'x.png', expected a data URI, as the scene does not come from"},
+
+      {LIGHTS + "/0/type", "\"area\"", "light 0: type is \"area\", expected one of point spot directional"},
+      {LIGHTS + "/0/range", "-1", "light 0: range is -1, expected a number > 0"},
+      {LIGHTS + "/0/range", "0", "light 0: range is 0, expected a number > 0"},
+      {LIGHTS + "/0/range", "\"NaN\"", "light 0: range is \"NaN\", expected a number > 0"},
+      {LIGHTS + "/0/intensity", "-2", "light 0: intensity is -2, expected a number >= 0"},
+      {LIGHTS + "/0/intensity", "1e300", "light 0: intensity is 1e+300, expected a number >= 0"},
+      {LIGHTS + "/0/color", "[1, -1, 0]", "light 0: color is [1,-1,0], expected 3 numbers >= 0"},
+      {LIGHTS + "/1/spot", "", "light 1: spot is missing, expected an object, as type is spot"},
+      {LIGHTS + "/1/spot/outerConeAngle", "1.6", "light 1: outerConeAngle is 1.6, expected 0 .. pi/2 radians"},
+      {LIGHTS + "/1/spot/innerConeAngle", "0.6",
+       "light 1: innerConeAngle is 0.6, expected at most outerConeAngle, 0.5"},
+
+      {"/cameras/0/type", "\"fisheye\"", "camera 0: type is \"fisheye\", expected one of perspective orthographic"},
+      {"/cameras/0/type", "\"orthographic\"", "camera 0: orthographic is missing, expected an object"},
+      {"/cameras/0/perspective/yfov", "4", "camera 0: yfov is 4, expected less than pi radians"},
+      {"/cameras/0/perspective/znear", "0", "camera 0 perspective: znear is 0, expected a number > 0"},
+      {"/cameras/0/perspective/zfar", "0.5", "camera 0: zfar is 0.5, expected more than znear, 1"},
+  };
+  return FAULTS;
+}
+
+void expect_error(const std::string& text, const std::string& says, const std::filesystem::path& folder = {}) {
+  const std::string error = error_text(text, folder);
+  EXPECT_TRUE(error.starts_with("test.gltf: ")) << error;
+  EXPECT_NE(error.find(says), std::string::npos) << "got:  " << error << "\nwant: " << says;
+  EXPECT_EQ(error.find_first_of("\n\r"), std::string::npos) << error;
+}
+
+TEST(GltfErrors, TheSceneWithoutFaultsLoads) { EXPECT_EQ(error_text(full_scene().gltf()), ""); }
+
+TEST(GltfErrors, NameTheElementAndWhatWasExpected) {
+  for (const Fault& fault : faults()) {
+    SCOPED_TRACE(fault.pointer + " = " + fault.value);
+    json document = json::parse(full_scene().gltf());
+    const json::json_pointer pointer(fault.pointer);
+    if (fault.value.empty()) {
+      document[pointer.parent_pointer()].erase(pointer.back());
+    } else {
+      document[pointer] = json::parse(fault.value);
+    }
+    expect_error(document.dump(), fault.says);
+  }
+}
+
+TEST(GltfErrors, ContainersThatAreBroken) {
+  expect_error("", "the file is empty, expected glTF 2.0");
+  expect_error("{\n\"asset\": \n", "JSON: parse error at line");
+  expect_error("[1e999]", "JSON: ");
+  expect_error("7", "the JSON is not an object, expected a glTF document");
+  expect_error(std::string(100000, '['), "JSON: nested too deep, expected at most 64 levels");
+  const std::string glb = full_scene().glb();
+  EXPECT_EQ(error_text(glb), "");
+  const auto changed = [&glb](std::size_t at, char value) {
+    std::string copy = glb;
+    copy[at] = value;
+    return copy;
+  };
+  expect_error(changed(4, 1), "GLB header: version 1, expected 2");
+  expect_error(changed(11, 1), "GLB header: a length of");
+  expect_error(changed(15, 1), "GLB chunk at byte 12: a length of");
+  expect_error(changed(16, 'X'), "GLB chunk 0: type 0x4e4f5358, expected 0x4e4f534a (JSON)");
+  expect_error(glb.substr(0, 8), "GLB header: 8 bytes, expected at least 12");
+}
+
+TEST(GltfErrors, EveryTruncationIsAnError) {
+  const GltfBuilder builder = full_scene();
+  for (const std::string& whole : {builder.glb(), builder.gltf()}) {
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+      ASSERT_NE(error_text(whole.substr(0, size)), "") << size << " of " << whole.size() << " bytes";
+    }
+  }
+}
+
+TEST(GltfErrors, DataThatIsWrong) {
+  GltfBuilder builder = full_scene();
+  const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(builder.bytes.data() + 16, &not_a_number, 4);
+  expect_error(builder.gltf(), "mesh 0 primitive 0: POSITION (accessor 0) of vertex 1 holds nan, expected finite");
+  builder = full_scene();
+  builder.bytes[40] = std::byte{3};
+  expect_error(builder.gltf(), "mesh 0 primitive 0: index 2 (accessor 1) is 3, expected less than the 3 vertices");
+  builder = triangle();
+  builder.document["buffers"][0] = {{"byteLength", 36}};
+  expect_error(builder.document.dump(), "buffer 0: uri is missing, expected one");
+}
+
+TEST(GltfErrors, SparseAccessors) {
+  GltfBuilder builder = triangle();
+  const int at = builder.view(std::vector<std::uint8_t>{1, 1});
+  const int values = builder.view(std::vector<float>{1, 2, 3, 4, 5, 6});
+  json& sparse = builder.document["accessors"][0]["sparse"];
+  sparse = {{"count", 2},
+            {"indices", {{"bufferView", at}, {"componentType", UNSIGNED_BYTE}}},
+            {"values", {{"bufferView", values}}}};
+  expect_error(builder.gltf(), "accessor 0 sparse indices: index 1 is 1, expected more than the one before");
+  sparse["indices"]["bufferView"] = values;
+  sparse["indices"]["componentType"] = UNSIGNED_INT;
+  expect_error(builder.gltf(), "accessor 0 sparse indices: index 0 is 1065353216, expected more than the one before");
+  sparse["count"] = 7;
+  expect_error(builder.gltf(), "accessor 0 sparse indices: 7 elements of 4 bytes, 4 apart, from byte 0, expected to");
+}
+
+TEST(GltfErrors, ZerosOutOfNothingAreLimited) {
+  GltfBuilder builder = triangle();
+  builder.document["accessors"][0].erase("bufferView");
+  EXPECT_EQ(error_text(builder.gltf()), "");
+  builder.document["accessors"][0]["count"] = 3000000000;
+  expect_error(builder.gltf(), "accessor 0: count is 3000000000 without a bufferView, expected at most 1048576");
+}
+
+TEST(GltfErrors, FilesThatAreNotThere) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "lamp_gltf_errors";
+  std::filesystem::create_directories(folder);
+  GltfBuilder builder = full_scene();
+  builder.document["images"][0] = {{"uri", "missing.png"}};
+  expect_error(builder.gltf(), "image 0: file '" + (folder / "missing.png").string() + "' is not there", folder);
+  builder.document["images"][0] = {{"uri", "."}};
+  expect_error(builder.gltf(), "is not a regular file, expected one that can be read", folder);
+  std::filesystem::remove_all(folder);
+  try {
+    static_cast<void>(lamp::app::load_gltf(std::filesystem::path("nowhere/scene.gltf")));
+    ADD_FAILURE() << "a file that is not there was loaded";
+  } catch (const lamp::app::Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "nowhere/scene.gltf: file 'nowhere/scene.gltf' is not there, expected one that can be read");
+    EXPECT_EQ(error.exit(), lamp::app::Exit::bad_input);
+  }
+}
+
+}  // namespace
