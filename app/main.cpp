@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <exception>
+#include <new>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "commands/command_line.h"
 #include "commands/commands.h"
 
 namespace {
@@ -25,6 +30,11 @@ constexpr const char* WELCOME =
 int run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
   app.require_subcommand(0, 1);
+  app.footer(
+      "Examples:\n"
+      "  lamp render atrium --lights 4096 --out atrium.png\n"
+      "  lamp verify blocks --method tiled\n"
+      "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 no usable device");
   const std::vector<std::pair<const char*, Run>> commands{{"render", lamp::app::add_render(app)},
                                                           {"verify", lamp::app::add_verify(app)},
                                                           {"compare", lamp::app::add_compare(app)},
@@ -33,8 +43,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "lamp: {}\n", error.what());
-    return static_cast<int>(Exit::bad_input);
+    throw lamp::app::parse_error(app, error);
   }
   for (const auto& [name, command] : commands)
     if (app.got_subcommand(name)) return static_cast<int>(command());
@@ -42,16 +51,24 @@ int run(int argc, char** argv) {
   return static_cast<int>(Exit::done);
 }
 
+/// Says why on one line, and gives the exit code.
+int complain(std::string_view why, Exit exit) {
+  fmt::print(stderr, "lamp: {}\n", lamp::app::escaped_line(why));
+  return static_cast<int>(exit);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (std::fflush(stdout) == 0) return code;
+    return complain("standard output: cannot be written: " + std::generic_category().message(errno), Exit::bad_input);
   } catch (const lamp::app::Error& error) {
-    fmt::print(stderr, "lamp: {}\n", error.what());
-    return static_cast<int>(error.exit());
+    return complain(error.what(), error.exit());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory: try fewer lights or a smaller picture", Exit::bad_input);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "lamp: {}\n", error.what());
-    return static_cast<int>(Exit::bad_input);
+    return complain(error.what(), Exit::bad_input);
   }
 }

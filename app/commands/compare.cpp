@@ -59,20 +59,21 @@ void print_side(const Side& side) {
 }
 
 Exit compare(const CompareOptions& o) {
-  check_writable(o.out);
-  for (const std::string& name : {o.a, o.b}) static_cast<void>(parse_method(name));
+  constexpr std::string_view PICTURES[] = {".png"};
+  check_output("--out", o.out, PICTURES);
+  for (const std::string& name : {o.a, o.b}) check_request(o.request, parse_method(name));
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
   const Side a = measure(o, session, setup, o.a);
   const Side b = measure(o, session, setup, o.b);
 
-  const std::uint32_t scale =
-      std::bit_ceil(std::max({1U, a.stats.findings->list_max, b.stats.findings->list_max}));
+  const std::uint32_t scale = std::bit_ceil(std::max({1U, a.stats.findings->list_max, b.stats.findings->list_max}));
   const auto map = [&](std::span<const std::uint32_t> counts, const std::string& title) {
     return heatmap_of(session, counts, {.title = title, .scale_max = scale});
   };
   const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, o.a), map(b.counts, o.b),
                                map(differences(a, b), fmt::format("{} - {}", o.a, o.b))};
+  make_folder_of(o.out);
   write_png(o.out, side_by_side(pictures));
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
@@ -101,7 +102,10 @@ Run add_compare(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--out", o->out, "picture, .png")->capture_default_str();
   command->add_flag("--json", o->json, "print the numbers as JSON");
-  command->footer("Example:\n  lamp compare tiled clustered posts --lights 16384 --out posts.png");
+  command->footer(
+      "Examples:\n"
+      "  lamp compare tiled clustered posts --lights 16384 --out posts.png\n"
+      "  lamp compare tiled tiled-bits --json");
   return [o] { return compare(*o); };
 }
 

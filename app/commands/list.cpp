@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -42,8 +43,8 @@ nlohmann::json methods_json() {
 }
 
 void print_option(const OptionSpec& spec) {
-  const std::string values =
-      spec.choices.empty() ? fmt::format("{} .. {}", spec.min, spec.max) : fmt::format("{}", fmt::join(spec.choices, " | "));
+  const std::string values = spec.choices.empty() ? fmt::format("{} .. {}", spec.min, spec.max)
+                                                  : fmt::format("{}", fmt::join(spec.choices, " | "));
   fmt::print("    {:<16} {} (default {}): {}\n", spec.key, values, spec.fallback, spec.help);
 }
 
@@ -57,7 +58,8 @@ void print_methods() {
 
 nlohmann::json scenes_json() {
   nlohmann::json array = nlohmann::json::array();
-  for (const BuiltinScene& scene : builtin_scenes()) array.push_back({{"name", scene.name}, {"summary", scene.summary}});
+  for (const BuiltinScene& scene : builtin_scenes())
+    array.push_back({{"name", scene.name}, {"summary", scene.summary}});
   return array;
 }
 
@@ -82,7 +84,12 @@ void print_devices(std::span<const DeviceRow> rows) {
     fmt::print("{} {} [{}] {} {}\n", i, rows[i].name, rows[i].kind, rows[i].driver, rows[i].problem);
 }
 
+constexpr std::string_view KINDS[] = {"methods", "scenes", "devices"};
+
 Exit list(const std::string& what, bool json) {
+  if (std::ranges::find(KINDS, what) == std::end(KINDS))
+    throw Error(fmt::format("list '{}': there is no such list; expected {}", what,
+                            fmt::join(nearest_names(what, KINDS), ", ")));
   if (what == "devices") {
     const std::vector<DeviceRow> rows = list_devices();
     if (json)
@@ -107,11 +114,9 @@ Run add_list(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "What there is: methods, scenes or devices");
   auto what = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("what", *what, "methods, scenes or devices")
-      ->required()
-      ->check(CLI::IsMember({"methods", "scenes", "devices"}));
+  command->add_option("what", *what, "methods, scenes or devices")->required();
   command->add_flag("--json", *json, "print an array of objects");
-  command->footer("Example:\n  lamp list methods --json");
+  command->footer("Examples:\n  lamp list methods\n  lamp list devices --json");
   return [what, json] { return list(*what, *json); };
 }
 

@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "error.h"
 #include "render/heatmap.h"
 
 namespace lamp::app {
+
+namespace fs = std::filesystem;
 
 std::vector<gpu::Visit> visit_all(Session& session, Lighting& lighting) {
   const Targets& targets = session.renderer().targets();
@@ -34,8 +38,8 @@ LdrImage heatmap_of(Session& session, std::span<const std::uint32_t> counts, con
                        .overlay = request.overlay});
 }
 
-float parse_exposure(const std::string& text, const HdrImage& image) {
-  if (text == "auto") return automatic_exposure(image);
+std::optional<float> parse_exposure(const std::string& text) {
+  if (text == "auto") return std::nullopt;
   float value = 0.0F;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !(value > 0.0F) || !std::isfinite(value))
@@ -43,14 +47,22 @@ float parse_exposure(const std::string& text, const HdrImage& image) {
   return value;
 }
 
-void check_writable(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions) {
+  if (std::ranges::find(extensions, fs::path(file).extension().string()) == extensions.end())
+    throw Error(fmt::format("{} '{}': expected a name that ends in {}", option, file, fmt::join(extensions, " or ")));
+  const fs::path path = fs::absolute(file);
+  if (fs::is_directory(path)) throw Error(fmt::format("{} '{}': is a folder, expected a file name", option, file));
+  fs::path folder = path.parent_path();
+  while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder)) throw Error(fmt::format("{} '{}': {} is not a folder", option, file, folder.string()));
   if (access(folder.c_str(), W_OK) != 0)
-    throw Error(fmt::format("{}: the folder is not writable", folder.string()));
-  if (std::filesystem::is_directory(file)) throw Error(fmt::format("{}: is a folder, expected a file name", file.string()));
+    throw Error(fmt::format("{} '{}': the folder {} is not writable", option, file, folder.string()));
+}
+
+void make_folder_of(const fs::path& file) {
+  std::error_code error;
+  fs::create_directories(fs::absolute(file).parent_path(), error);
+  if (error) throw Error(fmt::format("{}: its folder cannot be made: {}", file.string(), error.message()));
 }
 
 }  // namespace lamp::app

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "commands/request.h"
 #include "image/image.h"
@@ -23,10 +27,14 @@ struct HeatmapRequest {
 [[nodiscard]] LdrImage heatmap_of(Session& session, std::span<const std::uint32_t> counts,
                                   const HeatmapRequest& request);
 
-/// "auto" or a factor > 0.
-[[nodiscard]] float parse_exposure(const std::string& text, const HdrImage& image);
+/// "auto" (nothing) or a factor > 0.
+[[nodiscard]] std::optional<float> parse_exposure(const std::string& text);
 
-/// Throws Error if `file` cannot be written: asked before long work begins.
-void check_writable(const std::filesystem::path& file);
+/// Throws Error, naming the option, unless `file` ends in one of the extensions and looks as if it can be written.
+/// Asked before long work begins; makes nothing.
+void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions);
+
+/// Makes the folder of a file that is about to be written, where there is none.
+void make_folder_of(const std::filesystem::path& file);
 
 }  // namespace lamp::app

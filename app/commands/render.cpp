@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
+#include <set>
 
+#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
@@ -29,12 +32,25 @@ void write_picture(const std::filesystem::path& file, const HdrImage& image, con
     write_png(file, toned);
 }
 
+constexpr std::string_view PICTURES[] = {".png", ".exr"};
+constexpr std::string_view MAPS[] = {".png"};
+constexpr std::string_view NUMBERS[] = {".json"};
+
 void check_outputs(const RenderOptions& o) {
-  const std::string extension = std::filesystem::path(o.out).extension().string();
-  if (extension != ".png" && extension != ".exr")
-    throw Error(fmt::format("--out '{}': expected a name that ends in .png or .exr", o.out));
-  for (const std::string& file : {o.out, o.heatmap, o.overlay, o.stats})
-    if (!file.empty()) check_writable(file);
+  check_output("--out", o.out, PICTURES);
+  if (!o.heatmap.empty()) check_output("--heatmap", o.heatmap, MAPS);
+  if (!o.overlay.empty()) check_output("--overlay", o.overlay, MAPS);
+  if (!o.stats.empty()) check_output("--stats", o.stats, NUMBERS);
+  std::set<std::filesystem::path> files;
+  for (const std::string& file : {o.out, o.heatmap, o.overlay})
+    if (!file.empty() && !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
+      throw Error(fmt::format("{}: is asked for twice, expected a name of its own for each picture", file));
+}
+
+/// The file, after its folder was made.
+const std::string& with_folder(const std::string& file) {
+  make_folder_of(file);
+  return file;
 }
 
 void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup) {
@@ -48,7 +64,8 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
     line("pairs", fmt::format("{} of pixel and light walked, {:.1f} lights a pixel's list, longest {}",
                               stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
   if (stats.rendered.counters.overflowed_cells != 0)
-    line("overflow", fmt::format("{} cells did not fit and walked every light", stats.rendered.counters.overflowed_cells));
+    line("overflow",
+         fmt::format("{} cells did not fit and walked every light", stats.rendered.counters.overflowed_cells));
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
     passes += fmt::format("{}{} {:.3f}", passes.empty() ? "" : ", ", pass.name, pass.ms_median);
@@ -70,6 +87,8 @@ Exit render(const RenderOptions& o) {
   check_outputs(o);
   const ShadingPath path = parse_path(o.request.path);
   const Method& method = parse_method(o.request.method);
+  check_request(o.request, method);
+  const std::optional<float> exposure = parse_exposure(o.exposure);
   const Setup setup = make_setup(o.request);
   for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
   Session session(o.request, setup);
@@ -78,17 +97,18 @@ Exit render(const RenderOptions& o) {
   const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
   Rendered rendered = session.renderer().render(lighting, frames, software ? 0 : 3);
 
-  const LdrImage toned = tone_map(rendered.image, parse_exposure(o.exposure, rendered.image));
-  write_picture(o.out, rendered.image, toned);
+  const LdrImage toned = tone_map(rendered.image, exposure ? *exposure : automatic_exposure(rendered.image));
+  write_picture(with_folder(o.out), rendered.image, toned);
   Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
   const std::vector<gpu::Visit> visits = visit_all(session, lighting);
   stats.findings = walked(visits, setup.view.width(), setup.view.height());
   const std::vector<std::uint32_t> counts = walked_lights(visits);
   const std::string title = fmt::format("{}, {} lights", method.name, stats.lights);
-  if (!o.heatmap.empty()) write_png(o.heatmap, heatmap_of(session, counts, {.title = title}));
-  if (!o.overlay.empty()) write_png(o.overlay, heatmap_of(session, counts, {.title = title, .overlay = &toned}));
+  if (!o.heatmap.empty()) write_png(with_folder(o.heatmap), heatmap_of(session, counts, {.title = title}));
+  if (!o.overlay.empty())
+    write_png(with_folder(o.overlay), heatmap_of(session, counts, {.title = title, .overlay = &toned}));
   const nlohmann::json json = to_json(stats);
-  if (!o.stats.empty()) write_text(o.stats, json.dump(2) + "\n");
+  if (!o.stats.empty()) write_text(with_folder(o.stats), json.dump(2) + "\n");
   if (o.json)
     fmt::print("{}\n", json.dump(2));
   else
@@ -108,11 +128,13 @@ Run add_render(CLI::App& app) {
   command->add_option("--overlay", o->overlay, "heat map over the picture, .png");
   command->add_option("--stats", o->stats, "numbers, .json");
   command->add_option("--exposure", o->exposure, "auto or a factor")->capture_default_str();
-  command->add_option("--frames", o->frames, "frames to time; default: 20, on a software device 1");
+  command->add_option("--frames", o->frames, "frames to time; default: 20, on a software device 1")
+      ->check(whole_number(1, 100000));
   command->add_flag("--json", o->json, "print the numbers as JSON");
-  command->footer("Examples:\n"
-                  "  lamp render atrium --lights 4096 --out atrium.png --heatmap heat.png\n"
-                  "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
+  command->footer(
+      "Examples:\n"
+      "  lamp render atrium --lights 4096 --out atrium.png --heatmap heat.png\n"
+      "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
   return [o] { return render(*o); };
 }
 

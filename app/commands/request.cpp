@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
+#include "commands/command_line.h"
 #include "gpu/check.h"
 #include "scene/builtin.h"
 #include "scene/flight.h"
@@ -34,10 +36,10 @@ std::pair<float, float> parse_range(const std::string& text) {
   const std::size_t colon = text.find(':');
   float low = 0.0F;
   float high = 0.0F;
-  const bool parsed = parse_number(std::string_view(text).substr(0, colon), low) &&
-                      parse_number(colon == std::string::npos ? std::string_view(text)
-                                                              : std::string_view(text).substr(colon + 1),
-                                   high);
+  const bool parsed =
+      parse_number(std::string_view(text).substr(0, colon), low) &&
+      parse_number(colon == std::string::npos ? std::string_view(text) : std::string_view(text).substr(colon + 1),
+                   high);
   if (!parsed || !(low > 0.0F) || !(high >= low) || !std::isfinite(high))
     throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX", text));
   return {low, high};
@@ -59,19 +61,26 @@ void add_common_options(CLI::App& command, Request& r) {
   command.add_option("scene,--scene", r.scene, "a built-in scene (lamp list scenes), or a .gltf or .glb file")
       ->capture_default_str();
   command.add_option("--size", r.size, "picture size, WIDTHxHEIGHT")->capture_default_str();
-  command.add_option("--lights", r.lights, "generated lights, besides the scene's own")->capture_default_str();
+  command.add_option("--lights", r.lights, "generated lights, besides the scene's own")
+      ->check(whole_number(0, MAX_LIGHTS))
+      ->capture_default_str();
   command.add_option("--spots", r.spots, "fraction of the generated lights that are spots, 0 to 1")
       ->check(CLI::Range(0.0F, 1.0F))
       ->capture_default_str();
-  command.add_option("--range", r.range, "range of generated lights, MIN:MAX in metres; default: from their density");
-  command.add_option("--seed", r.seed, "of the generated lights")->capture_default_str();
+  command.add_option("--range", r.range,
+                     "range of generated lights in metres, MIN:MAX or one number; default: from their density");
+  command.add_option("--seed", r.seed, "of the generated lights")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
   command.add_option("--camera", r.camera, "a camera of the scene by name; default: its first");
-  command.add_option("--frame", r.frame, "frame of the scene's camera flight instead of a camera; lights move too");
+  command.add_option("--frame", r.frame, "frame of the scene's camera flight instead of a camera; lights move too")
+      ->check(whole_number(0, std::numeric_limits<int>::max()));
   command.add_option("--projection", r.projection, "camera, perspective, infinite, orthographic or off-centre")
       ->capture_default_str();
   command.add_option("--brdf", r.brdf, "ggx or blinn-phong")->capture_default_str();
   command.add_option("--device", r.device, "number or part of the name of a device (lamp list devices)");
-  command.add_option("--shader-dir", r.shader_dir, "a checkout of Lamplight whose shaders are compiled anew, with glslc");
+  command.add_option("--shader-dir", r.shader_dir,
+                     "a checkout of Lamplight whose shaders are compiled anew, with glslc");
 }
 
 void add_method_options(CLI::App& command, Request& r) {
@@ -103,6 +112,14 @@ Brdf parse_brdf(const std::string& text) {
 }
 
 const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
+
+void check_request(const Request& request, const Method& method) {
+  static_cast<void>(take(resolve_options(method, request.options)));
+  static_cast<void>(parse_size(request.size));
+  static_cast<void>(parse_range(request.range));
+  static_cast<void>(parse_path(request.path));
+  static_cast<void>(parse_brdf(request.brdf));
+}
 
 Scene load_scene(const std::string& name) {
   const auto builtin = std::ranges::find(builtin_scenes(), std::string_view(name), &BuiltinScene::name);
@@ -154,7 +171,8 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
 }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
-  return {context_->device(), shaders_,
+  return {context_->device(),
+          shaders_,
           {.method = &method,
            .options = take(resolve_options(method, options)),
            .width = setup_.view.width(),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "error.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
@@ -36,6 +37,10 @@ void add_common_options(CLI::App& command, Request& request);
 /// Adds `--method`, `--option` and `--path`.
 void add_method_options(CLI::App& command, Request& request);
 
+/// Throws Error for whatever can be known to be wrong before a scene is loaded: options of the method, size, path,
+/// BRDF.
+void check_request(const Request& request, const Method& method);
+
 /// A request made concrete on the host: nothing of it needs a device.
 struct Setup {
   Scene scene;
@@ -60,7 +65,8 @@ class Session {
   Session(const Request& request, const Setup& setup,
           ContextInfo::Validation validation = ContextInfo::Validation::off);
 
-  [[nodiscard]] Lighting lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const;
+  [[nodiscard]] Lighting lighting(const Method& method, const std::vector<std::string>& options,
+                                  ShadingPath path) const;
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
   [[nodiscard]] Context& context() { return *context_; }
 

@@ -19,7 +19,9 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
               .lights = setup.lights.size(),
               .frames = frames,
               .rendered = std::move(rendered),
-              .cells = plan.cells};
+              .cells = plan.cells,
+              .ordered = plan.ordered,
+              .approximate = plan.approximate};
   stats.rendered.image.pixels = {};
   for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, buffer.bytes);
   stats.bytes.emplace_back("total", plan.bytes());
@@ -46,20 +48,16 @@ nlohmann::json to_json(const Stats& s) {
                       {"overflowed_cells", s.rendered.counters.overflowed_cells}};
   for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
   for (const PassTime& pass : s.rendered.passes)
-    json["passes"].push_back({{"name", pass.name},
-                              {"ms_median", pass.ms_median},
-                              {"ms_p5", pass.ms_p5},
-                              {"ms_p95", pass.ms_p95}});
+    json["passes"].push_back(
+        {{"name", pass.name}, {"ms_median", pass.ms_median}, {"ms_p5", pass.ms_p5}, {"ms_p95", pass.ms_p95}});
   for (const auto& [name, bytes] : s.bytes) json["bytes"][name] = bytes;
   if (s.findings) {
     const Findings& f = *s.findings;
-    json["missed"] = f.missed;
     json["evaluations"] = f.evaluations;
-    json["useful"] = f.useful;
-    json["waste"] = f.waste();
-    json["excess"] = f.excess();
     json["list_mean"] = f.list_mean();
     json["list_max"] = f.list_max;
+    if (s.verified)
+      json.update({{"missed", f.missed}, {"useful", f.useful}, {"waste", f.waste()}, {"excess", f.excess()}});
   }
   if (s.image_max_abs_diff) json["image_max_abs_diff"] = *s.image_max_abs_diff;
   return json;

@@ -24,6 +24,9 @@ struct Stats {
   std::vector<std::pair<std::string, std::uint64_t>> bytes;
   std::uint64_t cells = 0;
   std::optional<Findings> findings;
+  bool ordered = true;       ///< the plan's lists ascend
+  bool approximate = false;  ///< the plan may miss lights
+  bool verified = false;     ///< the findings were held against a truth
   std::optional<float> image_max_abs_diff;
 };
 

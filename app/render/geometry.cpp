@@ -16,8 +16,7 @@ std::vector<vulkan::Use> with_frame(std::vector<vulkan::Use> uses, const FrameDa
 
 Geometry::Geometry(const vulkan::Device& device, const ShaderLibrary& shaders) {
   const auto make = [&](const char* name, const char* fragment, std::vector<VkFormat> colors) {
-    const vulkan::PipelineInfo info{
-        .name = name, .bindings = mesh_bindings(), .push_constant_bytes = sizeof(std::uint32_t)};
+    const vulkan::PipelineInfo info{.name = name, .bindings = mesh_bindings()};
     const std::vector<std::uint32_t> code =
         fragment == nullptr ? std::vector<std::uint32_t>() : shaders.spirv(fragment);
     return take(vulkan::Pipeline::graphics(device, info, shaders.spirv("mesh"), code,

@@ -95,13 +95,24 @@ std::vector<VkVertexInputAttributeDescription> vertex_attributes() {
 GpuScene::GpuScene(Context& context, const Scene& scene) : scene_(&scene) {
   vertices_ = upload_buffer(context, "vertices", bytes_of(scene.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   indices_ = upload_buffer(context, "indices", bytes_of(scene.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-  std::vector<gpu::MaterialData> materials;
-  std::ranges::transform(scene.materials, std::back_inserter(materials), material_data);
-  materials_ = upload_buffer(context, "materials", bytes_of(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  upload_materials(context);
   surroundings_ =
       upload_buffer(context, "surroundings", surroundings_bytes(scene), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   upload_textures(context);
   make_draws(context);
+}
+
+void GpuScene::upload_materials(Context& context) {
+  VkPhysicalDeviceProperties properties{};
+  vkGetPhysicalDeviceProperties(context.device().physical, &properties);
+  const std::uint64_t alignment = properties.limits.minUniformBufferOffsetAlignment;
+  material_stride_ = (sizeof(gpu::MaterialData) + alignment - 1) / alignment * alignment;
+  std::vector<std::byte> bytes(material_stride_ * scene_->materials.size());
+  for (std::size_t i = 0; i < scene_->materials.size(); ++i) {
+    const gpu::MaterialData data = material_data(scene_->materials[i]);
+    std::memcpy(bytes.data() + i * material_stride_, &data, sizeof(data));
+  }
+  materials_ = upload_buffer(context, "materials", bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 }
 
 void GpuScene::upload_textures(Context& context) {
@@ -129,13 +140,16 @@ VkSampler GpuScene::sampler(const vulkan::Device& device, const Texture& texture
   if (slot.get() != VK_NULL_HANDLE) return slot.get();
   constexpr std::array MODES{VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT,
                              VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
+  VkPhysicalDeviceFeatures features{};
+  vkGetPhysicalDeviceFeatures(device.physical, &features);
   const VkSamplerCreateInfo create{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                    .magFilter = texture.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
                                    .minFilter = VK_FILTER_LINEAR,
                                    .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
                                    .addressModeU = MODES[u],
                                    .addressModeV = MODES[v],
-                                   .anisotropyEnable = VK_FALSE,
+                                   .anisotropyEnable = features.samplerAnisotropy,
+                                   .maxAnisotropy = 4.0F,
                                    .maxLod = VK_LOD_CLAMP_NONE};
   VkSampler handle = VK_NULL_HANDLE;
   check(vkCreateSampler(device.handle, &create, nullptr, &handle), "creating a sampler");
@@ -170,14 +184,18 @@ const Material& GpuScene::material_of(const Draw& draw) const {
   return scene_->materials[scene_->meshes[draw.mesh].material];
 }
 
-std::array<vulkan::Bound, 5> GpuScene::textures(std::uint32_t material) const {
+std::array<vulkan::Bound, 6> GpuScene::material_bound(std::uint32_t material) const {
   const std::array<const Texture*, 5> textures = textures_of(scene_->materials[material]);
-  std::array<vulkan::Bound, 5> bound;
+  std::array<vulkan::Bound, 6> bound;
   for (std::uint32_t i = 0; i < 5; ++i) {
     const GpuImage& image =
         textures[i]->image < 0 ? images_.back() : images_[static_cast<std::size_t>(textures[i]->image)];
     bound[i] = {5 + i, image.combined(material_samplers_[material][i])};
   }
+  bound[5] = {1, {.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                  .buffer = materials_.handle(),
+                  .offset = material * material_stride_,
+                  .range = sizeof(gpu::MaterialData)}};
   return bound;
 }
 

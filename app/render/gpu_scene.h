@@ -28,16 +28,16 @@ class GpuScene {
   [[nodiscard]] std::span<const Draw> blended() const { return blended_; }  ///< one instance each
   [[nodiscard]] const Material& material_of(const Draw& draw) const;
 
-  [[nodiscard]] vulkan::Resource materials() const { return vulkan::Resource::storage(materials_.handle()); }
   [[nodiscard]] vulkan::Resource instances() const { return vulkan::Resource::storage(instances_.handle()); }
   [[nodiscard]] vulkan::Resource surroundings() const { return vulkan::Resource::storage(surroundings_.handle()); }
-  /// A material's five textures at bindings 5 .. 9.
-  [[nodiscard]] std::array<vulkan::Bound, 5> textures(std::uint32_t material) const;
+  /// A material: its uniform block at binding 1, its five textures at bindings 5 .. 9.
+  [[nodiscard]] std::array<vulkan::Bound, 6> material_bound(std::uint32_t material) const;
 
   void bind_geometry(VkCommandBuffer commands) const;
   void draw(VkCommandBuffer commands, const Draw& draw) const;
 
  private:
+  void upload_materials(Context& context);
   void upload_textures(Context& context);
   void make_draws(Context& context);
   [[nodiscard]] VkSampler sampler(const vulkan::Device& device, const Texture& texture);
@@ -46,6 +46,7 @@ class GpuScene {
   vulkan::Buffer vertices_;
   vulkan::Buffer indices_;
   vulkan::Buffer materials_;
+  std::uint64_t material_stride_ = 0;  ///< bytes from one uniform block to the next
   vulkan::Buffer instances_;
   vulkan::Buffer surroundings_;
   std::vector<GpuImage> images_;  ///< the scene's, then one white texel

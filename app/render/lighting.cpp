@@ -53,10 +53,7 @@ std::vector<vulkan::DescriptorBinding> gbuffer_bindings() {
 vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
                                   const vulkan::PlanRunner& runner, vulkan::GraphicsState state, const char* name) {
   const vulkan::BoundLookUp lookup = runner.lookup({});
-  vulkan::PipelineInfo pipeline{.name = name,
-                                .constants = lookup.constants,
-                                .bindings = mesh_bindings(),
-                                .push_constant_bytes = sizeof(std::uint32_t)};
+  vulkan::PipelineInfo pipeline{.name = name, .constants = lookup.constants, .bindings = mesh_bindings()};
   pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
   append(pipeline.bindings, lookup_bindings(runner.plan().lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),

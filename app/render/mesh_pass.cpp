@@ -48,7 +48,8 @@ void begin_rendering(VkCommandBuffer commands, const Attachments& attachments, c
 
 std::vector<vulkan::DescriptorBinding> mesh_bindings() {
   std::vector<vulkan::DescriptorBinding> bindings;
-  for (std::uint32_t i = 0; i < 5; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  for (std::uint32_t i = 0; i < 5; ++i)
+    bindings.push_back({i, i == 1 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   for (std::uint32_t i = 5; i < 10; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   return bindings;
 }
@@ -68,7 +69,6 @@ void draw_meshes(vulkan::Recorder& recorder, const MeshDraws& what) {
   const GpuScene& scene = *what.scene;
   scene.bind_geometry(commands);
   std::vector<vulkan::Bound> shared_bound{{0, what.frame->frame()},
-                                          {1, scene.materials()},
                                           {2, scene.instances()},
                                           {3, what.frame->lights()},
                                           {4, scene.surroundings()}};
@@ -83,8 +83,7 @@ void draw_meshes(vulkan::Recorder& recorder, const MeshDraws& what) {
         opaque && what.opaque_pipeline != nullptr ? what.opaque_pipeline : what.pipeline;
     if (pipeline != bound_pipeline) recorder.bind(*pipeline, shared_bound);
     if (material != bound_material || pipeline != bound_pipeline) {
-      recorder.push(*pipeline, scene.textures(material));
-      vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_ALL, 0, sizeof(material), &material);
+      recorder.push(*pipeline, scene.material_bound(material));
       vkCmdSetCullMode(commands,
                        scene.material_of(draw).double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
     }

@@ -123,7 +123,7 @@ void add_buildings(Scene& scene, const Materials& m) {
     for (int k = 0; k < BLOCKS_Z; ++k) {
       if (is_park(i, k)) continue;
       const glm::vec2 inner = BLOCK_M - 7.0F;
-      const glm::ivec2 lots(1 + static_cast<int>(random.below(3)), 1 + static_cast<int>(random.chance(0.3F)));
+      const glm::ivec2 lots(1 + static_cast<int>(random.below(3)), 1 + static_cast<int>(random.chance(0.22F)));
       const glm::vec2 lot = inner / glm::vec2(lots);
       for (int x = 0; x < lots.x; ++x) {
         for (int z = 0; z < lots.y; ++z) {

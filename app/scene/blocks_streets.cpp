@@ -138,7 +138,8 @@ Parts make_tree(Scene& scene, const Materials& m) {
   return {{add_mesh(scene, trunk, m.bark)}, {add_mesh(scene, leaves, m.leaves)}};
 }
 
-/// Bollards and a bench by the first camera's pavement, and at every crossing of the middle street.
+/// Bollards, a sign and a bench at every crossing of the middle street; the first sign stands half a metre before the
+/// first camera, so that its picture begins near.
 void add_pavement_things(Scene& scene, const Materials& m) {
   Geometry bollard;
   const std::array<glm::vec2, 6> profile{
@@ -154,8 +155,13 @@ void add_pavement_things(Scene& scene, const Materials& m) {
   for (const float x : {-0.7F, 0.7F}) add_box(bench, {x - 0.03F, -0.05F, 0.02F}, {x + 0.03F, 0.43F, 0.44F});
   for (const float x : {-0.7F, 0.7F}) add_box(bench, {x - 0.03F, 0.3F, 0.43F}, {x + 0.03F, 0.95F, 0.47F});
   const std::uint32_t bench_mesh = add_mesh(scene, bench, m.bark);
+  Geometry sign;
+  add_cylinder(sign, 0.03F, -0.1F, 3.0F, 12);
+  add_box(sign, {-0.06F, 2.35F, -0.3F}, {-0.028F, 2.95F, 0.3F});
+  const std::uint32_t sign_mesh = add_mesh(scene, sign, m.metal);
   for (int i = 0; i < BLOCKS_X; ++i) {
     const float x = crossing_at(i, 0).x + HALF_STREET;
+    place(scene, sign_mesh, at(x + 1.79F, PAVEMENT_Y, HALF_STREET + 0.59F));
     for (const float z : {-HALF_STREET - 0.5F, HALF_STREET + 0.5F}) {
       for (const float step : {0.6F, 4.6F, 6.2F, 7.8F}) place(scene, bollard_mesh, at(x + step, PAVEMENT_Y, z));
     }

@@ -94,6 +94,7 @@ shared::Light pack(const Light& light) {
   packed.inner_angle = light.inner_angle;
   const double cos_outer = cosine(light.outer_angle);
   packed.cos_outer = static_cast<float>(cos_outer);
+  packed.sin_outer = static_cast<float>(std::sin(double{light.outer_angle}));
   packed.spot_scale = static_cast<float>(1.0 / std::max(0.001, cosine(light.inner_angle) - cos_outer));
   return packed;
 }

@@ -1,6 +1,7 @@
 // The table of methods: one row each, in the order of the docs. A new method is one more row here.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 
 #include "lamplight/method.h"
 #include "methods/methods.h"
@@ -8,7 +9,12 @@
 namespace lamp {
 
 std::span<const Method> methods() {
-  static const std::vector<Method> table{all_method(), tiled_method(), tiled_bits_method(), clustered_method()};
+  static const std::vector<Method> table = [] {
+    std::vector<Method> rows{all_method()};
+    std::ranges::copy(tiled_methods(), std::back_inserter(rows));
+    rows.push_back(clustered_method());
+    return rows;
+  }();
   return table;
 }
 
@@ -17,19 +23,22 @@ Result<const Method*> find_method(std::string_view name) {
   if (found != methods().end()) return &*found;
   std::vector<std::string_view> names;
   for (const Method& method : methods()) names.push_back(method.name);
-  std::string message = "there is no such method; the nearest are";
-  for (const std::string& near : nearest_names(name, names)) message += " " + near;
+  std::string message = "there is no such method; the nearest are ";
+  const std::vector<std::string> nearest = nearest_names(name, names);
+  for (std::size_t i = 0; i < nearest.size(); ++i) message += (i == 0 ? "" : ", ") + nearest[i];
   return Error{"method '" + std::string(name) + "'", message};
 }
 
 Result<Plan> make_plan(const Method& method, const Problem& problem) {
-  const std::uint32_t limit = problem.traits.max_image_size;
+  const std::uint32_t limit = std::min(problem.traits.max_image_size, MAX_IMAGE_SIZE);
   if (problem.width == 0 || problem.height == 0 || problem.width > limit || problem.height > limit)
     return Error{"size " + std::to_string(problem.width) + "x" + std::to_string(problem.height),
                  "expected 1 to " + std::to_string(limit) + " pixels a side on this device"};
   if (problem.light_capacity > MAX_LIGHTS)
     return Error{"light capacity", "expected at most " + std::to_string(MAX_LIGHTS) + ", got " +
                                        std::to_string(problem.light_capacity)};
+  if (method.check != nullptr)
+    if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);
   plan.light_capacity = problem.light_capacity;
   if (auto error = plan_check(plan, problem.traits)) {

@@ -2,30 +2,81 @@
 // Promise: a plan that passes can be allocated and recorded without a further check (short of running out of memory).
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 
 #include "lamplight/plan.h"
 #include "lamplight/shader_code.h"
+#include "lamplight/shared/counters.h"
 
 namespace lamp {
 namespace {
 
-bool is_buffer(const Plan& plan, ResourceId id) {
-  return id >= PLAN_BUFFER && id - PLAN_BUFFER < plan.buffers.size();
-}
+// Bytes that one indirect command reads: VkDispatchIndirectCommand, VkDrawIndirectCommand.
+constexpr std::uint64_t DISPATCH_BYTES = 12;
+constexpr std::uint64_t DRAW_BYTES = 16;
+
+bool is_buffer(const Plan& plan, ResourceId id) { return id >= PLAN_BUFFER && id - PLAN_BUFFER < plan.buffers.size(); }
 
 bool exists(const Plan& plan, ResourceId id) { return id < PLAN_BUFFER || is_buffer(plan, id); }
 
 const BufferDesc& buffer_of(const Plan& plan, ResourceId id) { return plan.buffers[id - PLAN_BUFFER]; }
 
+bool is_upload(const Plan& plan, ResourceId id) {
+  return is_buffer(plan, id) && buffer_of(plan, id).memory == BufferMemory::upload;
+}
+
+std::optional<Error> check_bytes(const std::string& source, std::uint64_t bytes, const DeviceTraits& traits) {
+  if (bytes <= traits.max_storage_buffer_bytes) return std::nullopt;
+  return Error{source, "needs " + std::to_string(bytes) + " bytes, the device's storage buffers hold at most " +
+                           std::to_string(traits.max_storage_buffer_bytes)};
+}
+
 std::optional<Error> check_buffer(const BufferDesc& buffer, const DeviceTraits& traits) {
   const std::string source = "buffer " + buffer.name;
   if (buffer.bytes == 0 || buffer.bytes % 4 != 0)
     return Error{source, "size must be a positive multiple of 4 bytes, got " + std::to_string(buffer.bytes)};
-  if (buffer.bytes > traits.max_storage_buffer_bytes)
-    return Error{source, "needs " + std::to_string(buffer.bytes) + " bytes, the device's storage buffers hold at most " +
-                             std::to_string(traits.max_storage_buffer_bytes)};
+  // Zeros are written on the device, after host passes have run: they would erase what those wrote.
+  if (buffer.memory == BufferMemory::upload && buffer.zeroed)
+    return Error{source, "an upload buffer cannot be zeroed; its host pass writes all of it"};
+  return check_bytes(source, buffer.bytes, traits);
+}
+
+std::optional<Error> check_shared(const std::string& source, std::uint32_t bytes, const DeviceTraits& traits) {
+  if (bytes <= traits.shared_memory_bytes) return std::nullopt;
+  return Error{source, "needs " + std::to_string(bytes) + " bytes of shared memory, the device has " +
+                           std::to_string(traits.shared_memory_bytes)};
+}
+
+/// The stage is the extension of the file that the shader was built from.
+std::optional<Error> check_shader(const std::string& source, const std::string& name, std::string_view extension) {
+  const ShaderCode* code = find_shader(library_shaders(), name);
+  if (code == nullptr) return Error{source, "there is no shader named '" + name + "'"};
+  if (code->source.ends_with(extension)) return std::nullopt;
+  return Error{source, "the shader '" + name + "' is not a " + std::string(extension) + " shader"};
+}
+
+std::optional<Error> check_raster(const std::string& source, const RasterState& raster, const DeviceTraits& traits) {
+  const std::uint32_t limit = traits.max_image_size;
+  if (raster.width == 0 || raster.height == 0 || raster.width > limit || raster.height > limit)
+    return Error{source, "viewport must be 1 to " + std::to_string(limit) + " pixels a side, got " +
+                             std::to_string(raster.width) + "x" + std::to_string(raster.height)};
+  if (raster.samples != 1 && raster.samples != 4)
+    return Error{source, "samples must be 1 or 4, got " + std::to_string(raster.samples)};
+  return std::nullopt;
+}
+
+std::optional<Error> check_groups(const std::string& source, const Extent& extent, std::uint32_t light_capacity,
+                                  const DeviceTraits& traits) {
+  const std::uint64_t per_group = extent.lights_per_group;
+  const std::uint64_t for_lights = per_group == 0 ? 0 : (light_capacity + per_group - 1) / per_group;
+  const std::uint64_t x = per_group == 0 ? extent.x : std::max<std::uint64_t>(1, for_lights);
+  const std::array<std::uint64_t, 3> counts{x, extent.y, extent.z};
+  for (std::size_t axis = 0; axis < counts.size(); ++axis)
+    if (counts[axis] == 0 || counts[axis] > traits.max_groups[axis])
+      return Error{source, "needs " + std::to_string(counts[axis]) + " work groups along axis " + std::to_string(axis) +
+                               ", the device takes 1 to " + std::to_string(traits.max_groups[axis])};
   return std::nullopt;
 }
 
@@ -40,78 +91,87 @@ class PassChecker {
 
   std::optional<Error> check(const Pass& pass) {
     const std::string source = "pass " + pass.name;
-    if (auto error = check_kind(source, pass)) return error;
-    if (auto error = check_extent(source, pass)) return error;
-    return check_bindings(source, pass.bindings);
+    const bool host = pass.kind == PassKind::host;
+    if (auto error = host ? check_host(source, pass) : check_gpu(source, pass)) return error;
+    if (auto error = check_shared(source, pass.shared_bytes, traits_)) return error;
+    if (auto error = check_bindings(source, pass.bindings)) return error;
+    for (const Binding& binding : pass.bindings)
+      if (binding.access != Access::read) written_.insert(binding.resource);
+    return std::nullopt;
   }
 
-  std::optional<Error> check_lookup(const LookUp& lookup) {
+  [[nodiscard]] std::optional<Error> check_lookup(const LookUp& lookup) const {
+    const std::string source = "look-up " + lookup.name;
+    if (lookup.name.empty()) return Error{"look-up", "has no name"};
     for (const Binding& binding : lookup.bindings)
-      if (binding.access != Access::read) return Error{"look-up " + lookup.name, "its bindings must be read-only"};
-    return check_bindings("look-up " + lookup.name, lookup.bindings);
+      if (binding.access != Access::read) return Error{source, "its bindings must be read-only"};
+    return check_bindings(source, lookup.bindings);
   }
 
  private:
-  std::optional<Error> check_kind(const std::string& source, const Pass& pass) {
-    if (pass.kind == PassKind::host) {
-      if (gpu_began_) return Error{source, "host passes must come before every GPU pass"};
-      if (pass.host == nullptr) return Error{source, "has no host function"};
-      for (const Binding& binding : pass.bindings)
-        if (!is_buffer(plan_, binding.resource) || buffer_of(plan_, binding.resource).memory != BufferMemory::upload)
-          return Error{source, "host passes may bind upload buffers only"};
-      return std::nullopt;
-    }
+  [[nodiscard]] std::optional<Error> check_host(const std::string& source, const Pass& pass) const {
+    if (gpu_began_) return Error{source, "host passes must come before every GPU pass"};
+    if (pass.host == nullptr) return Error{source, "has no host function"};
+    for (const Binding& binding : pass.bindings)
+      if (!is_upload(plan_, binding.resource)) return Error{source, "host passes may bind upload buffers only"};
+    return std::nullopt;
+  }
+
+  std::optional<Error> check_gpu(const std::string& source, const Pass& pass) {
     gpu_began_ = true;
-    if (find_shader(library_shaders(), pass.shader) == nullptr)
-      return Error{source, "there is no shader named '" + pass.shader + "'"};
-    if (pass.kind == PassKind::raster) return check_raster(source, pass.raster);
+    const bool raster = pass.kind == PassKind::raster;
+    for (std::size_t i = 0; i < pass.bindings.size(); ++i)
+      if (pass.bindings[i].access != Access::read && is_upload(plan_, pass.bindings[i].resource))
+        return Error{source, "binding " + std::to_string(i) + " writes to an upload buffer, which only the host may"};
+    if (pass.on_projection_change)
+      for (const Binding& binding : pass.bindings)
+        if (is_buffer(plan_, binding.resource) && buffer_of(plan_, binding.resource).zeroed)
+          return Error{source, "is not recorded in every frame, but binds buffer " +
+                                   buffer_of(plan_, binding.resource).name + ", which is zeroed in every frame"};
+    if (auto error = check_extent(source, pass)) return error;
+    if (!raster && pass.shared_bytes > traits_.shared_memory_bytes)
+      return Error{source, "needs " + std::to_string(pass.shared_bytes) + " bytes of shared memory, the device has " +
+                               std::to_string(traits_.shared_memory_bytes)};
+    if (!raster) return check_shader(source, pass.shader, ".comp");
+    if (auto error = check_raster(source, pass.raster, traits_)) return error;
+    if (auto error = check_shader(source, pass.raster.vertex_shader, ".vert")) return error;
+    return check_shader(source, pass.shader, ".frag");
+  }
+
+  [[nodiscard]] std::optional<Error> check_extent(const std::string& source, const Pass& pass) const {
+    if (pass.extent.indirect != NO_RESOURCE) return check_indirect(source, pass);
+    if (pass.kind == PassKind::raster) return std::nullopt;
+    return check_groups(source, pass.extent, plan_.light_capacity, traits_);
+  }
+
+  [[nodiscard]] std::optional<Error> check_indirect(const std::string& source, const Pass& pass) const {
+    const ResourceId id = pass.extent.indirect;
+    const std::uint64_t offset = pass.extent.indirect_offset;
+    if (!is_buffer(plan_, id) || !buffer_of(plan_, id).indirect)
+      return Error{source, "indirect counts must come from a buffer of the plan that is marked indirect"};
+    const std::uint64_t needed = pass.kind == PassKind::raster ? DRAW_BYTES : DISPATCH_BYTES;
+    const std::uint64_t bytes = buffer_of(plan_, id).bytes;
+    if (offset % 4 != 0 || offset > bytes || bytes - offset < needed)
+      return Error{source, "indirect offset " + std::to_string(offset) + " is outside its buffer"};
+    if (!written_.contains(id))
+      return Error{source,
+                   "its indirect counts come from buffer " + buffer_of(plan_, id).name + ", which nothing has written"};
     return std::nullopt;
   }
 
-  std::optional<Error> check_raster(const std::string& source, const RasterState& raster) const {
-    if (find_shader(library_shaders(), raster.vertex_shader) == nullptr)
-      return Error{source, "there is no shader named '" + raster.vertex_shader + "'"};
-    if (raster.width == 0 || raster.height == 0 || raster.width > traits_.max_image_size ||
-        raster.height > traits_.max_image_size)
-      return Error{source, "viewport must be 1 to " + std::to_string(traits_.max_image_size) + " pixels a side, got " +
-                               std::to_string(raster.width) + "x" + std::to_string(raster.height)};
-    return std::nullopt;
-  }
-
-  std::optional<Error> check_extent(const std::string& source, const Pass& pass) {
-    const Extent& extent = pass.extent;
-    if (extent.indirect != NO_RESOURCE) {
-      if (!is_buffer(plan_, extent.indirect) || !buffer_of(plan_, extent.indirect).indirect)
-        return Error{source, "indirect counts must come from a buffer of the plan that is marked indirect"};
-      if (extent.indirect_offset % 4 != 0 || extent.indirect_offset + 16 > buffer_of(plan_, extent.indirect).bytes)
-        return Error{source, "indirect offset " + std::to_string(extent.indirect_offset) + " is outside its buffer"};
-      return check_bindings(source, {{{extent.indirect, Access::read}}});
-    }
-    if (pass.kind != PassKind::compute) return std::nullopt;
-    const std::uint32_t per_group = extent.lights_per_group;
-    const std::uint32_t for_lights = per_group == 0 ? 0 : (plan_.light_capacity + per_group - 1) / per_group;
-    const std::uint32_t counts[3] = {std::max(extent.x, for_lights), extent.y, extent.z};
-    for (int axis = 0; axis < 3; ++axis)
-      if (counts[axis] == 0 || counts[axis] > traits_.max_groups[axis])
-        return Error{source, "needs " + std::to_string(counts[axis]) + " work groups along axis " + std::to_string(axis) +
-                                 ", the device takes 1 to " + std::to_string(traits_.max_groups[axis])};
-    return std::nullopt;
-  }
-
-  std::optional<Error> check_bindings(const std::string& source, const std::vector<Binding>& bindings) {
+  [[nodiscard]] std::optional<Error> check_bindings(const std::string& source,
+                                                    const std::vector<Binding>& bindings) const {
     for (std::size_t i = 0; i < bindings.size(); ++i) {
       const Binding& binding = bindings[i];
+      const std::string name = "binding " + std::to_string(i);
       if (!exists(plan_, binding.resource))
-        return Error{source, "binding " + std::to_string(i) + " names resource " + std::to_string(binding.resource) +
-                                 ", which does not exist"};
+        return Error{source, name + " names resource " + std::to_string(binding.resource) + ", which does not exist"};
       if (binding.access != Access::read && binding.resource < PLAN_BUFFER)
-        return Error{source, "binding " + std::to_string(i) + " writes to an input"};
+        return Error{source, name + " writes to an input"};
       if (binding.access != Access::write && !written_.contains(binding.resource))
-        return Error{source, "binding " + std::to_string(i) + " reads buffer " +
-                                 buffer_of(plan_, binding.resource).name + ", which nothing has written"};
+        return Error{source,
+                     name + " reads buffer " + buffer_of(plan_, binding.resource).name + ", which nothing has written"};
     }
-    for (const Binding& binding : bindings)
-      if (binding.access != Access::read) written_.insert(binding.resource);
     return std::nullopt;
   }
 
@@ -129,21 +189,32 @@ std::optional<Error> check_passes(const Plan& plan, const std::vector<Pass>& pas
   return checker.check_lookup(lookup);
 }
 
+std::optional<Error> check_counters(const Plan& plan) {
+  if (plan.counters == NO_RESOURCE) return std::nullopt;
+  if (!is_buffer(plan, plan.counters)) return Error{"counters", "must be a buffer of the plan"};
+  const BufferDesc& buffer = buffer_of(plan, plan.counters);
+  if (buffer.bytes >= sizeof(shared::Counters) && buffer.zeroed) return std::nullopt;
+  return Error{"counters", "must be a zeroed buffer of at least " + std::to_string(sizeof(shared::Counters)) +
+                               " bytes, got " + std::to_string(buffer.bytes) + (buffer.zeroed ? "" : ", not zeroed")};
+}
+
 }  // namespace
 
 std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
   for (const BufferDesc& buffer : plan.buffers)
     if (auto error = check_buffer(buffer, traits)) return error;
-  if (plan.counters != NO_RESOURCE && !is_buffer(plan, plan.counters))
-    return Error{"counters", "must be a buffer of the plan"};
+  const std::uint64_t light_bytes = std::uint64_t{plan.light_capacity} * sizeof(shared::Light);
+  if (auto error = check_bytes("light buffer", light_bytes, traits)) return error;
+  if (auto error = check_counters(plan)) return error;
   if (plan.cells == 0) return Error{"cells", "a look-up has at least one cell"};
   if (auto error = check_passes(plan, plan.passes, plan.lookup, traits)) return error;
   if (!plan.fused) return std::nullopt;
   const FusedLookUp& fused = *plan.fused;
-  if (fused.group_width * fused.group_height == 0 ||
-      fused.group_width * fused.group_height > traits.max_group_invocations)
+  const std::uint64_t threads = std::uint64_t{fused.group_width} * fused.group_height;
+  if (threads == 0 || threads > traits.max_group_invocations)
     return Error{"fused look-up " + fused.lookup.name,
                  "its work group must have 1 to " + std::to_string(traits.max_group_invocations) + " threads"};
+  if (auto error = check_shared("fused look-up " + fused.lookup.name, fused.shared_bytes, traits)) return error;
   return check_passes(plan, fused.passes, fused.lookup, traits);
 }
 

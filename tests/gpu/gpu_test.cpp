@@ -4,11 +4,13 @@
 
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
 namespace lamp::app {
 namespace {
 
 std::optional<Context> the_context;
+std::vector<std::function<void()>> releases;
 
 /// Destroys the context before main returns, while the driver is still whole; its last messages count too.
 class ContextEnvironment : public ::testing::Environment {
@@ -18,17 +20,29 @@ class ContextEnvironment : public ::testing::Environment {
     the_context.emplace(
         ContextInfo{.device = device == nullptr ? "" : device, .validation = ContextInfo::Validation::on});
   }
-  void TearDown() override { the_context.reset(); }
+  void TearDown() override {
+    for (; !releases.empty(); releases.pop_back()) releases.back()();
+    for (const std::string& message : the_context->take_messages()) ADD_FAILURE() << message;
+    the_context.reset();
+  }
 };
 
 }  // namespace
 
 Context& test_context() { return *the_context; }
 
-const ShaderLibrary& test_shaders() {
+const ShaderLibrary& shader_library() {
   static const ShaderLibrary shaders;
   return shaders;
 }
+
+std::span<const std::uint32_t> test_shader(std::string_view name) {
+  const ShaderCode* code = find_shader(test_shaders(), name);
+  if (code == nullptr) throw Error("there is no test shader named " + std::string(name));
+  return code->spirv;
+}
+
+void at_context_end(std::function<void()> release) { releases.push_back(std::move(release)); }
 
 }  // namespace lamp::app
 

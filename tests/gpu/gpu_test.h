@@ -5,14 +5,27 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "gpu/check.h"
 #include "render/renderer.h"
+
+namespace lamp {
+/// The tests' own shaders, below tests/gpu/shaders.
+[[nodiscard]] std::span<const ShaderCode> test_shaders();
+}  // namespace lamp
 
 namespace lamp::app {
 
 /// The device of the test run: LAMPLIGHT_TEST_DEVICE (number or part of a name), else the best.
 [[nodiscard]] Context& test_context();
-[[nodiscard]] const ShaderLibrary& test_shaders();
+[[nodiscard]] const ShaderLibrary& shader_library();
+
+/// A shader of the tests' own, by name.
+[[nodiscard]] std::span<const std::uint32_t> test_shader(std::string_view name);
+
+/// Calls `release` before the context goes: for what tests keep between each other. Last come, first released.
+void at_context_end(std::function<void()> release);
 
 class GpuTest : public ::testing::Test {
  protected:

@@ -216,7 +216,7 @@ std::vector<float> clearance(const Scene& s, const std::vector<glm::vec3>& point
     const Mesh& mesh = s.meshes[instance.mesh];
     const auto indices = indices_of(s, mesh);
     for (std::size_t i = 0; i < indices.size(); i += 3) {
-      std::array<glm::vec3, 3> t;
+      std::array<glm::vec3, 3> t{};
       for (std::size_t k = 0; k < 3; ++k) {
         const Vertex& vertex = s.vertices[std::size_t{mesh.vertex_offset} + indices[i + k]];
         t[k] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0F));
@@ -242,6 +242,7 @@ TEST_P(EveryScene, FlightStaysInOpenAir) {
   lamp::app::Flight flight = *s.flight;
   flight.frames *= 5;
   std::vector<glm::vec3> eyes;
+  eyes.reserve(flight.frames);
   for (std::uint32_t frame = 0; frame < flight.frames; ++frame) {
     eyes.emplace_back(lamp::app::flight_camera(flight, frame).world_from_camera[3]);
   }
@@ -304,10 +305,17 @@ TEST(BuiltinScenes, BlocksIsDeepAndGlows) {
     for (const std::uint32_t index : indices_of(blocks, blocks.meshes[instance.mesh])) {
       const Vertex& vertex = blocks.vertices[std::size_t{blocks.meshes[instance.mesh].vertex_offset} + index];
       const glm::vec3 p(instance.world_from_object * glm::vec4(vertex.position, 1.0F));
-      deepest = std::max(deepest, glm::dot(p - eye, ahead));
+      const float depth = glm::dot(p - eye, ahead);
+      deepest = std::max(deepest, depth);
     }
   }
   EXPECT_GT(deepest, 1000.0F);
+  std::size_t buildings = 0;  // each has four walls of shops
+  for (const Mesh& mesh : blocks.meshes) {
+    if (blocks.materials[mesh.material].name == "shop fronts") buildings += mesh.index_count / 24;
+  }
+  EXPECT_GE(buildings, 200U);
+  EXPECT_LE(buildings, 600U);
   EXPECT_TRUE(std::any_of(blocks.materials.begin(), blocks.materials.end(),
                           [](const Material& m) { return m.emissive_texture.image >= 0; }));
 }

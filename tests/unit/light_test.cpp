@@ -121,7 +121,7 @@ TEST(PackLight, Spot) {
   EXPECT_EQ(packed.outer_angle, light.outer_angle);
   EXPECT_FLOAT_EQ(packed.cos_outer, 0.70710678F);
   EXPECT_FLOAT_EQ(packed.spot_scale, 1.0F / (std::cos(0.2F) - 0.70710678F));
-  EXPECT_EQ(packed.reserved, 0U);
+  EXPECT_FLOAT_EQ(packed.sin_outer, 0.70710678F);
 }
 
 TEST(PackLight, RightAngleHasACosineOfExactlyZero) {

@@ -21,7 +21,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
-#include "common/punctual.glsl"
+#include "common/shade_cell.glsl"
 #include "common/surroundings.glsl"
 
 void main() {
@@ -36,9 +36,7 @@ void main() {
   const float z_view = z_view_of(frame, depth);
   const Surface s = read_surface(pixel, z_view);
   precise vec3 sum = vec3(0.0);
-  uint light;
-  if (WALK)
-    for (Walk walk = walk_begin(uvec2(pixel), z_view); walk_next(walk, light);) sum += shade_light(s, lights[light]);
+  if (WALK) sum = shade_cell(s, uvec2(pixel), z_view);
   const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
   imageStore(hdr_image, pixel, vec4(shade_surroundings(s, emission) + sum, 1.0));
 }

@@ -15,7 +15,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   DirectionalData directional_lights[];
 };
 #include "lookup.glsl"
-#include "common/punctual.glsl"
+#include "common/shade_cell.glsl"
 #include "common/surroundings.glsl"
 #include "common/eye.glsl"
 
@@ -31,10 +31,7 @@ void main() {
   const float z_view = z_view_of(frame, gl_FragCoord.z);
   const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
   const Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
-  precise vec3 sum = vec3(0.0);
-  uint light;
-  for (Walk walk = walk_begin(uvec2(gl_FragCoord.xy), z_view); walk_next(walk, light);)
-    sum += shade_light(s, lights[light]);
-  const float alpha = materials[material_index].alpha_mode == ALPHA_BLEND ? color.a : 1.0;
+  const vec3 sum = shade_cell(s, uvec2(gl_FragCoord.xy), z_view);
+  const float alpha = material.alpha_mode == ALPHA_BLEND ? color.a : 1.0;
   out_color = vec4(shade_surroundings(s, emission) + sum, alpha);
 }

@@ -13,6 +13,9 @@ namespace lamp {
 /// One line for a person: what is wrong, where, and what was expected.
 /// `source` names the element ("light 3", "option tile", "buffer lists"), `message` says the rest.
 struct Error {
+  /// Both texts, always: an `Error("...")` that meant another namespace's exception does not compile.
+  Error(std::string where, std::string what) : source(std::move(where)), message(std::move(what)) {}
+
   std::string source;
   std::string message;
 
@@ -45,6 +48,5 @@ class Result {
  private:
   std::variant<T, Error> state_;
 };
-
 
 }  // namespace lamp

@@ -37,8 +37,10 @@ class Options {
 };
 
 inline constexpr std::uint32_t MAX_LIGHTS = 1U << 24;
+inline constexpr std::uint32_t MAX_IMAGE_SIZE = 1U << 16;  ///< pixels a side, whatever a device says
 
-/// What a method plans for. Sizes in pixels, 1 .. traits.max_image_size; light_capacity up to MAX_LIGHTS.
+/// What a method plans for. Sizes in pixels, 1 .. traits.max_image_size and MAX_IMAGE_SIZE; light_capacity up to
+/// MAX_LIGHTS.
 struct Problem {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -53,12 +55,13 @@ struct Method {
   std::string_view source;   ///< author, title, venue, section
   std::string_view summary;  ///< one sentence: the idea
   std::string_view result;   ///< what it makes: the name of its look-up
-  bool ordered = true;       ///< lists ascend
-  bool approximate = false;  ///< may miss lights, by the paper's design
+  bool ordered = true;       ///< lists ascend, with the default options (else see Plan::ordered)
+  bool approximate = false;  ///< may miss lights, by the paper's design (likewise)
   bool needs_depth = true;   ///< reads the depth buffer
   bool any_depth = false;    ///< the look-up is right for any depth of a pixel, not only the depth buffer's
   std::vector<OptionSpec> options;
   Plan (*plan)(const Problem&) = nullptr;
+  std::optional<Error> (*check)(const Problem&) = nullptr;  ///< why options or sizes do not go together; may be null
 };
 
 /// Every method, in the order of the docs.

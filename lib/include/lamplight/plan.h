@@ -14,7 +14,6 @@
 
 #include "lamplight/error.h"
 #include "lamplight/shared/frame.h"
-#include "lamplight/shared/frame.h"
 #include "lamplight/shared/light.h"
 
 namespace lamp {
@@ -38,14 +37,14 @@ struct Binding {
 
 enum class BufferMemory : std::uint8_t {
   device,  ///< GPU only
-  upload,  ///< written by host passes, read by the GPU
+  upload,  ///< written by host passes, only read by the GPU
 };
 
 struct BufferDesc {
   std::string name;
   std::uint64_t bytes = 0;  ///< > 0, a multiple of 4
   BufferMemory memory = BufferMemory::device;
-  bool zeroed = false;    ///< filled with zeros at the start of every frame
+  bool zeroed = false;    ///< filled with zeros at the start of every frame; device memory only
   bool indirect = false;  ///< holds group or draw counts
 };
 
@@ -66,7 +65,7 @@ struct RasterState {
   std::string vertex_shader;
   std::uint32_t width = 0;   ///< viewport, pixels
   std::uint32_t height = 0;  ///< viewport, pixels
-  std::uint32_t samples = 1;
+  std::uint32_t samples = 1;  ///< 1 or 4: what every device has without attachments
   enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
 };
 
@@ -88,6 +87,8 @@ struct Pass {
   Extent extent;
   RasterState raster;           ///< raster passes
   HostFunction host = nullptr;  ///< host passes; they run while recording, before every GPU pass
+  bool on_projection_change = false;  ///< only in frames whose projection is not the last frame's; its output is kept
+  std::uint32_t shared_bytes = 0;     ///< shared memory of a work group, for plan_check
 };
 
 /// How a shader reads the result: the file lookup/NAME.glsl, its constants and its buffers.
@@ -108,6 +109,7 @@ struct FusedLookUp {
   std::vector<Pass> passes;  ///< what must run before, instead of Plan::passes
   std::uint32_t group_width = 0;
   std::uint32_t group_height = 0;
+  std::uint32_t shared_bytes = 0;  ///< shared memory of a work group, for plan_check
 };
 
 struct Plan {
@@ -116,8 +118,10 @@ struct Plan {
   LookUp lookup;
   std::optional<FusedLookUp> fused;
   std::uint64_t cells = 1;                ///< cells of the look-up
+  bool ordered = true;                    ///< lists ascend
+  bool approximate = false;               ///< may miss lights, by the paper's design
   std::uint32_t light_capacity = 0;       ///< the problem's
-  ResourceId counters = NO_RESOURCE;      ///< shared::Counters, or NO_RESOURCE if nothing can overflow
+  ResourceId counters = NO_RESOURCE;      ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
 
   /// Adds a buffer and returns its id.
   ResourceId add(BufferDesc buffer);
@@ -129,15 +133,15 @@ struct Plan {
 struct DeviceTraits {
   std::uint64_t max_storage_buffer_bytes = 1ULL << 27;
   std::array<std::uint32_t, 3> max_groups{65535, 65535, 65535};
-  std::uint32_t max_group_invocations = 256;
+  std::uint32_t max_group_invocations = 128;
   std::uint32_t shared_memory_bytes = 16384;
   std::uint32_t max_image_size = 4096;  ///< pixels a side
   std::uint32_t subgroup_size = 32;
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond
-/// the limit, a binding to nothing, a read of what nothing wrote, too many groups, a host pass after a GPU pass,
-/// a shader that does not exist. The first such problem, or nothing.
+/// the limit (the light buffer that the plan reads included), a binding to nothing, a read of what nothing wrote, too
+/// many groups, a host pass after a GPU pass, a shader that does not exist. The first such problem, or nothing.
 [[nodiscard]] std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
 
 }  // namespace lamp

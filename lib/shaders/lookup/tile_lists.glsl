@@ -1,11 +1,15 @@
-// Look-up: one list a tile, a count and its lights; a count beyond the capacity means every light.
+// Look-up: one list a tile and depth range, a count and its lights; a count beyond the capacity means every light.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/shared/frame.h"
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
 layout(constant_id = 101) const uint LOOKUP_CAPACITY = 512;
+layout(constant_id = 102) const uint LOOKUP_RANGES = 1;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
+layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float lookup_splits[]; };
+
+#include "lookup/parts/tile_cell.glsl"
 
 struct Walk {
   uint at;
@@ -14,12 +18,6 @@ struct Walk {
 };
 
 void lookup_prepare() {}
-
-uint lookup_cell(uvec2 pixel, float z_view) {
-  const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  const uint tiles_wide = (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  return tile.x + tiles_wide * tile.y;
-}
 
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint base = lookup_cell(pixel, z_view) * (1u + LOOKUP_CAPACITY);

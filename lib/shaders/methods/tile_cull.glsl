@@ -1,61 +1,121 @@
-// Tiled culling of one tile by one work group, into shared memory: bounds, planes, append, sort.
-// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), algorithm 1.1 and listings 1.1 to 1.3.
-// Needs: TILE_PX, CAPACITY; `frame`, `depth_image`, `bounds`.
+// Culls one tile by one work group into shared memory: ranges, test, append, prune, sort. One list a depth range.
+// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), algorithm 1.1 and listings 1.1 to 1.4; Primal engine,
+// Light Culling with Approximate Sphere-Cone Intersection, listing 9.
+// Promise: afterwards list r holds min(s_light_count[r], CAPACITY) lights; a larger count means that it did not fit.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_TILE_CULL
 #define LAMP_METHODS_TILE_CULL
-#include "common/frame.glsl"
-#include "common/tile_depth.glsl"
-#include "common/volume_tests.glsl"
+#include "methods/tile_inputs.glsl"
+#include "methods/tile_prune.glsl"
 
-shared uint s_light_count;  // lights found, more than CAPACITY when the list did not fit
-shared uint s_lights[CAPACITY];
+// Array sizes are plain constants: expressions of specialization constants are not safe as sizes everywhere.
+shared uint s_light_count[2];
+shared uint s_lights[LIST_ENTRIES];
+shared uint s_kept[128];  // one bit an entry, for up to 2 x 2048: a pixel is reached by it
 
-void compare_exchange(uint low, uint high) {
-  if (high >= min(s_light_count, CAPACITY)) return;  // beyond the list stands an imaginary infinity
-  const uint a = s_lights[low];
-  const uint b = s_lights[high];
-  if (a > b) {
-    s_lights[low] = b;
-    s_lights[high] = a;
-  }
+uint group_threads() { return gl_WorkGroupSize.x * gl_WorkGroupSize.y; }
+
+bool list_fits(uint range) { return s_light_count[range] <= CAPACITY; }
+
+void append_light(uint range, uint light) {
+  const uint place = atomicAdd(s_light_count[range], 1u);
+  if (place >= CAPACITY) return;
+  const bool by_type = ORDER == ORDER_TYPE && cull_lights[light].type == LIGHT_SPOT;
+  s_lights[range * CAPACITY + place] = by_type ? light | TYPE_BIT : light;
+}
+
+void compare_exchange(uint range, uint low, uint high) {
+  if (high >= s_light_count[range]) return;  // beyond the list stands an imaginary infinity
+  const uint a = s_lights[range * CAPACITY + low];
+  const uint b = s_lights[range * CAPACITY + high];
+  if (a <= b) return;
+  s_lights[range * CAPACITY + low] = b;
+  s_lights[range * CAPACITY + high] = a;
 }
 
 // Batcher's bitonic sort in the form whose comparators all point the same way, so that any length works.
-void sort_lights() {
-  const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
-  const uint n = min(s_light_count, CAPACITY);
+void sort_lights(uint range) {
+  const uint n = s_light_count[range];
   for (uint run = 2u; run < 2u * n; run *= 2u) {
     for (uint step = run / 2u; step > 0u; step /= 2u) {
-      for (uint i = gl_LocalInvocationIndex; 2u * i < n + run; i += threads) {
+      for (uint i = gl_LocalInvocationIndex; 2u * i < n + run; i += group_threads()) {
         const uint low = (i / step) * 2u * step + i % step;
         const uint high = step == run / 2u ? (low ^ (run - 1u)) : low + step;
-        compare_exchange(low, high);
+        compare_exchange(range, low, high);
       }
       barrier();  // one step's exchanges before the next step reads
     }
   }
 }
 
-// For all threads of the group together; afterwards s_lights holds min(s_light_count, CAPACITY) ascending lights.
-void cull_tile(uvec2 tile) {
-  const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
-  if (gl_LocalInvocationIndex == 0u) s_light_count = 0u;
-  const TileDepth depth = tile_depth(frame, depth_image, tile);  // its barriers order the counter too
-  if (is_empty(depth)) return;
-  const float z_near = z_view_of(frame, depth.nearest);
-  const float z_far = z_view_of(frame, depth.farthest);
-  vec4 planes[4];
-  side_planes(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), planes);
-
-  for (uint light = gl_LocalInvocationIndex; light < frame.light_count; light += threads) {
-    const LightBounds sphere = bounds[light];
-    if (!sphere_touches_depths(sphere, z_near, z_far) || !sphere_touches_sides(sphere, planes)) continue;
-    const uint place = atomicAdd(s_light_count, 1u);
-    if (place < CAPACITY) s_lights[place] = light;
+// Flags the entries of the pixel's range that reach it.
+void flag_reached(PrunePixel pixel, uint range) {
+  if (!pixel.covered || !list_fits(range)) return;
+  for (uint i = 0u; i < s_light_count[range]; ++i) {
+    const uint entry = range * CAPACITY + i;
+    const uint bit = 1u << (entry % 32u);
+    if ((s_kept[entry / 32u] & bit) != 0u) continue;
+    if (reaches_pixel(cull_lights[s_lights[entry] & ~TYPE_BIT], pixel)) atomicOr(s_kept[entry / 32u], bit);
   }
-  barrier();  // the list before it is sorted
-  if (s_light_count <= CAPACITY) sort_lights();
+}
+
+uint kept_before(uint range, uint entry) {
+  const uint first = range * CAPACITY;
+  uint count = 0u;
+  for (uint word = first / 32u; word <= entry / 32u; ++word) {
+    uint bits = s_kept[word];
+    if (word == first / 32u) bits &= ~0u << (first % 32u);
+    if (word == entry / 32u) bits &= (1u << (entry % 32u)) - 1u;
+    count += uint(bitCount(bits));
+  }
+  return count;
+}
+
+// Moves the flagged entries together, in their order; a chunk moves only into places that have been read before.
+void compact_kept(uint range) {
+  const uint n = s_light_count[range];
+  for (uint first = 0u; first < n; first += group_threads()) {
+    const uint entry = range * CAPACITY + first + gl_LocalInvocationIndex;
+    const bool kept =
+        first + gl_LocalInvocationIndex < n && (s_kept[entry / 32u] & (1u << (entry % 32u))) != 0u;
+    const uint light = kept ? s_lights[entry] : 0u;
+    barrier();  // the chunk is read before any of it is overwritten
+    if (kept) s_lights[range * CAPACITY + kept_before(range, entry)] = light;
+    barrier();  // and written before the next chunk is read
+  }
+  if (gl_LocalInvocationIndex == 0u) s_light_count[range] = kept_before(range, range * CAPACITY + n);
+  barrier();  // the new count before it is used
+}
+
+void prune_lights(uvec2 tile, TileRanges ranges) {
+  for (uint word = gl_LocalInvocationIndex; word < (LIST_ENTRIES + 31u) / 32u; word += group_threads()) s_kept[word] = 0u;
+  barrier();  // cleared before flags are set
+  for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += group_threads()) {
+    const PrunePixel pixel = prune_pixel(tile, i);
+    flag_reached(pixel, range_of_pixel(pixel, ranges));
+  }
+  barrier();  // all flags before entries move
+  for (uint range = 0u; range < RANGES; ++range)
+    if (list_fits(range)) compact_kept(range);
+}
+
+// For all threads of the group together. Returns the ranges.
+TileRanges cull_tile(uvec2 tile) {
+  if (gl_LocalInvocationIndex < RANGES) s_light_count[gl_LocalInvocationIndex] = 0u;
+  barrier();  // counters before the first append
+  const TileRanges ranges = ranges_of(tile);
+  if (is_empty(ranges)) return ranges;
+  const TileSides sides = tile_sides(tile);
+  for (uint light = gl_LocalInvocationIndex; light < cull_frame.light_count; light += group_threads()) {
+    const LightBounds sphere = bounds_of(light);
+    for (uint range = 0u; range < RANGES; ++range)
+      if (touches_range(light, sphere, sides, ranges, range)) append_light(range, light);
+  }
+  barrier();  // the lists before they are pruned and sorted
+  if (PRUNE) prune_lights(tile, ranges);
+  for (uint range = 0u; range < RANGES; ++range)
+    if (ORDER != ORDER_APPEND && list_fits(range)) sort_lights(range);
+  return ranges;
 }
 
 #endif

@@ -7,8 +7,8 @@
 namespace lamp {
 
 [[nodiscard]] Method all_method();
-[[nodiscard]] Method tiled_method();
-[[nodiscard]] Method tiled_bits_method();
+/// `tiled`, its containers, and the presets of the sources.
+[[nodiscard]] std::vector<Method> tiled_methods();
 [[nodiscard]] Method clustered_method();
 
 }  // namespace lamp

@@ -1,64 +1,151 @@
-// Tiled culling: a tile's depth bounds, four side planes, a list of the spheres that touch it.
-// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), section 1.3.
-// Promise: lists ascend (the paper's append, then a sort); a list that does not fit is walked as all lights.
+// Tiled culling: a tile's depth ranges, a volume test, a list (or bits) of the lights that pass. All axes, one plan.
+// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016); Primal engine, Light Culling with Approximate
+// Sphere-Cone Intersection; Harada, A 2.5D Culling for Forward+ (2012).
+// Promise: a list that does not fit is counted and walked as all lights; no axis but cone-approximate loses a light.
 // SPDX-License-Identifier: Apache-2.0
 #include "methods.h"
 #include "parts.h"
+#include "tiled_axes.h"
 
 namespace lamp {
 namespace {
 
-Plan plan_tiled(const Problem& problem) {
-  const std::uint32_t tile_px = problem.options.integer("tile");
-  const std::uint32_t capacity = problem.options.integer("capacity");
-  const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
-  const std::uint32_t threads = parts::cull_threads(problem, tile_px * tile_px);
+/// The buffers of one plan, and what its passes and look-ups bind.
+struct Buffers {
+  ResourceId bounds, frusta, ranges, lists, splits, counters, headers;
+};
 
-  Plan plan;
-  plan.cells = tiles.count();
-  const ResourceId bounds = parts::add_light_bounds(plan, problem);
-  const ResourceId counters = parts::add_counters(plan);
-  const ResourceId lists =
-      plan.add({.name = "tile lists", .bytes = tiles.count() * (1 + capacity) * sizeof(std::uint32_t)});
+/// Constants of tile_inputs.glsl.
+std::vector<std::uint32_t> tile_constants(const TiledAxes& axes) {
+  return {axes.tile_px,
+          axes.capacity,
+          axes.bounds,
+          axes.test,
+          axes.spot,
+          axes.order,
+          axes.prune ? 1U : 0U,
+          axes.aos ? 1U : 0U,
+          axes.cached_frusta ? 1U : 0U,
+          axes.reduce == TiledAxes::Reduce::parallel ? 1U : 0U,
+          axes.ranges() * axes.capacity,
+          axes.ranges()};
+}
 
-  const Pass light_bounds = parts::light_bounds_pass(bounds);
-  plan.passes = {light_bounds,
-                 {.name = "tiled cull",
-                  .shader = "methods/tiled",
-                  .constants = {threads, tile_px, capacity},
-                  .bindings = {{INPUT_FRAME},
-                               {INPUT_DEPTH},
-                               {bounds},
-                               {lists, Access::write},
-                               {counters, Access::read_write}},
-                  .extent = {.x = tiles.width, .y = tiles.height}}};
-  plan.lookup = {
-      .name = "tile_lists", .constants = {tile_px, capacity}, .bindings = {{INPUT_FRAME}, {lists}}};
-  if (tile_px * tile_px <= problem.traits.max_group_invocations)
-    plan.fused = FusedLookUp{.lookup = {.name = "tile_fused",
-                                        .constants = {tile_px, capacity},
-                                        .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {bounds}}},
-                             .passes = {light_bounds},
-                             .group_width = tile_px,
-                             .group_height = tile_px};
-  return plan;
+/// Bindings of tile_inputs.glsl. A buffer that the axes do without is bound to the frame, and not read.
+std::vector<Binding> tile_bindings(const Buffers& b) {
+  const auto or_frame = [](ResourceId id) { return Binding{id == NO_RESOURCE ? INPUT_FRAME : id}; };
+  return {{INPUT_FRAME}, {INPUT_DEPTH}, {INPUT_LIGHTS}, or_frame(b.bounds), or_frame(b.frusta), or_frame(b.ranges)};
+}
+
+/// What comes before the cull: light bounds, tile frusta, depth ranges, as far as the axes have them.
+std::vector<Pass> passes_before(const TiledAxes& axes, const parts::TileGrid& tiles, const Buffers& b) {
+  std::vector<Pass> passes;
+  if (!axes.aos) passes.push_back(parts::light_bounds_pass(b.bounds));
+  if (axes.cached_frusta)
+    passes.push_back({.name = "tile frusta",
+                      .shader = "methods/tile_frusta",
+                      .constants = {axes.tile_px, axes.test},
+                      .bindings = {{INPUT_FRAME}, {b.frusta, Access::write}},
+                      .extent = {.x = parts::divide_up(static_cast<std::uint32_t>(tiles.count()), 64)},
+                      .on_projection_change = true});
+  if (axes.reduce == TiledAxes::Reduce::parallel)
+    passes.push_back({.name = "tile depth",
+                      .shader = "methods/tile_depth_pass",
+                      .constants = {axes.tile_px / 2, axes.tile_px, axes.bounds},
+                      .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.ranges, Access::write}},
+                      .extent = {.x = tiles.width, .y = tiles.height}});
+  return passes;
+}
+
+/// Shared memory of the cull: lists and their flags, or two batches of bits; and the reductions.
+std::uint32_t shared_bytes(const TiledAxes& axes) {
+  return axes.bits ? 256 : axes.ranges() * axes.capacity * 4 + 128 * 4 + 64;
+}
+
+Pass cull_pass(const Problem& problem, const TiledAxes& axes, const parts::TileGrid& tiles, const Buffers& b) {
+  const char* container = axes.bits ? "bits" : axes.order == shared::ORDER_TYPE ? "typed" : "lists";
+  const char* reduce = axes.reduce == TiledAxes::Reduce::subgroup ? "subgroup" : "atomic";
+  Pass pass{.name = "tiled cull",
+            .shader = std::string("methods/tile_") + container + "_" + reduce,
+            .constants = {parts::cull_threads(problem, axes.tile_px * axes.tile_px)},
+            .bindings = tile_bindings(b),
+            .extent = {.x = tiles.width, .y = tiles.height},
+            .shared_bytes = shared_bytes(axes)};
+  const std::vector<std::uint32_t> constants = tile_constants(axes);
+  pass.constants.insert(pass.constants.end(), constants.begin(), constants.end());
+  pass.bindings.push_back({b.lists, Access::write});
+  pass.bindings.push_back({b.splits, Access::write});
+  if (b.counters != NO_RESOURCE) pass.bindings.push_back({b.counters, Access::read_write});
+  if (b.headers != NO_RESOURCE) pass.bindings.push_back({b.headers, Access::write});
+  return pass;
+}
+
+Buffers add_buffers(Plan& plan, const Problem& problem, const TiledAxes& axes, std::uint64_t tiles) {
+  Buffers b{};
+  b.bounds = axes.aos ? NO_RESOURCE : parts::add_light_bounds(plan, problem);
+  b.frusta = NO_RESOURCE;
+  if (axes.cached_frusta)
+    b.frusta = axes.cone() ? plan.add({.name = "tile cones", .bytes = tiles * sizeof(shared::TileCone)})
+                           : plan.add({.name = "tile planes", .bytes = tiles * sizeof(shared::TilePlanes)});
+  b.ranges = axes.reduce == TiledAxes::Reduce::parallel
+                 ? plan.add({.name = "tile depth ranges", .bytes = tiles * sizeof(shared::TileRanges)})
+                 : NO_RESOURCE;
+  b.counters = axes.bits ? NO_RESOURCE : parts::add_counters(plan);
+  const std::uint64_t cells = tiles * axes.ranges();
+  const std::uint64_t words = parts::divide_up(parts::capacity(problem), 32);
+  const bool typed = axes.order == shared::ORDER_TYPE;
+  if (axes.bits)
+    b.lists = plan.add({.name = "tile bits", .bytes = cells * words * 4});
+  else
+    b.lists = plan.add(
+        {.name = "tile lists", .bytes = typed ? cells * axes.mean_capacity * 4 : cells * (1 + axes.capacity) * 4});
+  b.splits = plan.add({.name = "tile splits", .bytes = tiles * 4});
+  b.headers = typed ? plan.add({.name = "tile headers", .bytes = cells * 8}) : NO_RESOURCE;
+  return b;
+}
+
+LookUp look_up(const Problem& problem, const TiledAxes& axes, const Buffers& b) {
+  const std::vector<Binding> bindings{{INPUT_FRAME}, {b.lists}, {b.splits}};
+  if (axes.bits)
+    return {.name = "tile_bits",
+            .constants = {axes.tile_px, parts::divide_up(parts::capacity(problem), 32), axes.ranges()},
+            .bindings = bindings};
+  if (axes.order != shared::ORDER_TYPE)
+    return {.name = "tile_lists", .constants = {axes.tile_px, axes.capacity, axes.ranges()}, .bindings = bindings};
+  LookUp typed{.name = "tile_typed", .constants = {axes.tile_px, axes.ranges()}, .bindings = bindings};
+  typed.bindings.push_back({b.headers});
+  return typed;
 }
 
 }  // namespace
 
-Method tiled_method() {
-  return {.name = "tiled",
-          .title = "Tiled culling",
-          .source = "Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.3",
-          .summary = "Each tile tests every light's sphere against its four side planes and its depth bounds.",
-          .result = "tile_lists",
-          .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "16", .choices = {"8", "16", "32"}},
-                      {.key = "capacity",
-                       .help = "lights a tile's list has room for",
-                       .fallback = "512",
-                       .min = 1,
-                       .max = 2048}},
-          .plan = plan_tiled};
+Plan plan_tiled(const Problem& problem) {
+  const TiledAxes axes = tiled_axes(problem.options);
+  const parts::TileGrid tiles = parts::tile_grid(problem, axes.tile_px);
+  Plan plan;
+  plan.cells = tiles.count() * axes.ranges();
+  plan.ordered = axes.order == shared::ORDER_INDEX;
+  plan.approximate = axes.test == shared::TEST_CONE_APPROXIMATE;
+  const Buffers buffers = add_buffers(plan, problem, axes, tiles.count());
+  plan.passes = passes_before(axes, tiles, buffers);
+  plan.passes.push_back(cull_pass(problem, axes, tiles, buffers));
+  // Container bits: the last constant is the words of a cell; a shared list: its length.
+  const auto cells = static_cast<std::uint32_t>(plan.cells);
+  if (axes.bits)
+    plan.passes.back().constants.push_back(parts::divide_up(parts::capacity(problem), 32));
+  else if (axes.order == shared::ORDER_TYPE)
+    plan.passes.back().constants.push_back(cells * axes.mean_capacity);
+  plan.lookup = look_up(problem, axes, buffers);
+  if (axes.bits || axes.tile_px * axes.tile_px > problem.traits.max_group_invocations) return plan;
+  plan.fused =
+      FusedLookUp{.lookup = {.name = axes.reduce == TiledAxes::Reduce::subgroup ? "tile_fused_subgroup" : "tile_fused",
+                             .constants = tile_constants(axes),
+                             .bindings = tile_bindings(buffers)},
+                  .passes = passes_before(axes, tiles, buffers),
+                  .group_width = axes.tile_px,
+                  .group_height = axes.tile_px,
+                  .shared_bytes = shared_bytes(axes)};
+  return plan;
 }
 
 }  // namespace lamp

@@ -42,6 +42,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
 
 void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   assert(frame.view != nullptr && "set CullerFrame::view");
+  const shared::Frame record = frame.view->frame(frame.light_count);
   const PlanInputs inputs{.frame = frame_.handle(),
                           .lights = frame.lights,
                           .depth = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
@@ -49,12 +50,12 @@ void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
                                     .view = frame.depth_view,
                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
                                     .layout = frame.depth_layout},
-                          .light_count = frame.light_count};
+                          .light_count = frame.light_count,
+                          .host_frame = &record};
   Recorder recorder(device_, commands, tracker_);
   tracker_.assume(inputs.depth);
   tracker_.assume(Resource::storage(inputs.lights));
 
-  const shared::Frame record = frame.view->frame(frame.light_count);
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
                       .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
                       .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});

@@ -51,7 +51,7 @@ Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const Sh
 }
 
 std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
-  return (lights + lights_per_group - 1) / lights_per_group;
+  return lights / lights_per_group + (lights % lights_per_group == 0 ? 0 : 1);
 }
 
 }  // namespace
@@ -127,7 +127,12 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
   assert(inputs.light_count <= plan_.light_capacity && "make a plan with a larger light capacity");
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
   zero_buffers(recorder);
+  const bool changed = projection_changed(inputs);
   for (const BuiltPass& built : passes) {
+    if (built.pass.on_projection_change) {
+      if (!changed) continue;
+      ++projection_rebuilds_;
+    }
     if (built.pass.kind == PassKind::host)
       record_host(built.pass, inputs);
     else
@@ -135,12 +140,19 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
   }
 }
 
+bool PlanRunner::projection_changed(const PlanInputs& inputs) {
+  assert(inputs.host_frame != nullptr && "set PlanInputs::host_frame");
+  const bool changed = !projection_ || *projection_ != inputs.host_frame->clip_from_view;
+  projection_ = inputs.host_frame->clip_from_view;
+  return changed;
+}
+
 void PlanRunner::zero_buffers(Recorder& recorder) const {
   std::vector<Use> uses;
   for (std::size_t i = 0; i < buffers_.size(); ++i)
     if (plan_.buffers[i].zeroed)
       uses.push_back({.resource = Resource::storage(buffers_[i].handle()),
-                      .stages = VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                      .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                       .access = VK_ACCESS_2_TRANSFER_WRITE_BIT});
   recorder.barrier(uses);
   for (const Use& use : uses) vkCmdFillBuffer(recorder.commands(), use.resource.buffer, 0, VK_WHOLE_SIZE, 0);

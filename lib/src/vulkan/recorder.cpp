@@ -149,7 +149,7 @@ void Recorder::push(const Pipeline& pipeline, std::span<const Bound> resources) 
   std::vector<VkWriteDescriptorSet> writes;
   for (std::size_t i = 0; i < resources.size(); ++i) {
     const auto& [binding, resource] = resources[i];
-    buffers[i] = {.buffer = resource.buffer, .range = VK_WHOLE_SIZE};
+    buffers[i] = {.buffer = resource.buffer, .offset = resource.offset, .range = resource.range};
     images[i] = {.sampler = resource.sampler, .imageView = resource.view, .imageLayout = resource.layout};
     writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                       .dstBinding = binding,

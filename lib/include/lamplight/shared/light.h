@@ -28,7 +28,7 @@ struct Light {
   float inner_angle;  // radians, 0 .. outer_angle; full intensity inside
   float cos_outer;    // cos(outer_angle)
   float spot_scale;   // 1 / max(0.001, cos(inner_angle) - cos(outer_angle))
-  uint reserved;      // 0
+  float sin_outer;    // sin(outer_angle)
 };
 
 // View space (looks down -Z). A sphere that encloses everything the light reaches, widened by the

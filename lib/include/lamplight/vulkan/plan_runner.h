@@ -22,7 +22,7 @@ struct PlanInputs {
   Resource depth;                     ///< sampled image; unset for methods that do not need it
   std::uint32_t light_count = 0;
   std::span<const shared::Light> host_lights;   ///< for host passes
-  const shared::Frame* host_frame = nullptr;    ///< for host passes
+  const shared::Frame* host_frame = nullptr;    ///< the frame's record, as in `frame`; must be set
 };
 
 /// A look-up's resources at their bindings, and its constants with their ids.
@@ -45,6 +45,8 @@ class PlanRunner {
   void record(Recorder& recorder, const PlanInputs& inputs, Passes which = Passes::separate);
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// How often passes that wait for a change of projection have been recorded.
+  [[nodiscard]] std::uint64_t projection_rebuilds() const { return projection_rebuilds_; }
   [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate) const;
   /// The buffer of a plan's resource, VK_NULL_HANDLE for inputs.
   [[nodiscard]] VkBuffer buffer(ResourceId id) const;
@@ -61,12 +63,15 @@ class PlanRunner {
   void record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const;
   void dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
   void draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
+  [[nodiscard]] bool projection_changed(const PlanInputs& inputs);
   void zero_buffers(Recorder& recorder) const;
 
   Plan plan_;
   std::vector<Buffer> buffers_;
   std::vector<BuiltPass> separate_;
   std::vector<BuiltPass> fused_;
+  std::optional<glm::mat4> projection_;  ///< of the last recorded frame
+  std::uint64_t projection_rebuilds_ = 0;
 };
 
 /// The descriptor type of a plan's resource.

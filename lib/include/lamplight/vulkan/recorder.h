@@ -19,6 +19,8 @@ namespace lamp::vulkan {
 struct Resource {
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;  ///< buffers: the part that a descriptor shows
+  VkDeviceSize range = VK_WHOLE_SIZE;
   VkImage image = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
   VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;

@@ -1,0 +1,74 @@
+// A sphere against the part of a tile between two depths, by the test that TEST names. All but the approximate cone
+// never say no when the sphere touches.
+// Based on: planes: Stewart, GPU Pro 7 (2016), 1.3.3; box: 1.4.3; cone: Primal engine, listing 5, and the exact distance to
+// a cone's surface; exact: convex minimisation, bounded from below by strong convexity.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_SPHERE_TESTS
+#define LAMP_COMMON_SPHERE_TESTS
+#include "common/tile_volume.glsl"
+#include "common/volume_tests.glsl"
+
+// Listing 5 as printed: the cone's radius at the sphere's depth against the distance to the axis.
+bool sphere_touches_cone_as_printed(LightBounds sphere, TileCone cone) {
+  if (cone.slope < 0.0) return distance(sphere.center.xy, cone.axis.xy) <= sphere.radius - cone.slope;
+  const vec3 rejection = sphere.center - dot(sphere.center, cone.axis) * cone.axis;
+  const float radius = -sphere.center.z * cone.slope + sphere.radius;
+  return dot(rejection, rejection) <= radius * radius;
+}
+
+// The signed distance to the cone's surface is that of its nearest generatrix; beyond the apex it is a lower bound.
+bool sphere_touches_cone(LightBounds sphere, TileCone cone) {
+  if (cone.slope < 0.0) return distance(sphere.center.xy, cone.axis.xy) <= sphere.radius - cone.slope;
+  const float along = dot(sphere.center, cone.axis);
+  const vec3 rejection = sphere.center - along * cone.axis;
+  const float outside = length(rejection) - along * cone.slope;
+  return outside <= sphere.radius * sqrt(1.0 + cone.slope * cone.slope);
+}
+
+// How far x is outside the edges at a depth, and how that changes with the depth.
+vec2 outside_edges(float x, vec4 edges, float z) {
+  const float below = edges.x + edges.y * z - x;
+  const float above = x - (edges.z + edges.w * z);
+  if (below > 0.0) return vec2(below, edges.y);
+  if (above > 0.0) return vec2(above, -edges.w);
+  return vec2(0.0);
+}
+
+// Squared distance from the centre to the truncated frustum = min over z of (z - c)^2 + dx(z)^2 + dy(z)^2, convex and
+// piecewise quadratic. Newton finds the piece in a few steps; at any z, f(z) + f'(z) d + d^2 is below f everywhere
+// (f'' >= 2), so its least value is a bound that cannot lose a light.
+bool sphere_touches_frustum(LightBounds sphere, TileSides sides, float z_near, float z_far) {
+  const float c = -sphere.center.z;
+  const float radius2 = sphere.radius * sphere.radius;
+  float z = clamp(c, z_near, z_far);
+  for (int i = 0; i < 4; ++i) {
+    const vec2 dx = outside_edges(sphere.center.x, sides.x_edges, z);
+    const vec2 dy = outside_edges(sphere.center.y, sides.y_edges, z);
+    const float value = (z - c) * (z - c) + dx.x * dx.x + dy.x * dy.x;
+    if (value <= radius2) return true;
+    const float slope = 2.0 * ((z - c) + dx.x * dx.y + dy.x * dy.y);
+    const float down = clamp(z - 0.5 * slope, z_near, z_far) - z;
+    if (value + slope * down + down * down > radius2) return false;
+    z = clamp(z - slope / (2.0 * (1.0 + dx.y * dx.y + dy.y * dy.y)), z_near, z_far);
+  }
+  return true;
+}
+
+bool sphere_touches_tile(LightBounds sphere, TileSides sides, float z_near, float z_far) {
+  if (!sphere_touches_depths(sphere, z_near, z_far)) return false;
+  if (TEST == TEST_CONE_APPROXIMATE) return sphere_touches_cone_as_printed(sphere, sides.cone);
+  if (TEST == TEST_CONE) return sphere_touches_cone(sphere, sides.cone);
+  if (TEST == TEST_EXACT) return sphere_touches_frustum(sphere, sides, z_near, z_far);
+  bool touches = true;
+  if (TEST == TEST_AABB || TEST == TEST_PLANES_AABB) {
+    vec3 box_min;
+    vec3 box_max;
+    tile_box(sides, z_near, z_far, box_min, box_max);
+    touches = sphere_touches_box(sphere, box_min, box_max);
+  }
+  if (TEST == TEST_PLANES || TEST == TEST_PLANES_AABB)
+    touches = touches && sphere_touches_sides(sphere, sides.planes.planes);
+  return touches;
+}
+
+#endif

@@ -1,0 +1,77 @@
+// A spot light's cone against the part of a tile between two depths, by the test that SPOT names. Never no when it touches.
+// Based on: planes: Primal engine's base (cone against six planes); sphere: the distance from a sphere's centre to a
+// cone's surface, as in Wronski, Cull That Cone! (2017).
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_SPOT_TESTS
+#define LAMP_COMMON_SPOT_TESTS
+#include "common/light_bounds.glsl"
+#include "common/tile_ranges.glsl"
+#include "common/tile_volume.glsl"
+
+struct SpotCone {
+  vec3 tip;  // view space
+  vec3 axis;
+  float range;
+  float sin_angle;
+  float cos_angle;
+  float slack;  // m: rounding, as in light_bounds
+};
+
+SpotCone spot_cone(Frame frame, Light light) {
+  SpotCone cone;
+  cone.tip = (frame.view_from_world * vec4(light.position, 1.0)).xyz;
+  cone.axis = mat3(frame.view_from_world) * light.direction;
+  cone.range = min(light.range, INFINITE_RADIUS);
+  cone.cos_angle = light.cos_outer;
+  cone.sin_angle = light.sin_outer;
+  cone.slack = ROUND_POSITION * (length(cone.tip) + length(light.position) + length(frame.eye_world));
+  return cone;
+}
+
+// The sphere's distance to the generatrix nearest to it, to the cap and to the plane through the tip.
+bool cone_touches_sphere(SpotCone cone, vec4 sphere) {
+  const vec3 offset = sphere.xyz - cone.tip;
+  const float distance2 = dot(offset, offset);
+  const float along = dot(offset, cone.axis);
+  const float rejection = sqrt(max(distance2 - along * along, 0.0));
+  const float reach = sphere.w + cone.slack + ROUND_RADIUS * (sqrt(distance2) + min(cone.range, sqrt(distance2)));
+  return cone.cos_angle * rejection - cone.sin_angle * along <= reach && along >= -reach &&
+         distance2 <= (cone.range + reach) * (cone.range + reach);
+}
+
+// A cone with a flat base that encloses the spot; wide ones have no such base within reason, and always pass.
+bool cone_touches_planes(SpotCone cone, TileSides sides, float z_near, float z_far) {
+  const float widest = 0.5;  // cosine of 60 degrees
+  if (cone.cos_angle < widest || cone.range >= INFINITE_RADIUS) return true;
+  const float base_radius = cone.range * cone.sin_angle / cone.cos_angle;
+  const float slack = cone.slack + ROUND_RADIUS * (cone.range + base_radius);
+  for (int i = 0; i < 6; ++i) {
+    const vec4 plane = i < 4    ? sides.planes.planes[i]
+                       : i == 4 ? vec4(0.0, 0.0, -1.0, -z_near)
+                                : vec4(0.0, 0.0, 1.0, z_far);
+    const float at_tip = dot(plane.xyz, cone.tip) + plane.w;
+    const float toward = dot(plane.xyz, cone.axis);
+    const float at_base = at_tip + toward * cone.range + base_radius * sqrt(max(1.0 - toward * toward, 0.0));
+    if (max(at_tip, at_base) < -slack) return false;
+  }
+  return true;
+}
+
+// Against the spheres around each occupied part of the mask.
+bool cone_touches_parts(SpotCone cone, TileSides sides, float z_near, float z_far, uint parts) {
+  const float step = (z_far - z_near) / float(MASK_BITS);
+  for (uint bits = parts; bits != 0u; bits &= bits - 1u) {
+    const float first = z_near + step * float(findLSB(bits));
+    if (cone_touches_sphere(cone, tile_sphere(sides, first - 0.001 * step, first + 1.001 * step))) return true;
+  }
+  return false;
+}
+
+bool spot_touches_tile(Frame frame, Light light, TileSides sides, float z_near, float z_far, uint parts) {
+  const SpotCone cone = spot_cone(frame, light);
+  if (SPOT == SPOT_CONE_PLANES) return cone_touches_planes(cone, sides, z_near, z_far);
+  if (!cone_touches_sphere(cone, tile_sphere(sides, z_near, z_far))) return false;
+  return SPOT != SPOT_CONE_SEGMENTS || cone_touches_parts(cone, sides, z_near, z_far, parts);
+}
+
+#endif

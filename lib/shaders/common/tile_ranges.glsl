@@ -1,0 +1,79 @@
+// A tile's depth ranges: one, or two halves of it, or one with a mask of its occupied parts.
+// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.4.2 (Half Z, Modified Half Z); Harada, A 2.5D
+// Culling for Forward+, SIGGRAPH Asia (2012).
+// Needs: TILE_PX, BOUNDS.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_TILE_RANGES
+#define LAMP_COMMON_TILE_RANGES
+#include "common/tile_depth.glsl"
+#include "lamplight/shared/tile.h"
+
+const uint MASK_BITS = 32u;
+const float EMPTY_NEAR = 1.0;
+const float EMPTY_FAR = -1.0;
+
+TileRanges one_range(float z_near, float z_far) {
+  return TileRanges(float[2](z_near, EMPTY_NEAR), float[2](z_far, EMPTY_FAR), z_far, ~0u);
+}
+
+TileRanges empty_ranges() {
+  TileRanges ranges = one_range(EMPTY_NEAR, EMPTY_FAR);
+  ranges.mask = 0u;
+  return ranges;
+}
+
+bool is_empty(TileRanges ranges) { return ranges.z_near[0] > ranges.z_far[0]; }
+
+TileRanges half_ranges(float z_near, float z_far) {
+  precise const float split = 0.5 * (z_near + z_far);
+  return TileRanges(float[2](z_near, split), float[2](split, z_far), split, ~0u);
+}
+
+// Which of 32 equal parts of the range a depth lies in; exactly representable steps are not needed, see mask_interval.
+uint mask_part(float z_view, float z_near, float z_far) {
+  const float share = (z_view - z_near) / max(z_far - z_near, 1e-30);
+  return min(uint(max(share, 0.0) * float(MASK_BITS)), MASK_BITS - 1u);
+}
+
+// Halves tightened to the pixels in them; and the mask. A second look at the tile's pixels, for all threads together.
+TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float z_near, float z_far) {
+  TileRanges ranges = half_ranges(z_near, z_far);
+  const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
+  if (gl_LocalInvocationIndex == 0u) {
+    s_near_half_max = 0u;
+    s_far_half_min = ~0u;
+    s_depth_mask = 0u;
+  }
+  barrier();  // initial values before the first reduction
+  for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += threads) {
+    const float depth = tile_pixel_depth(frame, depth_image, tile, i);
+    const float z = z_view_of(frame, depth);
+    if (BOUNDS == BOUNDS_MASK)
+      reduce_mask(depth > 0.0 ? 1u << mask_part(z, z_near, z_far) : 0u);
+    else  // device depths reversed: the half's farthest pixel has its least depth, so both extremes are kept as 1 - bits
+      reduce_halves(depth > 0.0, z <= ranges.split, ~floatBitsToUint(depth));
+  }
+  barrier();  // every reduction before the results are read
+  if (BOUNDS == BOUNDS_MASK) {
+    ranges = one_range(z_near, z_far);
+    ranges.mask = s_depth_mask;
+    return ranges;
+  }
+  ranges.z_far[0] = z_view_of(frame, uintBitsToFloat(~s_near_half_max));
+  ranges.z_near[1] = s_far_half_min == ~0u ? EMPTY_NEAR : z_view_of(frame, uintBitsToFloat(~s_far_half_min));
+  ranges.z_far[1] = s_far_half_min == ~0u ? EMPTY_FAR : z_far;
+  return ranges;
+}
+
+// For all threads of the group together.
+TileRanges tile_ranges(Frame frame, texture2D depth_image, uvec2 tile) {
+  const TileDepth depth = tile_depth(frame, depth_image, tile);
+  if (is_empty(depth)) return empty_ranges();
+  const float z_near = z_view_of(frame, depth.nearest);
+  const float z_far = z_view_of(frame, depth.farthest);
+  if (BOUNDS == BOUNDS_MINMAX) return one_range(z_near, z_far);
+  if (BOUNDS == BOUNDS_HALF) return half_ranges(z_near, z_far);
+  return refined_ranges(frame, depth_image, tile, z_near, z_far);
+}
+
+#endif

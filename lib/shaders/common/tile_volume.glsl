@@ -1,0 +1,88 @@
+// The sides of a tile in every form that a test wants: planes, a cone, edges that move linearly with depth.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_TILE_VOLUME
+#define LAMP_COMMON_TILE_VOLUME
+#include "common/frame.glsl"
+#include "lamplight/shared/tile.h"
+
+struct TileSides {
+  TilePlanes planes;
+  TileCone cone;
+  vec4 x_edges;  // x at z metres ahead lies between x[0] + x[1] z and x[2] + x[3] z
+  vec4 y_edges;
+};
+
+bool is_perspective(Frame frame) { return frame.clip_from_view[2][3] != 0.0; }
+
+// An edge at ndc: solve clip.x = ndc * clip.w for x, with z = -z_view.
+vec2 edge(float scale, float of_z, float offset, float w_of_z, float w_offset, float ndc) {
+  return vec2(ndc * w_offset - offset, of_z - ndc * w_of_z) / scale;
+}
+
+void tile_edges(Frame frame, vec2 min_px, vec2 max_px, out vec4 x_edges, out vec4 y_edges) {
+  const mat4 m = frame.clip_from_view;
+  const vec2 low = min_px / vec2(frame.size_px) * 2.0 - 1.0;
+  const vec2 high = max_px / vec2(frame.size_px) * 2.0 - 1.0;
+  x_edges = vec4(edge(m[0][0], m[2][0], m[3][0], m[2][3], m[3][3], low.x),
+                 edge(m[0][0], m[2][0], m[3][0], m[2][3], m[3][3], high.x));
+  y_edges = vec4(edge(m[1][1], m[2][1], m[3][1], m[2][3], m[3][3], low.y),
+                 edge(m[1][1], m[2][1], m[3][1], m[2][3], m[3][3], high.y));
+  if (m[0][0] < 0.0) x_edges = x_edges.zwxy;
+  if (m[1][1] < 0.0) y_edges = y_edges.zwxy;
+}
+
+TilePlanes tile_planes(Frame frame, vec2 min_px, vec2 max_px) {
+  TilePlanes planes;
+  side_planes(frame, min_px, max_px, planes.planes);
+  return planes;
+}
+
+// Based on: Primal engine, Light Culling with Approximate Sphere-Cone Intersection, listing 4: radius to the top left
+// corner per metre of z. The exact test takes the widest corner, per metre of the axis.
+TileCone tile_cone(Frame frame, vec2 min_px, vec2 max_px, bool as_printed) {
+  const vec3 middle = view_position(frame, 0.5 * (min_px + max_px), 1.0);
+  const vec3 corners[4] = vec3[](view_position(frame, min_px, 1.0), view_position(frame, max_px, 1.0),
+                                 view_position(frame, vec2(min_px.x, max_px.y), 1.0),
+                                 view_position(frame, vec2(max_px.x, min_px.y), 1.0));
+  if (!is_perspective(frame)) {
+    float radius = 0.0;
+    for (int i = 0; i < 4; ++i) radius = max(radius, distance(corners[i].xy, middle.xy));
+    return TileCone(vec3(middle.xy, 0.0), -radius);
+  }
+  const vec3 axis = normalize(middle);
+  if (as_printed) return TileCone(axis, distance(middle, corners[0]));
+  float slope = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const float along = dot(corners[i], axis);
+    slope = max(slope, length(corners[i] - along * axis) / along);
+  }
+  return TileCone(axis, slope);
+}
+
+// The view-space box around the part of a tile between two depths.
+void tile_box(TileSides sides, float z_near, float z_far, out vec3 box_min, out vec3 box_max) {
+  const vec2 at_near = vec2(1.0, z_near);
+  const vec2 at_far = vec2(1.0, z_far);
+  box_min = vec3(min(dot(sides.x_edges.xy, at_near), dot(sides.x_edges.xy, at_far)),
+                 min(dot(sides.y_edges.xy, at_near), dot(sides.y_edges.xy, at_far)), -z_far);
+  box_max = vec3(max(dot(sides.x_edges.zw, at_near), dot(sides.x_edges.zw, at_far)),
+                 max(dot(sides.y_edges.zw, at_near), dot(sides.y_edges.zw, at_far)), -z_near);
+}
+
+// A sphere around that part: through the farthest of its corners, from the middle of its axis.
+vec4 tile_sphere(TileSides sides, float z_near, float z_far) {
+  const float z = 0.5 * (z_near + z_far);
+  const vec3 middle = vec3(0.5 * (dot(sides.x_edges.xy, vec2(1.0, z)) + dot(sides.x_edges.zw, vec2(1.0, z))),
+                           0.5 * (dot(sides.y_edges.xy, vec2(1.0, z)) + dot(sides.y_edges.zw, vec2(1.0, z))), -z);
+  float radius2 = 0.0;
+  for (uint i = 0u; i < 8u; ++i) {
+    const vec2 at = vec2(1.0, (i & 4u) == 0u ? z_near : z_far);
+    const vec2 corner = vec2(dot((i & 1u) == 0u ? sides.x_edges.xy : sides.x_edges.zw, at),
+                             dot((i & 2u) == 0u ? sides.y_edges.xy : sides.y_edges.zw, at));
+    const vec3 offset = vec3(corner, -at.y) - middle;
+    radius2 = max(radius2, dot(offset, offset));
+  }
+  return vec4(middle, sqrt(radius2) * 1.00001);
+}
+
+#endif

@@ -1,0 +1,36 @@
+// Look-up for compute shaders that cull and shade in one dispatch: the group culls its tile, the walk reads shared memory.
+// Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.3.3 (tiled deferred).
+// Promise: the work group must be one tile, TILE_PX x TILE_PX threads, pixel = gl_GlobalInvocationID.xy.
+// SPDX-License-Identifier: Apache-2.0
+#define TILE_CONSTANT 100
+#define TILE_BINDING 16
+#include "methods/tile_cull.glsl"
+
+TileRanges lookup_ranges;
+
+struct Walk {
+  uint at;
+  uint end;
+  bool overflowed;
+};
+
+void lookup_prepare() { lookup_ranges = cull_tile(gl_WorkGroupID.xy); }
+
+uint lookup_range(float z_view) { return RANGES == 2u && z_view > lookup_ranges.split ? 1u : 0u; }
+
+uint lookup_cell(uvec2 pixel, float z_view) {
+  return (gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y) * RANGES + lookup_range(z_view);
+}
+
+Walk walk_begin(uvec2 pixel, float z_view) {
+  const uint range = lookup_range(z_view);
+  if (!list_fits(range)) return Walk(0u, cull_frame.light_count, true);
+  return Walk(range * CAPACITY, range * CAPACITY + s_light_count[range], false);
+}
+
+bool walk_next(inout Walk walk, out uint light) {
+  if (walk.at >= walk.end) return false;
+  light = walk.overflowed ? walk.at : s_lights[walk.at] & ~TYPE_BIT;
+  ++walk.at;
+  return true;
+}

@@ -1,0 +1,6 @@
+// Tiled culling: bit arrays, depth bounds by subgroup operations.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/reduce_subgroup.glsl"
+#include "methods/tile_bits_main.glsl"

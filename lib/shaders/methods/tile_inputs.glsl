@@ -1,0 +1,109 @@
+// What a shader that culls tiles reads and how it is specialised: the axes of tiled culling.
+// Needs: TILE_CONSTANT and TILE_BINDING, where its constants and bindings begin.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_METHODS_TILE_INPUTS
+#define LAMP_METHODS_TILE_INPUTS
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+#include "lamplight/shared/tile.h"
+
+layout(constant_id = TILE_CONSTANT + 0) const uint TILE_PX = 16;
+layout(constant_id = TILE_CONSTANT + 1) const uint CAPACITY = 512;  // entries a list in shared memory has room for
+layout(constant_id = TILE_CONSTANT + 2) const uint BOUNDS = 0;
+layout(constant_id = TILE_CONSTANT + 3) const uint TEST = 0;
+layout(constant_id = TILE_CONSTANT + 4) const uint SPOT = 0;
+layout(constant_id = TILE_CONSTANT + 5) const uint ORDER = 0;
+layout(constant_id = TILE_CONSTANT + 6) const bool PRUNE = false;
+layout(constant_id = TILE_CONSTANT + 7) const bool AOS = false;            // bounds made from the light records here
+layout(constant_id = TILE_CONSTANT + 8) const bool CACHED_FRUSTA = false;  // read from cull_frusta
+layout(constant_id = TILE_CONSTANT + 9) const bool OWN_DEPTH_PASS = false; // read from cull_ranges
+layout(constant_id = TILE_CONSTANT + 10) const uint LIST_ENTRIES = 512;    // CAPACITY times the number of ranges
+layout(constant_id = TILE_CONSTANT + 11) const uint RANGES = 1;            // depth ranges a tile: 2 for the halves
+
+layout(set = 0, binding = TILE_BINDING + 0, scalar) readonly buffer CullFrame { Frame cull_frame; };
+layout(set = 0, binding = TILE_BINDING + 1) uniform texture2D cull_depth;
+layout(set = 0, binding = TILE_BINDING + 2, scalar) readonly buffer CullLights { Light cull_lights[]; };
+layout(set = 0, binding = TILE_BINDING + 3, scalar) readonly buffer CullBounds { LightBounds cull_bounds[]; };
+layout(set = 0, binding = TILE_BINDING + 4, scalar) readonly buffer CullFrusta { vec4 cull_frusta[]; };
+layout(set = 0, binding = TILE_BINDING + 5, scalar) readonly buffer CullRanges { TileRanges cull_ranges[]; };
+
+#include "common/sphere_tests.glsl"
+#include "common/spot_tests.glsl"
+
+uint tile_index(uvec2 tile) {
+  return tile.x + (cull_frame.size_px.x + TILE_PX - 1u) / TILE_PX * tile.y;
+}
+
+// The tile's sides: kept from an earlier frame of the same projection, or made here.
+TileSides tile_sides(uvec2 tile) {
+  const vec2 min_px = vec2(tile * TILE_PX);
+  const vec2 max_px = vec2((tile + 1u) * TILE_PX);
+  const bool cone = TEST == TEST_CONE || TEST == TEST_CONE_APPROXIMATE;
+  TileSides sides;
+  tile_edges(cull_frame, min_px, max_px, sides.x_edges, sides.y_edges);
+  if (!CACHED_FRUSTA) {
+    sides.planes = tile_planes(cull_frame, min_px, max_px);
+    if (cone) sides.cone = tile_cone(cull_frame, min_px, max_px, TEST == TEST_CONE_APPROXIMATE);
+  } else if (cone) {
+    const vec4 stored = cull_frusta[tile_index(tile)];
+    sides.cone = TileCone(stored.xyz, stored.w);
+    sides.planes = tile_planes(cull_frame, min_px, max_px);  // only cone-planes reads them
+  } else {
+    for (uint i = 0u; i < 4u; ++i) sides.planes.planes[i] = cull_frusta[tile_index(tile) * 4u + i];
+  }
+  return sides;
+}
+
+// For all threads of the group together.
+TileRanges ranges_of(uvec2 tile) {
+  if (OWN_DEPTH_PASS) return cull_ranges[tile_index(tile)];
+  return tile_ranges(cull_frame, cull_depth, tile);
+}
+
+// Which of the mask's parts the sphere may reach.
+uint parts_near(LightBounds sphere, TileRanges ranges) {
+  const float z = -sphere.center.z;
+  const uint first = mask_part(z - sphere.radius, ranges.z_near[0], ranges.z_far[0]);
+  const uint last = mask_part(z + sphere.radius, ranges.z_near[0], ranges.z_far[0]);
+  return ranges.mask & (~0u << first) & (~0u >> (31u - last));
+}
+
+// The test, repeated for every run of occupied parts that the sphere's depths meet.
+bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges, uint parts) {
+  const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
+  while (parts != 0u) {
+    const uint first = uint(findLSB(parts));
+    const uint filled = parts >> first;
+    const uint length = filled == ~0u ? 32u : uint(findLSB(~filled));
+    const float z_first = ranges.z_near[0] + step * (float(first) - 0.001);
+    const float z_last = ranges.z_near[0] + step * (float(first + length) + 0.001);
+    if (sphere_touches_tile(sphere, sides, z_first, z_last)) return true;
+    parts &= first + length >= 32u ? 0u : ~0u << (first + length);
+  }
+  return false;
+}
+
+// Whether a light may reach the pixels of one of the tile's ranges.
+bool touches_range(uint light, LightBounds sphere, TileSides sides, TileRanges ranges, uint range) {
+  const float z_near = ranges.z_near[range];
+  const float z_far = ranges.z_far[range];
+  if (!sphere_touches_depths(sphere, z_near, z_far)) return false;
+  uint parts = ~0u;
+  if (BOUNDS == BOUNDS_MASK) {
+    parts = parts_near(sphere, ranges);
+    if (!sphere_touches_runs(sphere, sides, ranges, parts)) return false;
+  } else if (!sphere_touches_tile(sphere, sides, z_near, z_far)) {
+    return false;
+  }
+  if (SPOT == SPOT_SPHERE || cull_lights[light].type != LIGHT_SPOT) return true;
+  return spot_touches_tile(cull_frame, cull_lights[light], sides, z_near, z_far, parts);
+}
+
+LightBounds bounds_of(uint light) {
+  if (AOS) return light_bounds(cull_frame, cull_lights[light]);
+  return cull_bounds[light];
+}
+
+#endif

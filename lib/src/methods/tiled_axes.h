@@ -1,0 +1,46 @@
+// The axes of tiled culling: what `--option` can set, and how a plan reads it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+#include <utility>
+
+#include "lamplight/method.h"
+#include "lamplight/shared/tile.h"
+
+namespace lamp {
+
+/// The options of a tiled method, parsed.
+struct TiledAxes {
+  std::uint32_t tile_px = 16;
+  std::uint32_t capacity = 512;       ///< lights a list has room for
+  std::uint32_t mean_capacity = 128;  ///< lights a cell, on average, that a shared list has room for
+  std::uint32_t bounds = shared::BOUNDS_MINMAX;
+  std::uint32_t test = shared::TEST_PLANES;
+  std::uint32_t spot = shared::SPOT_SPHERE;
+  std::uint32_t order = shared::ORDER_INDEX;
+  enum class Reduce : std::uint8_t { atomic, subgroup, parallel } reduce = Reduce::atomic;
+  bool bits = false;           ///< container
+  bool prune = false;          ///< by pixel
+  bool aos = false;            ///< bounds made from the light records
+  bool cached_frusta = false;  ///< kept until size or projection changes
+
+  [[nodiscard]] std::uint32_t ranges() const {
+    return bounds == shared::BOUNDS_HALF || bounds == shared::BOUNDS_MODIFIED_HALF ? 2 : 1;
+  }
+  [[nodiscard]] bool cone() const { return test == shared::TEST_CONE || test == shared::TEST_CONE_APPROXIMATE; }
+};
+
+[[nodiscard]] TiledAxes tiled_axes(const Options& options);
+
+/// The options of every tiled method, with other fallbacks where a preset names them.
+[[nodiscard]] std::vector<OptionSpec> tiled_options(
+    std::initializer_list<std::pair<std::string_view, std::string_view>> fallbacks = {});
+
+/// Why a combination is impossible, or nothing.
+[[nodiscard]] std::optional<Error> check_tiled(const Problem& problem);
+
+/// The one plan of all tiled methods.
+[[nodiscard]] Plan plan_tiled(const Problem& problem);
+
+}  // namespace lamp

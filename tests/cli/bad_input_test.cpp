@@ -1,0 +1,156 @@
+// Whatever is wrong with a command line or a scene file: the exit code, and one line that names it and what was
+// expected. SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "cli/cli_test.h"
+
+namespace lamp::cli {
+namespace {
+
+constexpr int BAD_INPUT = 2;
+constexpr int NO_DEVICE = 3;
+
+using BadInput = CliTest;
+
+TEST_F(BadInput, NamesThatDoNotExistBringTheNearest) {
+  expect_error(BAD_INPUT, {"rendr"}, {"command 'rendr'", "nearest are render, ", "lamp --help"});
+  expect_error(BAD_INPUT, {"render", "--ligths", "5"},
+               {"option '--ligths'", "nearest are --lights, ", "render --help"});
+  expect_error(BAD_INPUT, {"render", "--method", "tilde"}, {"method 'tilde'", "nearest are tiled, "});
+  expect_error(BAD_INPUT, {"verify", "--method", "clustred"}, {"method 'clustred'", "nearest are clustered, "});
+  expect_error(BAD_INPUT, {"compare", "tiled", "al"}, {"method 'al'", "nearest are all, "});
+  expect_error(BAD_INPUT, {"render", "atriun"}, {"scene 'atriun'", "nearest are atrium, ", ".gltf or .glb"});
+  expect_error(BAD_INPUT, {"render", "--path", "defered"}, {"--path 'defered'", "nearest are deferred, "});
+  expect_error(BAD_INPUT, {"render", "plane", "--projection", "ortho"}, {"projection 'ortho'", "orthographic"});
+  expect_error(BAD_INPUT, {"render", "plane", "--camera", "back"}, {"camera 'back'", "there are front"});
+  expect_error(BAD_INPUT, {"render", "--brdf", "gx"}, {"--brdf 'gx'", "ggx or blinn-phong"});
+  expect_error(BAD_INPUT, {"list", "method"}, {"list 'method'", "methods"});
+}
+
+TEST_F(BadInput, OptionsOfAMethod) {
+  const Arguments tiled{"render", "--method", "tiled", "--option"};
+  const auto with = [&](const std::string& setting) {
+    Arguments all = tiled;
+    all.push_back(setting);
+    return all;
+  };
+  expect_error(BAD_INPUT, with("tle=8"), {"option 'tle'", "has the options tile, "});
+  expect_error(BAD_INPUT, with("tile=5"), {"option tile: '5'", "8, 16, 32"});
+  expect_error(BAD_INPUT, with("tile"), {"option 'tile'", "expected KEY=VALUE"});
+  expect_error(BAD_INPUT, with("tile=8\n16"), {"option tile: '8\\n16'"});
+  expect_error(BAD_INPUT, {"verify", "--option", "tile=8"}, {"--option", "name it with --method"});
+  expect_error(BAD_INPUT, {"compare", "tiled"}, {"b is required", "lamp compare --help"});
+}
+
+TEST_F(BadInput, Sizes) {
+  for (const char* size : {"0x0", "0x8", "8x0", "8", "x", "", "8x8x8", "-8x8", "8.5x8", "99999999999x8", "garbage"})
+    expect_error(BAD_INPUT, {"render", "--size", size}, {"--size '" + std::string(size) + "'", "WIDTHxHEIGHT"});
+  expect_error(BAD_INPUT, {"render", "plane", "--lights", "1", "--size", "200000x10"},
+               {"size 200000x10", "pixels a side on this device"});
+}
+
+TEST_F(BadInput, Numbers) {
+  for (const char* range : {"nan:nan", "1:nan", "-1:2", "0:1", "3:2", "1:inf", "1:", ":1", "a:b", "1:2:3"})
+    expect_error(BAD_INPUT, {"render", std::string("--range=") + range},
+                 {"--range '" + std::string(range) + "'", "0 < MIN <= MAX"});
+  for (const char* lights : {"-1", "99999999999", "16777217", "abc", "1.5", "0x10", "010"})
+    expect_error(BAD_INPUT, {"render", std::string("--lights=") + lights},
+                 {"--lights", "from 0 to 16777216", "'" + std::string(lights) + "'"});
+  expect_error(BAD_INPUT, {"render", "--seed=-1"}, {"--seed", "whole number", "'-1'"});
+  expect_error(BAD_INPUT, {"render", "--frame=-5"}, {"--frame", "whole number", "'-5'"});
+  expect_error(BAD_INPUT, {"render", "--frames", "0"}, {"--frames", "from 1 to ", "'0'"});
+  for (const char* spots : {"-0.5", "2", "many"})
+    expect_error(BAD_INPUT, {"render", std::string("--spots=") + spots}, {"--spots"});
+  expect_error(BAD_INPUT, {"render", "plane", "--spots", "nan"}, {"spots", "nan"});
+  for (const char* exposure : {"0", "-1", "nan", "bright"})
+    expect_error(BAD_INPUT, {"render", std::string("--exposure=") + exposure},
+                 {"--exposure '" + std::string(exposure) + "'", "auto or a factor"});
+}
+
+TEST_F(BadInput, ArgumentsTooMany) {
+  expect_error(BAD_INPUT, {"render", "plane", "atrium"}, {"argument 'atrium'", "lamp render --help"});
+  expect_error(BAD_INPUT, {"render", "--size", "8x8", "--size", "9x9"}, {"--size"});
+  expect_error(BAD_INPUT, {"list"}, {"what is required", "lamp list --help"});
+}
+
+TEST_F(BadInput, SceneFiles) {
+  expect_error(BAD_INPUT, {"render", "nowhere.gltf"}, {"nowhere.gltf"});
+  expect_error(BAD_INPUT, {"render", "nowhere.glb"}, {"nowhere.glb"});
+  write("picture.txt", "no scene");
+  expect_error(BAD_INPUT, {"render", "picture.txt"}, {"scene 'picture.txt'", ".gltf or .glb"});
+  write("text.gltf", "{ this is no JSON");
+  expect_error(BAD_INPUT, {"render", "text.gltf"}, {"text.gltf"});
+  write("empty.glb", "");
+  expect_error(BAD_INPUT, {"render", "empty.glb"}, {"empty.glb"});
+}
+
+TEST_F(BadInput, TruncatedGlb) {
+  const std::filesystem::path whole =
+      std::filesystem::path(LAMPLIGHT_SOURCE_DIR) / "tests/fuzz/corpus_gltf/triangle.glb";
+  std::filesystem::copy_file(whole, path("cut.glb"));
+  std::filesystem::resize_file(path("cut.glb"), std::filesystem::file_size(whole) / 2);
+  expect_error(BAD_INPUT, {"render", "cut.glb"}, {"cut.glb"});
+}
+
+/// A triangle with a picture beside the file.
+nlohmann::json textured_triangle() {
+  return nlohmann::json::parse(R"({"asset": {"version": "2.0"},
+    "buffers": [{"byteLength": 36, "uri":
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "images": [{"uri": "nowhere.png"}], "textures": [{"source": 0}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})");
+}
+
+TEST_F(BadInput, MissingTextureAndMissingBuffer) {
+  nlohmann::json gltf = textured_triangle();
+  write("scene.gltf", gltf.dump());
+  expect_error(BAD_INPUT, {"render", "scene.gltf"}, {"scene.gltf", "nowhere.png"});
+  gltf.erase("images");
+  gltf.erase("textures");
+  gltf.erase("materials");
+  gltf["meshes"][0]["primitives"][0].erase("material");
+  gltf["buffers"][0]["uri"] = "nowhere.bin";
+  write("scene.gltf", gltf.dump());
+  expect_error(BAD_INPUT, {"render", "scene.gltf"}, {"scene.gltf", "nowhere.bin"});
+}
+
+TEST_F(BadInput, OutputsThatCannotBeWritten) {
+  write("file", "");
+  std::filesystem::create_directory(path("folder.png"));
+  expect_error(BAD_INPUT, {"render", "--out", "file/lamp.png"}, {"--out 'file/lamp.png'", "not a folder"});
+  expect_error(BAD_INPUT, {"render", "--out", "file/below/lamp.png"}, {"--out", "not a folder"});
+  expect_error(BAD_INPUT, {"render", "--stats", "file/stats.json"}, {"--stats 'file/stats.json'", "not a folder"});
+  expect_error(BAD_INPUT, {"compare", "all", "tiled", "--out", "file/lamp.png"}, {"--out", "not a folder"});
+  expect_error(BAD_INPUT, {"render", "--out", "folder.png"}, {"--out 'folder.png'", "is a folder"});
+  for (const char* name : {"lamp", "lamp.jpg", "lamp.png.txt", ".png", ""})
+    expect_error(BAD_INPUT, {"render", "--out", name}, {"--out '" + std::string(name) + "'", ".png or .exr"});
+  expect_error(BAD_INPUT, {"compare", "all", "tiled", "--out", "a.exr"}, {"--out 'a.exr'", "ends in .png"});
+  expect_error(BAD_INPUT, {"render", "--heatmap", "heat.jpg"}, {"--heatmap 'heat.jpg'", "ends in .png"});
+  expect_error(BAD_INPUT, {"render", "--stats", "stats.txt"}, {"--stats 'stats.txt'", "ends in .json"});
+  expect_error(BAD_INPUT, {"render", "--out", "a.png", "--heatmap", "./a.png"}, {"./a.png", "asked for twice"});
+}
+
+TEST_F(BadInput, AFailedRunMakesNoFolder) {
+  expect_error(BAD_INPUT, {"render", "nowhere.gltf", "--out", "new/folder/lamp.png"}, {"nowhere.gltf"});
+}
+
+TEST_F(BadInput, Devices) {
+  expect_error(NO_DEVICE, small({"render", "--device", "no such device"}), {"'no such device'", "found: 0 "});
+  expect_error(NO_DEVICE, small({"verify", "--device", "99"}), {"'99'", "found: 0 "});
+  const Environment no_driver{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}};
+  for (const Arguments& command : {Arguments{"render"}, Arguments{"verify"}, Arguments{"compare", "all", "tiled"}})
+    expect_error(NO_DEVICE, small(command), {"Vulkan"}, no_driver);
+  expect_error(NO_DEVICE, {"list", "devices"}, {"Vulkan"}, no_driver);
+}
+
+TEST_F(BadInput, ShaderFolderThatIsNone) {
+  expect_error(BAD_INPUT, small({"render", "--shader-dir", "nowhere"}),
+               {"--shader-dir nowhere", "a checkout of Lamplight"});
+}
+
+}  // namespace
+}  // namespace lamp::cli

@@ -1,0 +1,161 @@
+// Starts a process with its output in pipes, and reads them until it has ended.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli_test.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+
+namespace lamp::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What the child writes into one end comes out of the other.
+struct Pipe {
+  std::array<int, 2> ends{-1, -1};
+  Pipe() {
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) ADD_FAILURE() << "no pipe";
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  ~Pipe() {
+    for (const int end : ends)
+      if (end >= 0) close(end);
+  }
+  std::string drain() {
+    close(std::exchange(ends[1], -1));
+    std::string text;
+    std::array<char, 4096> block{};
+    for (ssize_t count = 0; (count = ::read(ends[0], block.data(), block.size())) != 0;) {
+      if (count < 0 && errno != EINTR) break;
+      if (count > 0) text.append(block.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+};
+
+std::vector<std::string> environment_with(const Environment& more) {
+  std::vector<std::string> all;
+  for (char** variable = environ; *variable != nullptr; ++variable) all.emplace_back(*variable);
+  for (const auto& [name, value] : more) {
+    std::erase_if(all, [&](const std::string& entry) { return entry.starts_with(name + "="); });
+    all.push_back(name + "=" + value);
+  }
+  return all;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (std::string& text : texts) all.push_back(text.data());
+  all.push_back(nullptr);
+  return all;
+}
+
+}  // namespace
+
+CliTest::CliTest() {
+  std::string name = (fs::temp_directory_path() / "lamp-cli-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
+  folder_ = name;
+}
+
+CliTest::~CliTest() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+Outcome CliTest::lamp(const Arguments& arguments, const Environment& environment) const {
+  std::vector<std::string> words{LAMP_EXECUTABLE};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> variables = environment_with(environment);
+  Pipe out;
+  Pipe err;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
+  posix_spawn_file_actions_adddup2(&actions, out.ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err.ends[1], STDERR_FILENO);
+  pid_t child = 0;
+  const int failed =
+      posix_spawn(&child, LAMP_EXECUTABLE, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) {
+    ADD_FAILURE() << LAMP_EXECUTABLE << " cannot be started";
+    return {};
+  }
+  // What `lamp` writes to stderr fits a pipe's buffer (64 KiB), so that reading one after the other cannot block it.
+  Outcome outcome;
+  outcome.out = out.drain();
+  outcome.err = err.drain();
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  return outcome;
+}
+
+std::string CliTest::output_of(const Arguments& arguments) const {
+  Outcome outcome = lamp(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  return std::move(outcome.out);
+}
+
+nlohmann::json CliTest::json_of(const Arguments& arguments) const {
+  const std::string text = output_of(arguments);
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, /* allow_exceptions= */ false);
+  EXPECT_FALSE(json.is_discarded()) << "no JSON: " << text;
+  return json;
+}
+
+void CliTest::expect_error(int exit_code, const Arguments& arguments, const std::vector<std::string>& parts,
+                           const Environment& environment) const {
+  std::string command = "lamp";
+  for (const std::string& argument : arguments) command += " " + argument;
+  SCOPED_TRACE(command);
+  const std::vector<std::string> before = files();
+  const Outcome outcome = lamp(arguments, environment);
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(outcome.err.starts_with("lamp: ")) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("\n")) << outcome.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << "\"" << part << "\" is not in: " << outcome.err;
+  EXPECT_EQ(files(), before);
+}
+
+std::string CliTest::read(const std::string& name) const { return read_file(path(name)); }
+
+void CliTest::write(const std::string& name, const std::string& bytes) const {
+  std::ofstream(path(name), std::ios::binary) << bytes;
+}
+
+std::vector<std::string> CliTest::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_))
+    names.push_back(fs::relative(entry.path(), folder_).string());
+  std::ranges::sort(names);
+  return names;
+}
+
+Arguments small(const Arguments& command) {
+  Arguments all = command;
+  for (const char* word : {"--scene", "plane", "--lights", "8", "--size", "64x36"}) all.emplace_back(word);
+  return all;
+}
+
+}  // namespace lamp::cli

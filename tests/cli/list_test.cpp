@@ -1,0 +1,85 @@
+// What `lamp` says of itself: the welcome, the help, the lists.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <set>
+
+#include "cli/cli_test.h"
+
+namespace lamp::cli {
+namespace {
+
+using List = CliTest;
+
+TEST_F(List, WithoutArgumentsItWelcomes) {
+  const std::string text = output_of({});
+  for (const char* command : {"lamp render", "lamp verify", "lamp compare", "lamp list methods", "--help"})
+    EXPECT_NE(text.find(command), std::string::npos) << command;
+}
+
+TEST_F(List, EveryHelpHasExamples) {
+  for (const Arguments& command :
+       {Arguments{}, Arguments{"render"}, Arguments{"verify"}, Arguments{"compare"}, Arguments{"list"}}) {
+    Arguments help = command;
+    help.emplace_back("--help");
+    const std::string text = output_of(help);
+    const std::size_t examples = text.find("Examples:\n  lamp ");
+    ASSERT_NE(examples, std::string::npos) << text;
+    EXPECT_NE(text.find("Usage: lamp"), std::string::npos) << text;
+    const std::string name = command.empty() ? "lamp render" : "lamp " + command[0];
+    EXPECT_NE(text.find(name, examples), std::string::npos) << "no example of " << name;
+  }
+}
+
+void expect_keys(const nlohmann::json& object, const std::vector<const char*>& keys) {
+  for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << key << " is not in " << object.dump();
+}
+
+TEST_F(List, MethodsAsJson) {
+  const nlohmann::json methods = json_of({"list", "methods", "--json"});
+  ASSERT_TRUE(methods.is_array());
+  std::set<std::string> names;
+  for (const nlohmann::json& method : methods) {
+    expect_keys(method, {"name", "title", "source", "summary", "result", "ordered", "approximate", "options"});
+    names.insert(method.value("name", ""));
+    EXPECT_TRUE(method.at("ordered").is_boolean());
+    EXPECT_TRUE(method.at("approximate").is_boolean());
+    for (const nlohmann::json& option : method.at("options")) {
+      expect_keys(option, {"key", "help", "default"});
+      EXPECT_NE(option.contains("choices"), option.contains("min") && option.contains("max")) << option.dump();
+    }
+  }
+  EXPECT_EQ(names.size(), methods.size());
+  for (const char* name : {"all", "tiled", "tiled-bits", "clustered"}) EXPECT_TRUE(names.contains(name)) << name;
+}
+
+TEST_F(List, MethodsAsTextNameAllOfThem) {
+  const std::string text = output_of({"list", "methods"});
+  for (const nlohmann::json& method : json_of({"list", "methods", "--json"}))
+    for (const char* key : {"name", "title", "source"})
+      EXPECT_NE(text.find(method.at(key).get<std::string>()), std::string::npos) << method.at(key);
+}
+
+TEST_F(List, Scenes) {
+  const nlohmann::json scenes = json_of({"list", "scenes", "--json"});
+  const std::string text = output_of({"list", "scenes"});
+  ASSERT_TRUE(scenes.is_array());
+  EXPECT_EQ(scenes.size(), 5U);
+  for (const nlohmann::json& scene : scenes) {
+    expect_keys(scene, {"name", "summary"});
+    EXPECT_NE(text.find(scene.at("name").get<std::string>()), std::string::npos);
+  }
+}
+
+TEST_F(List, Devices) {
+  const nlohmann::json devices = json_of({"list", "devices", "--json"});
+  ASSERT_TRUE(devices.is_array());
+  ASSERT_FALSE(devices.empty()) << "tests need a Vulkan device, such as lavapipe";
+  for (const nlohmann::json& device : devices) {
+    expect_keys(device, {"name", "kind", "driver", "usable", "problem"});
+    EXPECT_EQ(device.at("usable").get<bool>(), device.at("problem").get<std::string>().empty());
+  }
+  EXPECT_NE(output_of({"list", "devices"}).find(devices[0].at("name").get<std::string>()), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamp::cli

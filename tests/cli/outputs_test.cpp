@@ -1,0 +1,177 @@
+// What the commands make: pictures, heat maps, numbers; the same again from the same seed.
+// SPDX-License-Identifier: Apache-2.0
+#include <ImfRgbaFile.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "cli/cli_test.h"
+#include "image/image.h"
+
+namespace lamp::cli {
+namespace {
+
+using Outputs = CliTest;
+
+// The Stats object of every run, and what a verified one has besides.
+constexpr const char* STATS[] = {"device",   "driver", "scene",  "method",    "options",  "width",
+                                 "height",   "lights", "frames", "passes",    "cull_ms",  "shade_ms",
+                                 "frame_ms", "bytes",  "cells",  "list_mean", "list_max", "overflowed_cells"};
+constexpr const char* VERIFIED[] = {"missed", "evaluations", "useful", "waste", "excess", "image_max_abs_diff"};
+
+void expect_stats(const nlohmann::json& stats) {
+  for (const char* key : STATS) EXPECT_TRUE(stats.contains(key)) << key;
+  EXPECT_EQ(stats.at("scene"), "plane");
+  EXPECT_EQ(stats.at("width"), 64);
+  EXPECT_EQ(stats.at("height"), 36);
+  EXPECT_GE(stats.at("lights").get<int>(), 8);
+  EXPECT_GE(stats.at("cells").get<int>(), 1);
+  EXPECT_TRUE(stats.at("options").is_object());
+  std::uint64_t sum = 0;
+  for (const auto& [name, bytes] : stats.at("bytes").items())
+    if (name != "total") sum += bytes.get<std::uint64_t>();
+  EXPECT_EQ(stats.at("bytes").at("total").get<std::uint64_t>(), sum);
+  ASSERT_FALSE(stats.at("passes").empty());
+  for (const nlohmann::json& pass : stats.at("passes")) {
+    EXPECT_FALSE(pass.at("name").get<std::string>().empty());
+    EXPECT_LE(pass.at("ms_p5").get<double>(), pass.at("ms_median").get<double>());
+    EXPECT_LE(pass.at("ms_median").get<double>(), pass.at("ms_p95").get<double>());
+  }
+}
+
+bool is_one_colour(const app::LdrImage& image) {
+  return std::ranges::all_of(image.pixels, [&](const glm::u8vec4& pixel) { return pixel == image.pixels.front(); });
+}
+
+TEST_F(Outputs, VerifyPrintsStatsOfEveryMethod) {
+  const nlohmann::json all = json_of(small({"verify", "--json"}));
+  ASSERT_TRUE(all.is_array());
+  std::set<std::string> ordered;
+  std::set<std::string> approximate;
+  const nlohmann::json table = json_of({"list", "methods", "--json"});
+  for (const nlohmann::json& row : table) {
+    if (row.at("approximate")) approximate.insert(row.at("name"));
+    if (row.at("ordered") && !row.at("approximate")) ordered.insert(row.at("name"));
+  }
+  EXPECT_EQ(all.size(), table.size());
+  for (const nlohmann::json& stats : all) {
+    SCOPED_TRACE(stats.at("method").get<std::string>());
+    expect_stats(stats);
+    for (const char* key : VERIFIED) EXPECT_TRUE(stats.contains(key)) << key;
+    EXPECT_TRUE(stats.at("missed") == 0 || approximate.contains(stats.at("method")));
+    EXPECT_GT(stats.at("useful").get<int>(), 0);
+    EXPECT_GE(stats.at("evaluations").get<int>(), stats.at("useful").get<int>());
+    EXPECT_GE(stats.at("waste").get<double>(), 1.0);
+    EXPECT_GE(stats.at("excess").get<double>(), 1.0);
+    EXPECT_TRUE(stats.at("image_max_abs_diff") == 0.0 || !ordered.contains(stats.at("method")));
+  }
+}
+
+TEST_F(Outputs, VerifyTakesMethodsAndTheirOptions) {
+  const nlohmann::json both = json_of(small({"verify", "--json", "--method", "clustered", "--method", "tiled"}));
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].at("method"), "clustered");
+  EXPECT_EQ(both[1].at("method"), "tiled");
+  const nlohmann::json one = json_of(small({"verify", "--json", "--method", "tiled", "--option", "tile=8"}));
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].at("options").at("tile"), "8");
+  EXPECT_EQ(one[0].at("cells"), 8 * 5);
+  const std::string table = output_of(small({"verify", "--method", "tiled"}));
+  EXPECT_NE(table.find("missed"), std::string::npos);
+  EXPECT_NE(table.find("  ok\n"), std::string::npos) << table;
+}
+
+TEST_F(Outputs, RenderWritesAllItIsAskedFor) {
+  const std::string text = output_of(small(
+      {"render", "--out", "new/lamp.png", "--heatmap", "heat.png", "--overlay", "over.png", "--stats", "stats.json"}));
+  for (const char* file : {"new/lamp.png", "heat.png", "over.png", "stats.json"})
+    EXPECT_NE(text.find(file), std::string::npos) << file;
+  EXPECT_EQ(text.find('\033'), std::string::npos) << "escape codes in a pipe";
+  EXPECT_EQ(text.find('\r'), std::string::npos) << "progress in a pipe";
+  EXPECT_EQ(files(), (std::vector<std::string>{"heat.png", "new", "new/lamp.png", "over.png", "stats.json"}));
+
+  const app::LdrImage picture = app::read_png(path("new/lamp.png"));
+  EXPECT_EQ(picture.width, 64U);
+  EXPECT_EQ(picture.height, 36U);
+  EXPECT_FALSE(is_one_colour(picture));
+  for (const char* map : {"heat.png", "over.png"}) {
+    const app::LdrImage image = app::read_png(path(map));
+    EXPECT_GE(image.width, 64U) << map;
+    EXPECT_GE(image.height, 36U) << map;
+    EXPECT_FALSE(is_one_colour(image)) << map;
+  }
+  const nlohmann::json stats = nlohmann::json::parse(read("stats.json"));
+  expect_stats(stats);
+  EXPECT_EQ(stats.at("method"), "clustered");
+  EXPECT_FALSE(stats.contains("missed")) << "nothing was held against the oracle";
+}
+
+TEST_F(Outputs, RenderPrintsItsNumbersAsJson) {
+  expect_stats(json_of(small({"render", "--json"})));
+  EXPECT_EQ(files(), std::vector<std::string>{"lamp.png"});
+}
+
+TEST_F(Outputs, ExrHoldsLinearLight) {
+  (void)output_of(small({"render", "--out", "lamp.exr"}));
+  EXPECT_EQ(files(), std::vector<std::string>{"lamp.exr"});
+  Imf::RgbaInputFile file(path("lamp.exr").c_str());
+  const Imath::Box2i window = file.dataWindow();
+  ASSERT_EQ(window.max.x - window.min.x + 1, 64);
+  ASSERT_EQ(window.max.y - window.min.y + 1, 36);
+  std::vector<Imf::Rgba> pixels(64 * 36);
+  file.setFrameBuffer(pixels.data() - window.min.x - window.min.y * 64, 1, 64);
+  file.readPixels(window.min.y, window.max.y);
+  EXPECT_TRUE(std::ranges::all_of(pixels, [](const Imf::Rgba& p) { return p.r >= 0.0F && p.r.isFinite(); }));
+  EXPECT_TRUE(std::ranges::any_of(pixels, [](const Imf::Rgba& p) { return p.r > 0.0F; }));
+}
+
+TEST_F(Outputs, CompareShowsTwoMethodsSideBySide) {
+  const nlohmann::json json = json_of(small({"compare", "tiled", "clustered", "--json", "--out", "two.png"}));
+  expect_stats(json.at("a"));
+  expect_stats(json.at("b"));
+  EXPECT_EQ(json.at("a").at("method"), "tiled");
+  EXPECT_EQ(json.at("b").at("method"), "clustered");
+  EXPECT_EQ(json.at("image_max_abs_diff"), 0.0);
+  EXPECT_GE(app::read_png(path("two.png")).width, 4U * 64U);
+  const std::string table = output_of(small({"compare", "tiled", "clustered", "--out", "two.png"}));
+  EXPECT_NE(table.find("largest difference of the pictures: 0\n"), std::string::npos) << table;
+}
+
+TEST_F(Outputs, SameSeedSamePicture) {
+  for (const char* file : {"a.png", "b.png"}) (void)output_of(small({"render", "--seed", "7", "--out", file}));
+  (void)output_of(small({"render", "--seed", "8", "--out", "c.png"}));
+  EXPECT_EQ(read("a.png"), read("b.png"));
+  EXPECT_NE(read("a.png"), read("c.png"));
+}
+
+TEST_F(Outputs, AFrameOfTheFlightIsAnotherPicture) {
+  for (const char* frame : {"0", "40"})
+    (void)output_of(small({"render", "--frame", frame, "--out", std::string(frame) + ".png"}));
+  EXPECT_NE(read("0.png"), read("40.png"));
+}
+
+TEST_F(Outputs, AnOldFileSurvivesAFailureAndIsReplacedBySuccess) {
+  write("lamp.png", "old");
+  EXPECT_EQ(lamp({"render", "nowhere.gltf"}).exit_code, 2);
+  EXPECT_EQ(read("lamp.png"), "old");
+  (void)output_of(small({"render"}));
+  EXPECT_TRUE(read("lamp.png").starts_with("\x89PNG"));
+  EXPECT_EQ(files(), std::vector<std::string>{"lamp.png"});
+}
+
+TEST_F(Outputs, ShadersOfACheckoutGiveTheSamePicture) {
+  (void)output_of(small({"render", "--out", "embedded.png"}));
+  (void)output_of(small({"render", "--out", "anew.png", "--shader-dir", LAMPLIGHT_SOURCE_DIR}));
+  EXPECT_EQ(read("embedded.png"), read("anew.png"));
+}
+
+TEST_F(Outputs, StandardOutputThatIsFullIsAnError) {
+  write("run.sh", std::string("#!/bin/sh\nexec '") + LAMP_EXECUTABLE + "' list methods >/dev/full\n");
+  EXPECT_EQ(std::system(("sh '" + path("run.sh").string() + "' 2>'" + path("err").string() + "'").c_str()) >> 8, 2);
+  const std::string line = read("err");
+  EXPECT_TRUE(line.starts_with("lamp: ") && line.ends_with("No space left on device\n")) << line;
+}
+
+}  // namespace
+}  // namespace lamp::cli

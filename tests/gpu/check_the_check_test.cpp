@@ -1,0 +1,169 @@
+// The checks themselves can fail: truths and lists with known faults are found out.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "gpu/method_check.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t WIDTH = 24;
+constexpr std::uint32_t HEIGHT = 20;
+constexpr std::uint32_t COUNT = 40;
+constexpr std::uint32_t NO_RANGE = 20;  ///< a light that reaches nothing, in the middle
+
+/// A truth with one more light at a pixel.
+Truth with_light(const Truth& truth, std::uint32_t pixel, std::uint32_t light) {
+  Truth more = truth;
+  const auto begin = more.lights.begin() + more.offsets[pixel];
+  const auto end = more.lights.begin() + more.offsets[pixel + 1];
+  more.lights.insert(std::upper_bound(begin, end, light), light);
+  for (std::size_t i = pixel + 1; i < more.offsets.size(); ++i) ++more.offsets[i];
+  return more;
+}
+
+class CheckTheCheck : public GpuTest {
+ protected:
+  CheckTheCheck()
+      : scene_(builtin_test_scene("plane")),
+        view_(view_of(scene_.scene.cameras.front(), WIDTH, HEIGHT, "camera")),
+        renderer_(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT),
+        lit_(make_case(renderer_, view_, lights())) {}
+
+  std::vector<shared::Light> lights() const {
+    std::vector<shared::Light> made = test_lights(scene_.air, view_, {.count = COUNT, .mix = Mix::points});
+    made[NO_RANGE].range = 0.0F;
+    return made;
+  }
+
+  Findings find(Lighting& lighting, const Truth& truth) {
+    Verification verification(WIDTH);
+    verification.add(truth, renderer_.visit(lighting, truth));
+    return verification.findings();
+  }
+
+  const TestScene& scene_;
+  View view_;
+  Renderer renderer_;
+  LitCase lit_;
+};
+
+TEST_F(CheckTheCheck, LightThatNoListHoldsIsMissed) {
+  const std::uint32_t pixel = (HEIGHT - 3) * WIDTH + 5;
+  ASSERT_GT(lit_.depth[pixel], 0.0F);
+  for (const Method& method : methods()) {
+    SCOPED_TRACE(method.name);
+    Lighting lighting = make_lighting(renderer_, {.method = &method, .light_capacity = COUNT});
+    EXPECT_EQ(find(lighting, lit_.truth).missed, 0);
+    const Findings beyond_the_last = find(lighting, with_light(lit_.truth, pixel, COUNT));
+    EXPECT_EQ(beyond_the_last.missed, 1);
+    EXPECT_EQ(beyond_the_last.first_miss, fmt::format("pixel (5, {}): light {}", HEIGHT - 3, COUNT));
+    if (&method == &brute_force()) continue;  // its list holds every light
+    const Findings in_between = find(lighting, with_light(lit_.truth, pixel, NO_RANGE));
+    EXPECT_EQ(in_between.missed, 1);
+    EXPECT_EQ(in_between.first_miss, fmt::format("pixel (5, {}): light {}", HEIGHT - 3, NO_RANGE));
+  }
+}
+
+TEST_F(CheckTheCheck, MissInALaterBandNamesItsRow) {
+  const Truth band = truth({.view = view_, .depth = lit_.depth, .lights = lit_.lights, .first_row = 15, .rows = 5});
+  Lighting lighting = make_lighting(renderer_, {.method = &brute_force(), .light_capacity = COUNT});
+  const Findings findings = find(lighting, with_light(band, 2 * WIDTH + 7, COUNT));
+  EXPECT_EQ(findings.missed, 1);
+  EXPECT_EQ(findings.first_miss, fmt::format("pixel (7, 17): light {}", COUNT));
+}
+
+/// What a faulty list does: the host writes it, tile_lists walks it.
+enum class Fault : std::uint32_t { none, descending, duplicate, one_left_out, descending_and_one_left_out };
+constexpr std::uint32_t LEFT_OUT = 0;  ///< at the eye: reaches every pixel nearer than its range
+
+template <Fault FAULT>
+void write_list(const HostContext& context) {
+  std::vector<std::uint32_t> list(context.lights.size());
+  std::iota(list.begin(), list.end(), 0U);
+  if constexpr (FAULT == Fault::one_left_out || FAULT == Fault::descending_and_one_left_out) std::erase(list, LEFT_OUT);
+  if constexpr (FAULT == Fault::descending || FAULT == Fault::descending_and_one_left_out) std::ranges::reverse(list);
+  if constexpr (FAULT == Fault::duplicate) list.insert(list.begin(), list.front());
+  list.insert(list.begin(), static_cast<std::uint32_t>(list.size()));
+  std::memcpy(context.buffers[0].data(), list.data(), list.size() * sizeof(list[0]));
+}
+
+/// A method with one tile over the whole picture.
+template <Fault FAULT>
+Method faulty_method() {
+  return {.name = "faulty", .result = "tile_lists", .plan = [](const Problem& problem) {
+            constexpr std::uint32_t TILE_PX = 32;
+            const std::uint32_t capacity = 2 * problem.light_capacity;
+            Plan plan;
+            const ResourceId lists =
+                plan.add({.name = "lists", .bytes = 4 * std::uint64_t{capacity} + 4, .memory = BufferMemory::upload});
+            plan.passes = {{.name = "write the list",
+                            .kind = PassKind::host,
+                            .bindings = {{lists, Access::write}},
+                            .host = write_list<FAULT>}};
+            plan.lookup = {
+                .name = "tile_lists", .constants = {TILE_PX, capacity}, .bindings = {{INPUT_FRAME}, {lists}}};
+            return plan;
+          }};
+}
+
+TEST_F(CheckTheCheck, FaultyListsAreFoundOut) {
+  std::uint64_t reached = 0;
+  for (const std::uint32_t light : lit_.truth.lights) reached += light == LEFT_OUT ? 1 : 0;
+  ASSERT_GT(reached, 0);
+  const std::uint64_t pixels = std::ranges::count_if(lit_.depth, [](float depth) { return depth > 0.0F; });
+  struct Expectation {
+    Method method;
+    std::uint64_t missed;
+    bool unordered;
+    std::uint64_t walked;
+  };
+  const Expectation expectations[] = {
+      {faulty_method<Fault::none>(), 0, false, COUNT},
+      {faulty_method<Fault::descending>(), 0, true, COUNT},
+      {faulty_method<Fault::duplicate>(), 0, true, COUNT + 1},
+      {faulty_method<Fault::one_left_out>(), reached, false, COUNT - 1},
+      {faulty_method<Fault::descending_and_one_left_out>(), reached, true, COUNT - 1},
+  };
+  for (const Expectation& expected : expectations) {
+    SCOPED_TRACE(&expected - expectations);
+    Lighting lighting = make_lighting(renderer_, {.method = &expected.method, .light_capacity = COUNT});
+    const Findings findings = find(lighting, lit_.truth);
+    EXPECT_EQ(findings.missed, expected.missed);
+    EXPECT_EQ(findings.unordered, expected.unordered);
+    EXPECT_EQ(findings.evaluations, expected.walked * pixels);
+    EXPECT_EQ(findings.first_miss.empty(), expected.missed == 0);
+    const float difference = max_abs_difference(renderer_.render(lighting).image, lit_.reference);
+    const bool same_sum = expected.missed == 0 && !expected.unordered;
+    EXPECT_EQ(difference == 0.0F, same_sum) << difference;
+  }
+}
+
+TEST(Difference, OneChangedBitCounts) {
+  const HdrImage image{.width = 3, .height = 1, .pixels = {glm::vec4(0.25F), glm::vec4(1e-30F), glm::vec4(65536.0F)}};
+  EXPECT_EQ(max_abs_difference(image, image), 0.0F);
+  for (std::size_t pixel = 0; pixel < image.pixels.size(); ++pixel) {
+    for (int channel = 0; channel < 4; ++channel) {
+      HdrImage changed = image;
+      float& value = changed.pixels[pixel][channel];
+      value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1U);
+      EXPECT_GT(max_abs_difference(image, changed), 0.0F);
+    }
+  }
+  HdrImage broken = image;
+  broken.pixels[1].g = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(max_abs_difference(image, broken), std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+}  // namespace lamp::app

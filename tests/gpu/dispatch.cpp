@@ -1,0 +1,83 @@
+// Builds, records and submits a dispatch.
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/dispatch.h"
+
+#include "render/pass_uses.h"
+
+namespace lamp::app {
+
+vulkan::Buffer host_buffer(const std::string& name, std::uint64_t bytes) {
+  vulkan::Buffer buffer = take(vulkan::Buffer::create(
+      test_context().device(), {.name = name,
+                                .bytes = bytes,
+                                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                .memory = vulkan::MemoryUse::readback}));
+  std::memset(buffer.mapped().data(), 0, bytes);
+  return buffer;
+}
+
+GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth) {
+  GpuImage image(test_context().device(), {.name = "test depth",
+                                           .width = width,
+                                           .height = height,
+                                           .format = VK_FORMAT_D32_SFLOAT,
+                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+  const vulkan::Buffer staging = host_buffer_of("depth staging", depth);
+  test_context().submit([&](VkCommandBuffer commands) {
+    vulkan::AccessTracker tracker;
+    vulkan::Recorder recorder(test_context().device(), commands, tracker);
+    recorder.barrier({copies_to(image.transfer_target())});
+    const VkBufferImageCopy whole{.imageSubresource = {image.aspect(), 0, 0, 1}, .imageExtent = {width, height, 1}};
+    vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
+    recorder.barrier({reads(image.sampled(), VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
+  });
+  return image;
+}
+
+std::vector<std::uint32_t> read_words(VkBuffer buffer, std::uint64_t count) {
+  const vulkan::Buffer words = host_buffer("words", count * sizeof(std::uint32_t));
+  test_context().submit([&](VkCommandBuffer commands) {
+    vulkan::AccessTracker tracker;
+    vulkan::Recorder recorder(test_context().device(), commands, tracker);
+    const VkBufferCopy whole{.size = words.bytes()};
+    recorder.barrier({copies_to(vulkan::Resource::storage(words.handle()))});
+    vkCmdCopyBuffer(commands, buffer, words.handle(), 1, &whole);
+    recorder.barrier({host_reads(vulkan::Resource::storage(words.handle()))});
+  });
+  return contents<std::uint32_t>(words);
+}
+
+void dispatch(const Dispatch& what) {
+  const vulkan::Device& device = test_context().device();
+  vulkan::PipelineInfo info{.name = std::string(what.shader)};
+  std::vector<vulkan::Bound> bound;
+  std::vector<vulkan::Use> to_host;
+  for (std::uint32_t i = 0; i < what.constants.size(); ++i) info.constants.push_back({i, what.constants[i]});
+  for (std::uint32_t i = 0; i < what.resources.size(); ++i) {
+    const vulkan::Resource& resource = what.resources[i];
+    info.bindings.push_back({i, resource.type});
+    bound.push_back({i, resource});
+    if (resource.buffer != VK_NULL_HANDLE) to_host.push_back(host_reads(resource));
+  }
+  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(device, info, test_shader(what.shader)));
+  test_context().submit([&](VkCommandBuffer commands) {
+    vulkan::AccessTracker tracker;
+    vulkan::Recorder recorder(device, commands, tracker);
+    std::vector<vulkan::Use> uses;
+    for (const vulkan::Resource& resource : what.resources) {
+      if (resource.image != VK_NULL_HANDLE) tracker.assume(resource);
+      const bool image = resource.image != VK_NULL_HANDLE;
+      uses.push_back({.resource = resource,
+                      .access = image ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
+                                      : VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+    }
+    recorder.begin_pass(what.shader, uses);
+    recorder.bind(pipeline, bound);
+    vkCmdDispatch(commands, what.groups.x, what.groups.y, what.groups.z);
+    recorder.end_pass();
+    recorder.barrier(to_host);
+  });
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,45 @@
+// One dispatch of a test shader, waited for, and the resources it takes.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+
+namespace lamp::app {
+
+/// A storage buffer that the host can write and read, zeroed.
+[[nodiscard]] vulkan::Buffer host_buffer(const std::string& name, std::uint64_t bytes);
+
+template <class T>
+[[nodiscard]] vulkan::Buffer host_buffer_of(const std::string& name, const std::vector<T>& values) {
+  vulkan::Buffer buffer = host_buffer(name, values.size() * sizeof(T));
+  std::memcpy(buffer.mapped().data(), values.data(), values.size() * sizeof(T));
+  return buffer;
+}
+
+template <class T>
+[[nodiscard]] std::vector<T> contents(const vulkan::Buffer& buffer) {
+  std::vector<T> values(buffer.bytes() / sizeof(T));
+  std::memcpy(values.data(), buffer.mapped().data(), values.size() * sizeof(T));
+  return values;
+}
+
+/// A depth image with these device depths, row by row, ready to be sampled.
+[[nodiscard]] GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth);
+
+/// The bytes of a device buffer of a plan.
+[[nodiscard]] std::vector<std::uint32_t> read_words(VkBuffer buffer, std::uint64_t count);
+
+/// A test shader with specialization constants 0, 1, 2, ... and bindings 0, 1, 2, ...
+struct Dispatch {
+  std::string_view shader;
+  std::vector<std::uint32_t> constants;
+  std::vector<vulkan::Resource> resources;
+  glm::uvec3 groups{1, 1, 1};
+};
+void dispatch(const Dispatch& what);
+
+}  // namespace lamp::app

@@ -1,0 +1,220 @@
+// Every method against the oracle and brute force: scenes x projections x sizes x light counts x mixes.
+// The design: at 1x1 and 17x31 pixels the full product, on reliefs of the scenes (test_scenes.h). At 257x129 and
+// 640x360 the scenes themselves; counts and mixes rotate, so that every method meets every scene, projection, count and
+// mix at both sizes, and every count every mix (checked below). Only brute force sits out its slowest case.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <ostream>
+#include <set>
+
+#include "gpu/method_check.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "scene/builtin.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t LARGEST_COUNT = 4096;
+constexpr std::uint64_t SLOW_EVALUATIONS = 1U << 28;  ///< of pixels times lights
+constexpr glm::uvec2 SMALL_SIZES[] = {{1, 1}, {17, 31}};
+constexpr Mix MIXES[] = {Mix::points, Mix::spots, Mix::both};
+
+/// A scene as one projection shows it at one size, and the cases made of it so far.
+class Stage {
+ public:
+  Stage(const TestScene& from, const Scene& scene, const View& view)
+      : air_(from.air), view_(view), gpu_(test_context(), scene), renderer_(make_renderer(view)) {}
+
+  Renderer& renderer() { return renderer_; }
+
+  const LitCase& lit_case(std::uint32_t count, Mix mix) {
+    const auto key = std::pair(count, mix);
+    const auto found = cases_.find(key);
+    if (found != cases_.end()) return found->second;
+    const std::uint32_t seed = count + static_cast<std::uint32_t>(cases_.size());
+    std::vector<shared::Light> lights = test_lights(air_, view_, {.count = count, .mix = mix, .seed = seed});
+    return cases_.emplace(key, make_case(renderer_, view_, std::move(lights))).first->second;
+  }
+
+ private:
+  [[nodiscard]] Renderer make_renderer(const View& view) const {
+    return {test_context(), shader_library(), gpu_, view.width(), view.height(), LARGEST_COUNT};
+  }
+
+  const OpenAir& air_;
+  View view_;
+  GpuScene gpu_;
+  Renderer renderer_;
+  std::map<std::pair<std::uint32_t, Mix>, LitCase> cases_;
+};
+
+View view_of_test(const Scene& scene, std::string_view projection, glm::uvec2 size) {
+  return view_of(find_camera(scene, ""), size.x, size.y, projection);
+}
+
+/// The relief of a built-in scene under a projection.
+struct Relief {
+  Relief(const TestScene& from, std::string_view projection, glm::uvec2 size)
+      : view(view_of_test(from.scene, projection, size)),
+        scene(relief_of(view, depth_of(from, view))),
+        stage(from, scene, view) {}
+
+  static std::vector<float> depth_of(const TestScene& from, const View& view) {
+    Renderer renderer(test_context(), shader_library(), from.gpu, view.width(), view.height(), 0);
+    return make_case(renderer, view, {}).depth;
+  }
+
+  View view;
+  Scene scene;
+  Stage stage;
+};
+
+struct SmallParam {
+  std::string_view scene;
+  std::string_view projection;
+  const Method* method;
+};
+
+void PrintTo(const SmallParam& param, std::ostream* out) {
+  *out << param.method->name << ", " << param.scene << ", " << param.projection;
+}
+
+std::vector<SmallParam> small_params() {
+  std::vector<SmallParam> params;
+  for (const BuiltinScene& scene : builtin_scenes())
+    for (const std::string_view projection : tested_projections())
+      for (const Method& method : methods()) params.push_back({scene.name, projection, &method});
+  return params;
+}
+
+class SmallMatrix : public GpuTest, public ::testing::WithParamInterface<SmallParam> {
+ protected:
+  /// Tests of one scene and projection follow each other and share their reliefs.
+  static Relief& relief(const SmallParam& param, glm::uvec2 size) {
+    static std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Relief>> reliefs;
+    static std::string shown;
+    if (shown.empty()) at_context_end([] { reliefs.clear(); });
+    const std::string wanted = fmt::format("{} {}", param.scene, param.projection);
+    if (wanted != shown) reliefs.clear();
+    shown = wanted;
+    std::unique_ptr<Relief>& kept = reliefs[{size.x, size.y}];
+    if (kept == nullptr) kept = std::make_unique<Relief>(builtin_test_scene(param.scene), param.projection, size);
+    return *kept;
+  }
+};
+
+TEST_P(SmallMatrix, MissesNothingAndEqualsBruteForce) {
+  for (const glm::uvec2 size : SMALL_SIZES) {
+    Stage& stage = relief(GetParam(), size).stage;
+    for (const std::uint32_t count : LIGHT_COUNTS) {
+      // One size has room for more lights than there are, the other for exactly as many.
+      const std::uint32_t capacity = size.x == 1 ? LARGEST_COUNT : count;
+      for (const Mix mix : MIXES) {
+        SCOPED_TRACE(fmt::format("{}x{}, {} lights, {}", size.x, size.y, count, MIX_NAMES[static_cast<int>(mix)]));
+        check_method(stage.renderer(), stage.lit_case(count, mix),
+                     {.method = GetParam().method, .light_capacity = capacity});
+        if (HasFailure()) return;  // one report is enough
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Full, SmallMatrix, ::testing::ValuesIn(small_params()), [](const auto& test) {
+  return test_name(fmt::format("{}__{}__{}", test.param.method->name, test.param.scene, test.param.projection));
+});
+
+struct LargeParam {
+  std::string_view scene;
+  std::string_view projection;
+  glm::uvec2 size;
+  std::uint32_t count;
+  Mix mix;
+};
+
+void PrintTo(const LargeParam& param, std::ostream* out) {
+  *out << fmt::format("{}, {}, {}x{}, {} lights, {}", param.scene, param.projection, param.size.x, param.size.y,
+                      param.count, MIX_NAMES[static_cast<int>(param.mix)]);
+}
+
+/// 257x129: all scenes x projections. 640x360: half of them, as on a chessboard. Counts and mixes go round; 3 and 8
+/// have no common divisor, so each count meets each mix.
+std::vector<LargeParam> large_params() {
+  std::vector<LargeParam> params;
+  const std::vector<std::string_view> projections = tested_projections();
+  std::uint32_t round = 0;
+  for (const glm::uvec2 size : {glm::uvec2(257, 129), glm::uvec2(640, 360)}) {
+    for (std::size_t s = 0; s < builtin_scenes().size(); ++s) {
+      for (std::size_t p = 0; p < projections.size(); ++p) {
+        if (size.x == 640 && (s + p) % 2 != 0) continue;
+        params.push_back({builtin_scenes()[s].name, projections[p], size, LIGHT_COUNTS[round % std::size(LIGHT_COUNTS)],
+                          MIXES[round % std::size(MIXES)]});
+        ++round;
+      }
+    }
+  }
+  return params;
+}
+
+class LargeMatrix : public GpuTest, public ::testing::WithParamInterface<LargeParam> {};
+
+TEST_P(LargeMatrix, MissesNothingAndEqualsBruteForce) {
+  const auto& [name, projection, size, count, mix] = GetParam();
+  const TestScene& scene = builtin_test_scene(name);
+  const View view = view_of_test(scene.scene, projection, size);
+  Renderer renderer(test_context(), shader_library(), scene.gpu, size.x, size.y, count);
+  const LitCase lit =
+      make_case(renderer, view, test_lights(scene.air, view, {.count = count, .mix = mix, .seed = count}));
+  const bool slow = std::uint64_t{size.x} * size.y * count > SLOW_EVALUATIONS;
+  for (const Method& method : methods()) {
+    if (slow && &method == &brute_force()) continue;
+    SCOPED_TRACE(method.name);
+    check_method(renderer, lit, {.method = &method, .light_capacity = count});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rotating, LargeMatrix, ::testing::ValuesIn(large_params()), [](const auto& test) {
+  const LargeParam& p = test.param;
+  return test_name(fmt::format("{}__{}__{}x{}", p.scene, p.projection, p.size.x, p.size.y));
+});
+
+TEST(MatrixDesign, EveryPairOccursAtTheLargerSizes) {
+  std::set<std::pair<std::string, std::string>> pairs;
+  std::set<std::string> values;
+  for (const LargeParam& param : large_params()) {
+    const std::string parts[] = {std::string(param.scene), std::string(param.projection),
+                                 fmt::format("{} pixels wide", param.size.x), fmt::format("{} lights", param.count),
+                                 std::string(MIX_NAMES[static_cast<int>(param.mix)])};
+    for (const std::string& a : parts) {
+      values.insert(a);
+      for (const std::string& b : parts)
+        if (&a != &b) pairs.emplace(a, b);
+    }
+  }
+  const std::size_t scenes = builtin_scenes().size();
+  const std::size_t projections = tested_projections().size();
+  EXPECT_EQ(values.size(), scenes + projections + 2 + std::size(LIGHT_COUNTS) + std::size(MIXES));
+  for (const std::string_view projection : tested_projections())
+    for (const BuiltinScene& scene : builtin_scenes())
+      EXPECT_TRUE(pairs.contains({std::string(scene.name), std::string(projection)})) << scene.name << projection;
+  for (const char* size : {"257 pixels wide", "640 pixels wide"}) {
+    for (const std::string_view mix : MIX_NAMES) EXPECT_TRUE(pairs.contains({size, std::string(mix)})) << size << mix;
+    for (const std::uint32_t count : LIGHT_COUNTS)
+      EXPECT_TRUE(pairs.contains({size, fmt::format("{} lights", count)})) << size << count;
+    for (const std::string_view projection : tested_projections())
+      EXPECT_TRUE(pairs.contains({size, std::string(projection)})) << size << projection;
+    for (const BuiltinScene& scene : builtin_scenes())
+      EXPECT_TRUE(pairs.contains({size, std::string(scene.name)})) << size << scene.name;
+  }
+  for (const std::uint32_t count : LIGHT_COUNTS)
+    for (const std::string_view mix : MIX_NAMES)
+      EXPECT_TRUE(pairs.contains({fmt::format("{} lights", count), std::string(mix)})) << count << mix;
+}
+
+}  // namespace
+}  // namespace lamp::app

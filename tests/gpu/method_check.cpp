@@ -1,0 +1,113 @@
+// Runs methods and compares.
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/method_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+namespace lamp::app {
+namespace {
+
+using Passes = vulkan::PlanRunner::Passes;
+
+std::map<std::string, std::unique_ptr<Lighting>> kept;
+
+LightingInfo info_of(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
+  return {.method = candidate.method,
+          .options = take(resolve_options(*candidate.method, candidate.settings)),
+          .width = renderer.targets().width,
+          .height = renderer.targets().height,
+          .light_capacity = candidate.light_capacity,
+          .path = path};
+}
+
+Findings find(Renderer& renderer, Lighting& lighting, const LitCase& lit, Passes which) {
+  const std::vector<gpu::Visit> visits = renderer.visit(lighting, lit.truth, which);
+  const std::uint64_t cells = lighting.runner().plan().cells;
+  for (const gpu::Visit& visit : visits)
+    if (visit.cell != ~0U && visit.cell >= cells) {
+      ADD_FAILURE() << "cell " << visit.cell << " of " << cells;
+      break;
+    }
+  Verification verification(lit.view.width());
+  verification.add(lit.truth, visits);
+  return verification.findings();
+}
+
+void check_findings(const Findings& findings, const LitCase& lit, const Method& method) {
+  if (!method.approximate) {
+    EXPECT_EQ(findings.missed, 0) << findings.first_miss;
+    EXPECT_GE(findings.evaluations, findings.useful);
+  }
+  EXPECT_FALSE(method.ordered && findings.unordered);
+  EXPECT_LE(findings.list_max, lit.lights.size());
+  EXPECT_EQ(findings.useful, lit.truth.lights.size());
+}
+
+void check_picture(Renderer& renderer, Lighting& lighting, const LitCase& lit) {
+  const Method& method = *lighting.info().method;
+  if (method.approximate) return;
+  const float tolerance = method.ordered ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(lit.reference));
+  EXPECT_LE(max_abs_difference(renderer.render(lighting).image, lit.reference), tolerance);
+}
+
+}  // namespace
+
+const Method& brute_force() { return *take(find_method("all")); }
+
+LitCase make_case(Renderer& renderer, const View& view, std::vector<shared::Light> lights) {
+  LitCase lit{.view = view, .lights = std::move(lights)};
+  Lighting& lighting = kept_lighting(renderer, {.method = &brute_force()}, ShadingPath::deferred);
+  renderer.set_frame(view, lit.lights);
+  lit.reference = renderer.render(lighting).image;
+  lit.depth = renderer.read_depth();
+  lit.truth = truth({.view = view, .depth = lit.depth, .lights = lit.lights, .rows = view.height()});
+  return lit;
+}
+
+Lighting make_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
+  return {renderer.device(), shader_library(), info_of(renderer, candidate, path)};
+}
+
+Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
+  if (kept.empty()) at_context_end([] { kept.clear(); });
+  // Brute force has no buffers of its own, so one lighting does for any number of lights that tests have.
+  constexpr std::uint32_t MANY = 1U << 16;
+  const std::uint32_t capacity = candidate.method == &brute_force() ? MANY : candidate.light_capacity;
+  const std::string key =
+      fmt::format("{} {} {}x{} {} {}", candidate.method->name, fmt::join(candidate.settings, " "),
+                  renderer.targets().width, renderer.targets().height, capacity, static_cast<int>(path));
+  std::unique_ptr<Lighting>& lighting = kept[key];
+  if (lighting == nullptr)
+    lighting = std::make_unique<Lighting>(make_lighting(
+        renderer, {.method = candidate.method, .settings = candidate.settings, .light_capacity = capacity}, path));
+  return *lighting;
+}
+
+Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& candidate) {
+  renderer.set_frame(lit.view, lit.lights);
+  Lighting& lighting = kept_lighting(renderer, candidate, ShadingPath::deferred);
+  check_picture(renderer, lighting, lit);  // also draws the depth that the visits read
+  const Findings findings = find(renderer, lighting, lit, Passes::separate);
+  check_findings(findings, lit, *candidate.method);
+  if (!lighting.runner().plan().fused) return findings;
+
+  SCOPED_TRACE("fused");
+  Lighting& fused = kept_lighting(renderer, candidate, ShadingPath::tiled_deferred);
+  check_picture(renderer, fused, lit);
+  const Findings fused_findings = find(renderer, fused, lit, Passes::fused);
+  check_findings(fused_findings, lit, *candidate.method);
+  EXPECT_EQ(fused_findings.evaluations, findings.evaluations);
+  return findings;
+}
+
+float largest_value(const HdrImage& image) {
+  float largest = 0.0F;
+  for (const glm::vec4& pixel : image.pixels) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
+  return largest;
+}
+
+}  // namespace lamp::app

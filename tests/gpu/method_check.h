@@ -1,0 +1,51 @@
+// Checks a method's look-ups against the oracle, and the pictures that are lit through them against brute force.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+#include "render/verification.h"
+
+namespace lamp::app {
+
+/// One picture to be lit, and what is known of it: the same for all methods.
+struct LitCase {
+  View view;
+  std::vector<shared::Light> lights;
+  std::vector<float> depth;
+  Truth truth;
+  HdrImage reference;  ///< by brute force, shaded in compute
+};
+
+/// Draws the case by brute force and asks the oracle.
+[[nodiscard]] LitCase make_case(Renderer& renderer, const View& view, std::vector<shared::Light> lights);
+
+/// A method with options ("tile=8") for a light capacity.
+struct Candidate {
+  const Method* method = nullptr;
+  std::vector<std::string> settings;
+  std::uint32_t light_capacity = 0;
+};
+
+/// Throws Error when the plan does not fit the device.
+[[nodiscard]] Lighting make_lighting(const Renderer& renderer, const Candidate& candidate,
+                                     ShadingPath path = ShadingPath::deferred);
+/// The same, kept until the context ends: for tests that come back to it.
+[[nodiscard]] Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path);
+
+/// Expects of both look-ups, separate and fused: no miss unless the method is approximate, ascending where its row says
+/// so, no more lights than there are; and of their pictures: brute force's, bit for bit where lists ascend.
+/// Returns what the separate look-up was found to hold.
+Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& candidate);
+
+/// Brute force's row of the table.
+[[nodiscard]] const Method& brute_force();
+
+/// How far the sums of an unordered method may be from brute force's: an absolute difference of this share of one more
+/// than the largest value, which allows for 4096 additions in any order.
+inline constexpr float UNORDERED_TOLERANCE = 1e-4F;
+[[nodiscard]] float largest_value(const HdrImage& image);
+
+}  // namespace lamp::app

@@ -1,0 +1,299 @@
+// The table of methods: its rows, their options, and their plans at many sizes and capacities, all without a device.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/method.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <set>
+#include <string>
+
+#include "lamplight/shader_code.h"
+#include "render/shader_library.h"
+
+namespace {
+
+using lamp::DeviceTraits;
+using lamp::Method;
+using lamp::Options;
+using lamp::OptionSpec;
+using lamp::Plan;
+using lamp::Problem;
+
+// A large GPU, a software device, and the least that Vulkan 1.3 guarantees.
+const DeviceTraits LARGE{.max_storage_buffer_bytes = 0xFFFFFFFF,
+                         .max_groups = {2147483647, 65535, 65535},
+                         .max_group_invocations = 1024,
+                         .shared_memory_bytes = 49152,
+                         .max_image_size = 32768};
+const DeviceTraits SOFTWARE{.max_group_invocations = 1024, .shared_memory_bytes = 32768, .max_image_size = 16384};
+const DeviceTraits LEAST{};
+
+constexpr glm::uvec2 SIZES[] = {{1, 1},       {1, 4096},    {4096, 1},     {15, 17},    {16, 16},       {17, 15},
+                                {64, 64},     {65, 63},     {640, 360},    {1279, 721}, {1920, 1080},   {3840, 2160},
+                                {4096, 4096}, {7680, 4320}, {16384, 1000}, {16384, 1},  {16384, 16384}, {32768, 32768}};
+constexpr glm::uvec2 FEWER_SIZES[] = {{1, 1}, {65, 63}, {1920, 1080}, {16384, 16384}};  // options at other values
+constexpr std::uint32_t CAPACITIES[] = {0, 1, 31, 32, 33, 512, 513, 4096, 65536, 1000000, 1 << 21, 1 << 22, 1 << 24};
+
+Options defaults_of(const Method& method) { return lamp::resolve_options(method, {}).value(); }
+
+/// Every value of an option that a test tries: all words, or both ends.
+std::vector<std::string> values_of(const OptionSpec& spec) {
+  if (!spec.choices.empty()) return {spec.choices.begin(), spec.choices.end()};
+  return {std::to_string(spec.min), std::to_string(spec.max)};
+}
+
+/// The defaults, and each option alone at each of its values.
+std::vector<std::vector<std::string>> settings_of(const Method& method) {
+  std::vector<std::vector<std::string>> settings{{}};
+  for (const OptionSpec& spec : method.options)
+    for (const std::string& value : values_of(spec)) settings.push_back({std::string(spec.key) + "=" + value});
+  return settings;
+}
+
+/// The plan of a problem, or an error that names what is beyond which limit, or options that do not go together.
+void expect_plan_or_limit(const Method& method, const Problem& problem) {
+  const lamp::Result<Plan> made = lamp::make_plan(method, problem);
+  if (!made) {
+    const std::string text = made.error().text();
+    if (problem.options.all() != defaults_of(method).all() && text.starts_with("option ")) return;
+    const bool size = text.starts_with("size ") && text.find("pixels a side on this device") != std::string::npos;
+    const bool buffer = text.find("buffer") != std::string::npos && text.find("hold at most") != std::string::npos;
+    const bool groups = text.find("work groups") != std::string::npos && text.find("takes 1 to") != std::string::npos;
+    const bool shared = text.find("shared memory, the device has") != std::string::npos;
+    EXPECT_TRUE(size || buffer || groups || shared) << text;
+    return;
+  }
+  const Plan& plan = made.value();
+  EXPECT_FALSE(lamp::plan_check(plan, problem.traits).has_value());
+  EXPECT_EQ(plan.light_capacity, problem.light_capacity);
+  EXPECT_NE(lamp::find_shader(lamp::render_shaders(), "visit@" + plan.lookup.name), nullptr) << plan.lookup.name;
+  EXPECT_GE(plan.cells, 1U);
+  std::uint64_t sum = 0;
+  std::set<std::string> names{"total"};  // the row that Stats adds
+  for (const lamp::BufferDesc& buffer : plan.buffers) {
+    sum += buffer.bytes;
+    EXPECT_TRUE(names.insert(buffer.name).second) << "a second buffer " << buffer.name;
+  }
+  EXPECT_EQ(plan.bytes(), sum);
+  EXPECT_EQ(lamp::make_plan(method, problem).value().bytes(), sum) << "planning twice gives two answers";
+}
+
+class EveryMethod : public ::testing::TestWithParam<const Method*> {};
+
+TEST_P(EveryMethod, PlansOrNamesTheLimit) {
+  const Method& method = *GetParam();
+  for (const std::vector<std::string>& settings : settings_of(method)) {
+    const lamp::Result<Options> options = lamp::resolve_options(method, settings);
+    ASSERT_TRUE(options) << options.error().text();
+    for (const DeviceTraits& traits : {LARGE, SOFTWARE, LEAST})
+      for (const glm::uvec2 size : settings.empty() ? std::span<const glm::uvec2>(SIZES) : std::span(FEWER_SIZES))
+        for (const std::uint32_t lights : CAPACITIES) {
+          SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + ", " + std::to_string(lights) + " " +
+                       (settings.empty() ? "" : settings[0]));
+          expect_plan_or_limit(method, {.width = size.x,
+                                        .height = size.y,
+                                        .light_capacity = lights,
+                                        .options = options.value(),
+                                        .traits = traits});
+          if (HasFailure()) return;
+        }
+  }
+}
+
+TEST_P(EveryMethod, PlansOrdinaryPicturesOnTheLeastDevice) {
+  const Method& method = *GetParam();
+  for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(1280, 720)})
+    for (const std::uint32_t lights : {0U, 1U, 4096U}) {
+      const auto made = lamp::make_plan(method, {.width = size.x,
+                                                 .height = size.y,
+                                                 .light_capacity = lights,
+                                                 .options = defaults_of(method),
+                                                 .traits = LEAST});
+      EXPECT_TRUE(made) << made.error().text();
+    }
+}
+
+TEST_P(EveryMethod, PlansWithItsDefaultsAsItsRowSays) {
+  const Method& method = *GetParam();
+  const auto made = lamp::make_plan(
+      method, {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE});
+  ASSERT_TRUE(made) << made.error().text();
+  EXPECT_EQ(made.value().lookup.name, method.result);
+  EXPECT_EQ(made.value().ordered, method.ordered);
+  EXPECT_EQ(made.value().approximate, method.approximate);
+}
+
+TEST_P(EveryMethod, ReadsDepthExactlyIfItsRowSaysSo) {
+  const Method& method = *GetParam();
+  const Plan plan =
+      lamp::make_plan(
+          method, {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE})
+          .value();
+  const auto reads_depth = [](const lamp::Binding& binding) { return binding.resource == lamp::INPUT_DEPTH; };
+  const bool reads = std::ranges::any_of(
+      plan.passes, [&](const lamp::Pass& pass) { return std::ranges::any_of(pass.bindings, reads_depth); });
+  EXPECT_EQ(reads, method.needs_depth);
+  EXPECT_FALSE(std::ranges::any_of(plan.lookup.bindings, reads_depth)) << "engines bind buffers only";
+}
+
+// Every shader that reads through a look-up exists in a variant for this method's look-up.
+TEST_P(EveryMethod, HasItsLookUpInEveryShader) {
+  const Method& method = *GetParam();
+  const auto has = [](const std::string& shader, const std::string& lookup) {
+    return lamp::find_shader(lamp::render_shaders(), shader + "@" + lookup) != nullptr;
+  };
+  for (const char* shader : {"deferred", "forward", "visit"})
+    EXPECT_TRUE(has(shader, std::string(method.result))) << shader << "@" << method.result;
+  const auto made = lamp::make_plan(
+      method, {.width = 64, .height = 64, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE});
+  ASSERT_TRUE(made);
+  if (!made.value().fused) return;
+  for (const char* shader : {"deferred", "visit"})
+    EXPECT_TRUE(has(shader, made.value().fused->lookup.name)) << shader << "@" << made.value().fused->lookup.name;
+}
+
+TEST_P(EveryMethod, HasARowThatSaysWhatItIs) {
+  const Method& method = *GetParam();
+  for (const std::string_view text : {method.name, method.title, method.source, method.summary, method.result})
+    EXPECT_FALSE(text.empty());
+  EXPECT_EQ(method.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-."), std::string_view::npos);
+  EXPECT_TRUE(method.summary.ends_with(".")) << method.summary;
+  EXPECT_TRUE(method.plan != nullptr);
+  std::set<std::string_view> keys;
+  for (const OptionSpec& spec : method.options) {
+    EXPECT_TRUE(keys.insert(spec.key).second) << spec.key;
+    EXPECT_FALSE(spec.help.empty()) << spec.key;
+    EXPECT_GE(spec.min, 0) << spec.key;
+    EXPECT_LE(spec.max, 0xFFFFFFFFLL) << spec.key;
+    EXPECT_TRUE(!spec.choices.empty() || spec.min < spec.max) << spec.key;
+  }
+}
+
+TEST_P(EveryMethod, AcceptsItsDefaultsWrittenOut) {
+  const Method& method = *GetParam();
+  std::vector<std::string> written;
+  for (const OptionSpec& spec : method.options)
+    written.push_back(std::string(spec.key) + "=" + std::string(spec.fallback));
+  const auto options = lamp::resolve_options(method, written);
+  ASSERT_TRUE(options) << options.error().text();
+  EXPECT_EQ(options.value().all(), defaults_of(method).all());
+  EXPECT_EQ(options.value().all().size(), method.options.size());
+}
+
+TEST_P(EveryMethod, RefusesWhatIsNoValueOfAnOption) {
+  const Method& method = *GetParam();
+  for (const OptionSpec& spec : method.options) {
+    std::vector<std::string> wrong{"", " ", "x", "-1", "1.5", "0x10", "+16", "16 ", "99999999999999999999"};
+    if (spec.choices.empty()) wrong.push_back(std::to_string(spec.max + 1));
+    if (spec.choices.empty()) wrong.push_back(std::to_string(spec.min - 1));
+    for (const std::string& value : wrong) {
+      const auto options = lamp::resolve_options(method, {std::string(spec.key) + "=" + value});
+      ASSERT_FALSE(options) << spec.key << " accepts '" << value << "'";
+      EXPECT_EQ(options.error().source, "option " + std::string(spec.key));
+      EXPECT_NE(options.error().message.find("'" + value + "'"), std::string::npos) << options.error().message;
+      const std::string expected = spec.choices.empty()
+                                       ? "from " + std::to_string(spec.min) + " to " + std::to_string(spec.max)
+                                       : std::string(spec.choices.back());
+      EXPECT_NE(options.error().message.find(expected), std::string::npos) << options.error().message;
+    }
+  }
+}
+
+std::vector<const Method*> every_method() {
+  std::vector<const Method*> all;
+  for (const Method& method : lamp::methods()) all.push_back(&method);
+  return all;
+}
+std::string test_name(const ::testing::TestParamInfo<const Method*>& row) {
+  std::string name(row.param->name);
+  std::ranges::replace_if(name, [](char c) { return c == '-' || c == '.'; }, '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(every_method()), test_name);
+
+TEST(Methods, NamesAreUniqueAndFound) {
+  std::set<std::string_view> names;
+  for (const Method& method : lamp::methods()) {
+    EXPECT_TRUE(names.insert(method.name).second) << method.name;
+    const auto found = lamp::find_method(method.name);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found.value(), &method);
+  }
+  EXPECT_GE(names.size(), 4U);
+}
+
+TEST(Methods, AnUnknownNameBringsTheNearest) {
+  const auto found = lamp::find_method("tilde-bits");
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().source, "method 'tilde-bits'");
+  EXPECT_TRUE(found.error().message.starts_with("there is no such method; the nearest are tiled-bits, "))
+      << found.error().message;
+  EXPECT_FALSE(lamp::find_method("")) << "no method has no name";
+  EXPECT_FALSE(lamp::find_method("Tiled")) << "names are exact";
+}
+
+TEST(Options, HoldDefaultsAndWhatWasSet) {
+  const Method& tiled = *lamp::find_method("tiled").value();
+  EXPECT_EQ(lamp::resolve_options(tiled, {}).value().integer("tile"), 16U);
+  const auto set = lamp::resolve_options(tiled, {"tile=8", "tile=32"});
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set.value().integer("tile"), 32U) << "the last setting counts";
+  EXPECT_EQ(set.value().word("tile"), "32");
+}
+
+TEST(Options, AnUnknownKeyBringsTheKnownOnes) {
+  const auto options = lamp::resolve_options(*lamp::find_method("tiled").value(), {"tle=8"});
+  ASSERT_FALSE(options);
+  EXPECT_EQ(options.error().source, "option 'tle'");
+  EXPECT_TRUE(options.error().message.starts_with("method tiled has the options tile, ")) << options.error().message;
+  const auto none = lamp::resolve_options(*lamp::find_method("all").value(), {"tile=8"});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text(), "option 'tile': method all has no options");
+}
+
+TEST(Options, AKeyWithoutAValueIsAnError) {
+  for (const char* setting : {"tile", "", "tile:8"}) {
+    const auto options = lamp::resolve_options(*lamp::find_method("tiled").value(), {setting});
+    ASSERT_FALSE(options) << setting;
+    EXPECT_EQ(options.error().text(), "option '" + std::string(setting) + "': expected KEY=VALUE");
+  }
+}
+
+TEST(MakePlan, RefusesSizesAndCapacitiesThatNoDeviceHas) {
+  const Method& all = *lamp::find_method("all").value();
+  const auto text = [&](std::uint32_t width, std::uint32_t height, std::uint32_t lights, const DeviceTraits& traits) {
+    const auto made =
+        lamp::make_plan(all, {.width = width, .height = height, .light_capacity = lights, .traits = traits});
+    return made ? std::string() : made.error().text();
+  };
+  EXPECT_EQ(text(0, 10, 1, LEAST), "size 0x10: expected 1 to 4096 pixels a side on this device");
+  EXPECT_EQ(text(10, 0, 1, LEAST), "size 10x0: expected 1 to 4096 pixels a side on this device");
+  EXPECT_EQ(text(4097, 1, 1, LEAST), "size 4097x1: expected 1 to 4096 pixels a side on this device");
+  EXPECT_EQ(text(1, 4097, 1, LEAST), "size 1x4097: expected 1 to 4096 pixels a side on this device");
+  EXPECT_EQ(text(4096, 4096, 1, LEAST), "");
+  EXPECT_EQ(text(65536, 65536, 1, {.max_image_size = 0xFFFFFFFF}), "");
+  EXPECT_EQ(text(65537, 1, 1, {.max_image_size = 0xFFFFFFFF}),
+            "size 65537x1: expected 1 to 65536 pixels a side on this device");
+  EXPECT_EQ(text(1, 1, lamp::MAX_LIGHTS, LARGE), "");
+  EXPECT_EQ(text(1, 1, lamp::MAX_LIGHTS + 1, LARGE), "light capacity: expected at most 16777216, got 16777217");
+  EXPECT_EQ(text(1, 1, lamp::MAX_LIGHTS, LEAST),
+            "method all: light buffer: needs 1073741824 bytes, the device's storage buffers hold at most 134217728");
+}
+
+TEST(NearestNames, AreOrderedByEditsThenByName) {
+  constexpr std::string_view NAMES[] = {"clustered", "tiled-bits", "tiled", "all"};
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(lamp::nearest_names("tiled", NAMES), (Names{"tiled", "all", "tiled-bits"}));
+  EXPECT_EQ(lamp::nearest_names("clusterd", NAMES, 1), Names{"clustered"});
+  EXPECT_EQ(lamp::nearest_names("", NAMES, 2), (Names{"all", "tiled"})) << "every letter is an edit";
+  EXPECT_EQ(lamp::nearest_names("bbb", std::span(NAMES).first(0)), Names{});
+  EXPECT_EQ(lamp::nearest_names("x", NAMES, 0), Names{});
+  EXPECT_EQ(lamp::nearest_names("x", NAMES, 9).size(), 4U);
+  constexpr std::string_view TIES[] = {"b", "c", "a"};
+  EXPECT_EQ(lamp::nearest_names("x", TIES), (Names{"a", "b", "c"}));
+}
+
+}  // namespace
