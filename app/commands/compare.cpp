@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "commands/commands.h"
+#include "commands/panels.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
 #include "render/heatmap.h"
@@ -18,6 +19,7 @@ struct CompareOptions {
   Request request;
   std::string a, b;
   std::string out = "compare.png";
+  bool panels = false;
   bool json = false;
 };
 
@@ -58,9 +60,19 @@ void print_side(const Side& side) {
              side.stats.rendered.shade_ms);
 }
 
+Exit compare_panels(const CompareOptions& o) {
+  if (!o.b.empty()) throw Error(fmt::format("compare --panels: takes one scene, got '{}' too", o.b));
+  Request request = o.request;
+  if (!o.a.empty()) request.scene = o.a;
+  make_folder_of(o.out);
+  return draw_panels(request, o.out, o.json);
+}
+
 Exit compare(const CompareOptions& o) {
   constexpr std::string_view PICTURES[] = {".png"};
   check_output("--out", o.out, PICTURES);
+  if (o.panels) return compare_panels(o);
+  if (o.a.empty() || o.b.empty()) throw Error("compare: expected the names of two methods, or --panels and a scene");
   for (const std::string& name : {o.a, o.b}) check_request(o.request, parse_method(name));
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
@@ -95,17 +107,20 @@ Run add_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Two methods side by side: heat maps, difference, numbers");
   auto o = std::make_shared<CompareOptions>();
   o->request.size = "640x360";
-  command->add_option("a", o->a, "a method")->required();
-  command->add_option("b", o->b, "another")->required();
+  command->add_option("a", o->a, "a method; with --panels, the scene");
+  command->add_option("b", o->b, "another");
   add_common_options(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   command->add_option("--out", o->out, "picture, .png")->capture_default_str();
+  command->add_flag("--panels", o->panels,
+                    "six panels instead: picture, legend and Stewart's four heat maps; excess of each test");
   command->add_flag("--json", o->json, "print the numbers as JSON");
   command->footer(
       "Examples:\n"
       "  lamp compare tiled clustered posts --lights 16384 --out posts.png\n"
-      "  lamp compare tiled tiled-bits --json");
+      "  lamp compare tiled tiled-bits --json\n"
+      "  lamp compare --panels blocks --lights 16384 --out panels.png");
   return [o] { return compare(*o); };
 }
 

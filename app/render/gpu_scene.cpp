@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <tuple>
 
 #include "gpu/check.h"
 
@@ -160,9 +161,9 @@ VkSampler GpuScene::sampler(const vulkan::Device& device, const Texture& texture
 void GpuScene::make_draws(Context& context) {
   std::vector<std::uint32_t> order(scene_->instances.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) {
+  std::ranges::sort(order, {}, [&](std::uint32_t i) {
     const std::uint32_t mesh = scene_->instances[i].mesh;
-    return std::pair(scene_->meshes[mesh].material, mesh);
+    return std::tuple(scene_->meshes[mesh].material, mesh, i);
   });
   std::vector<gpu::InstanceData> instances;
   for (std::uint32_t i = 0; i < order.size(); ++i) {

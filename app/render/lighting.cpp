@@ -229,9 +229,9 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   if (!culled) runner.record(recorder, inputs);
 
   std::vector<Draw> far_to_near(frame.scene.blended().begin(), frame.scene.blended().end());
-  std::ranges::stable_sort(far_to_near, std::greater<>(), [&](const Draw& draw) {
+  std::ranges::sort(far_to_near, {}, [&](const Draw& draw) {
     const glm::vec3 offset = draw.center - frame.eye;
-    return glm::dot(offset, offset);
+    return std::pair(-glm::dot(offset, offset), draw.first_instance);
   });
   const Attachments attachments{
       .colors = {{&frame.targets.hdr}}, .depth = &frame.targets.depth, .depth_use = Attachments::Depth::test};

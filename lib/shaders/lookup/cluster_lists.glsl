@@ -3,15 +3,21 @@
 #include "lamplight/shared/frame.h"
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 64;
-layout(constant_id = 101) const uint SLICES = 24;
-layout(constant_id = 102) const uint NEAR_MM = 500;
-layout(constant_id = 103) const uint FAR_M = 500;
+layout(constant_id = 101) const uint LOOKUP_SLICES = 24;
+layout(constant_id = 102) const uint LOOKUP_NEAR_MM = 500;
+layout(constant_id = 103) const uint LOOKUP_FAR_M = 500;
 layout(constant_id = 104) const uint LOOKUP_ENTRIES = 1;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupRanges { uvec2 lookup_ranges[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
 
+#define SLICES LOOKUP_SLICES
+#define NEAR_MM LOOKUP_NEAR_MM
+#define FAR_M LOOKUP_FAR_M
 #include "common/slices.glsl"
+#undef SLICES
+#undef NEAR_MM
+#undef FAR_M
 
 struct Walk {
   uint at;

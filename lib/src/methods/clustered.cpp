@@ -74,7 +74,7 @@ Method clustered_method() {
                        .max = 1000000},
                       {.key = "mean_capacity",
                        .help = "lights a cluster, on average, that the shared list has room for",
-                       .fallback = "128",
+                       .fallback = "512",
                        .min = 1,
                        .max = 65536}},
           .plan = plan_clustered};

@@ -121,6 +121,12 @@ std::string result_text(VkResult result) {
       return "out of device memory (VK_ERROR_OUT_OF_DEVICE_MEMORY)";
     case VK_ERROR_DEVICE_LOST:
       return "the device was lost (VK_ERROR_DEVICE_LOST)";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return "there is no Vulkan driver (VK_ERROR_INCOMPATIBLE_DRIVER)";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return "a feature is missing (VK_ERROR_FEATURE_NOT_PRESENT)";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+      return "an extension is missing (VK_ERROR_EXTENSION_NOT_PRESENT)";
     default:
       return "Vulkan error " + std::to_string(result);
   }

@@ -117,6 +117,7 @@ std::vector<Timestamps::Time> Timestamps::read() const {
                           ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
   std::vector<Time> times;
+  times.reserve(passes_.size());
   for (std::size_t i = 0; i < passes_.size(); ++i)
     times.push_back({passes_[i], static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * period_ns_ * 1e-6});
   return times;
