@@ -48,7 +48,7 @@ void check_outputs(const RenderOptions& o) {
 }
 
 /// The file, after its folder was made.
-const std::string& with_folder(const std::string& file) {
+std::filesystem::path with_folder(std::filesystem::path file) {
   make_folder_of(file);
   return file;
 }

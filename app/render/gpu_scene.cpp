@@ -66,6 +66,16 @@ std::vector<std::byte> surroundings_bytes(const Scene& scene) {
   return bytes;
 }
 
+/// Where the device can. Not on a software device: Mesa's lavapipe walks every texel under a pixel one by one, and under
+/// a triangle seen edge-on those have no end.
+bool filters_anisotropically(const vulkan::Device& device) {
+  VkPhysicalDeviceFeatures features{};
+  vkGetPhysicalDeviceFeatures(device.physical, &features);
+  VkPhysicalDeviceProperties properties{};
+  vkGetPhysicalDeviceProperties(device.physical, &properties);
+  return features.samplerAnisotropy == VK_TRUE && properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
 glm::vec3 mesh_center(const Scene& scene, const Instance& instance) {
   const Mesh& mesh = scene.meshes[instance.mesh];
   glm::vec3 low(std::numeric_limits<float>::max());
@@ -141,15 +151,13 @@ VkSampler GpuScene::sampler(const vulkan::Device& device, const Texture& texture
   if (slot.get() != VK_NULL_HANDLE) return slot.get();
   constexpr std::array MODES{VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT,
                              VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
-  VkPhysicalDeviceFeatures features{};
-  vkGetPhysicalDeviceFeatures(device.physical, &features);
   const VkSamplerCreateInfo create{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                    .magFilter = texture.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
                                    .minFilter = VK_FILTER_LINEAR,
                                    .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
                                    .addressModeU = MODES[u],
                                    .addressModeV = MODES[v],
-                                   .anisotropyEnable = features.samplerAnisotropy,
+                                   .anisotropyEnable = filters_anisotropically(device) ? VK_TRUE : VK_FALSE,
                                    .maxAnisotropy = 4.0F,
                                    .maxLod = VK_LOD_CLAMP_NONE};
   VkSampler handle = VK_NULL_HANDLE;

@@ -5,6 +5,7 @@
 #include "scene/procedural_textures.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -128,7 +129,12 @@ Baked bake(const Surface& surface) {
 }  // namespace
 
 float noise(glm::vec2 p) {
-  static const std::vector<float> table = make_noise();
+  // Isolated: a thread that waits for make_noise's own tasks must not take up a task that asks for this table again.
+  static const std::vector<float> table = [] {
+    std::vector<float> made;
+    tbb::this_task_arena::isolate([&] { made = make_noise(); });
+    return made;
+  }();
   const glm::vec2 scaled = glm::fract(p) * static_cast<float>(NOISE_SIZE);
   const glm::uvec2 cell(scaled);
   const glm::vec2 f = scaled - glm::vec2(cell);

@@ -51,14 +51,18 @@ std::vector<std::string> environment_with(const Environment& more) {
   std::vector<std::string> all;
   for (char** variable = environ; *variable != nullptr; ++variable) all.emplace_back(*variable);
   for (const auto& [name, value] : more) {
-    std::erase_if(all, [&](const std::string& entry) { return entry.starts_with(name + "="); });
-    all.push_back(name + "=" + value);
+    std::string entry = name;
+    entry += '=';
+    std::erase_if(all, [&](const std::string& old) { return old.starts_with(entry); });
+    entry += value;
+    all.push_back(std::move(entry));
   }
   return all;
 }
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> all;
+  all.reserve(texts.size() + 1);
   for (std::string& text : texts) all.push_back(text.data());
   all.push_back(nullptr);
   return all;

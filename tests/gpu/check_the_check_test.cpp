@@ -64,6 +64,7 @@ TEST_F(CheckTheCheck, LightThatNoListHoldsIsMissed) {
   for (const Method& method : methods()) {
     SCOPED_TRACE(method.name);
     Lighting lighting = make_lighting(renderer_, {.method = &method, .light_capacity = COUNT});
+    if (lighting.runner().plan().approximate) continue;
     EXPECT_EQ(find(lighting, lit_.truth).missed, 0);
     const Findings beyond_the_last = find(lighting, with_light(lit_.truth, pixel, COUNT));
     EXPECT_EQ(beyond_the_last.missed, 1);
@@ -111,8 +112,9 @@ Method faulty_method() {
                             .kind = PassKind::host,
                             .bindings = {{lists, Access::write}},
                             .host = write_list<FAULT>}};
-            plan.lookup = {
-                .name = "tile_lists", .constants = {TILE_PX, capacity}, .bindings = {{INPUT_FRAME}, {lists}}};
+            plan.lookup = {.name = "tile_lists",
+                           .constants = {TILE_PX, capacity, /*ranges*/ 1},
+                           .bindings = {{INPUT_FRAME}, {lists}, {lists}}};
             return plan;
           }};
 }

@@ -37,21 +37,20 @@ Findings find(Renderer& renderer, Lighting& lighting, const LitCase& lit, Passes
   return verification.findings();
 }
 
-void check_findings(const Findings& findings, const LitCase& lit, const Method& method) {
-  if (!method.approximate) {
+void check_findings(const Findings& findings, const LitCase& lit, const Plan& plan) {
+  if (!plan.approximate) {
     EXPECT_EQ(findings.missed, 0) << findings.first_miss;
     EXPECT_GE(findings.evaluations, findings.useful);
   }
-  EXPECT_FALSE(method.ordered && findings.unordered);
+  EXPECT_FALSE(plan.ordered && findings.unordered);
   EXPECT_LE(findings.list_max, lit.lights.size());
   EXPECT_EQ(findings.useful, lit.truth.lights.size());
 }
 
 void check_picture(Renderer& renderer, Lighting& lighting, const LitCase& lit) {
-  const Method& method = *lighting.info().method;
-  if (method.approximate) return;
-  const float tolerance = method.ordered ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(lit.reference));
-  EXPECT_LE(max_abs_difference(renderer.render(lighting).image, lit.reference), tolerance);
+  const HdrImage image = renderer.render(lighting).image;
+  if (lighting.runner().plan().approximate) return;
+  EXPECT_LE(max_abs_difference(image, lit.reference), picture_tolerance(lighting.runner().plan(), lit.reference));
 }
 
 }  // namespace
@@ -92,16 +91,20 @@ Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& c
   Lighting& lighting = kept_lighting(renderer, candidate, ShadingPath::deferred);
   check_picture(renderer, lighting, lit);  // also draws the depth that the visits read
   const Findings findings = find(renderer, lighting, lit, Passes::separate);
-  check_findings(findings, lit, *candidate.method);
+  check_findings(findings, lit, lighting.runner().plan());
   if (!lighting.runner().plan().fused) return findings;
 
   SCOPED_TRACE("fused");
   Lighting& fused = kept_lighting(renderer, candidate, ShadingPath::tiled_deferred);
   check_picture(renderer, fused, lit);
   const Findings fused_findings = find(renderer, fused, lit, Passes::fused);
-  check_findings(fused_findings, lit, *candidate.method);
+  check_findings(fused_findings, lit, fused.runner().plan());
   EXPECT_EQ(fused_findings.evaluations, findings.evaluations);
   return findings;
+}
+
+float picture_tolerance(const Plan& plan, const HdrImage& reference) {
+  return plan.ordered ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(reference));
 }
 
 float largest_value(const HdrImage& image) {

@@ -175,6 +175,7 @@ TEST_P(EveryMethod, HasARowThatSaysWhatItIs) {
 TEST_P(EveryMethod, AcceptsItsDefaultsWrittenOut) {
   const Method& method = *GetParam();
   std::vector<std::string> written;
+  written.reserve(method.options.size());
   for (const OptionSpec& spec : method.options)
     written.push_back(std::string(spec.key) + "=" + std::string(spec.fallback));
   const auto options = lamp::resolve_options(method, written);

@@ -1,0 +1,7 @@
+// The counting shader, for the method `tiled-bits`.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lookup/tile_bits.glsl"
+#include "count.glsl"
