@@ -35,10 +35,13 @@ struct Candidate {
 /// The same, kept until the context ends: for tests that come back to it.
 [[nodiscard]] Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path);
 
-/// Expects of both look-ups, separate and fused: no miss unless the method is approximate, ascending where its row says
-/// so, no more lights than there are; and of their pictures: brute force's, bit for bit where lists ascend.
-/// Returns what the separate look-up was found to hold.
-Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& candidate);
+enum class Check : std::uint8_t { separate, separate_and_fused };
+
+/// Expects of the look-ups, separate and fused: no miss unless the plan is approximate, ascending where it says so, no
+/// more lights than there are, the same sum from both; and of their pictures: brute force's, bit for bit where lists
+/// ascend. Returns what the separate look-up was found to hold.
+Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& candidate,
+                      Check check = Check::separate_and_fused);
 
 /// Brute force's row of the table.
 [[nodiscard]] const Method& brute_force();

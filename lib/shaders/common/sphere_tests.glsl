@@ -54,21 +54,21 @@ bool sphere_touches_frustum(LightBounds sphere, TileSides sides, float z_near, f
   return true;
 }
 
-bool sphere_touches_tile(LightBounds sphere, TileSides sides, float z_near, float z_far) {
-  if (!sphere_touches_depths(sphere, z_near, z_far)) return false;
+const bool TESTS_BOX = TEST == TEST_AABB || TEST == TEST_PLANES_AABB;
+
+// What does not depend on the depths: once a light, however many ranges the tile has.
+bool sphere_touches_tile_sides(LightBounds sphere, TileSides sides) {
   if (TEST == TEST_CONE_APPROXIMATE) return sphere_touches_cone_as_printed(sphere, sides.cone);
   if (TEST == TEST_CONE) return sphere_touches_cone(sphere, sides.cone);
-  if (TEST == TEST_EXACT) return sphere_touches_frustum(sphere, sides, z_near, z_far);
-  bool touches = true;
-  if (TEST == TEST_AABB || TEST == TEST_PLANES_AABB) {
-    vec3 box_min;
-    vec3 box_max;
-    tile_box(sides, z_near, z_far, box_min, box_max);
-    touches = sphere_touches_box(sphere, box_min, box_max);
-  }
-  if (TEST == TEST_PLANES || TEST == TEST_PLANES_AABB)
-    touches = touches && sphere_touches_sides(sphere, sides.planes.planes);
-  return touches;
+  if (TEST == TEST_PLANES || TEST == TEST_PLANES_AABB) return sphere_touches_sides(sphere, sides.planes.planes);
+  return true;
+}
+
+// What does; the box is that of the same depths.
+bool sphere_touches_tile_depths(LightBounds sphere, TileSides sides, TileBox box, float z_near, float z_far) {
+  if (!sphere_touches_depths(sphere, z_near, z_far)) return false;
+  if (TESTS_BOX) return sphere_touches_box(sphere, box.low, box.high);
+  return TEST != TEST_EXACT || sphere_touches_frustum(sphere, sides, z_near, z_far);
 }
 
 #endif

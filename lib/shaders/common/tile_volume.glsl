@@ -60,13 +60,20 @@ TileCone tile_cone(Frame frame, vec2 min_px, vec2 max_px, bool as_printed) {
 }
 
 // The view-space box around the part of a tile between two depths.
-void tile_box(TileSides sides, float z_near, float z_far, out vec3 box_min, out vec3 box_max) {
+struct TileBox {
+  vec3 low;
+  vec3 high;
+};
+
+TileBox tile_box(TileSides sides, float z_near, float z_far) {
   const vec2 at_near = vec2(1.0, z_near);
   const vec2 at_far = vec2(1.0, z_far);
-  box_min = vec3(min(dot(sides.x_edges.xy, at_near), dot(sides.x_edges.xy, at_far)),
+  TileBox box;
+  box.low = vec3(min(dot(sides.x_edges.xy, at_near), dot(sides.x_edges.xy, at_far)),
                  min(dot(sides.y_edges.xy, at_near), dot(sides.y_edges.xy, at_far)), -z_far);
-  box_max = vec3(max(dot(sides.x_edges.zw, at_near), dot(sides.x_edges.zw, at_far)),
-                 max(dot(sides.y_edges.zw, at_near), dot(sides.y_edges.zw, at_far)), -z_near);
+  box.high = vec3(max(dot(sides.x_edges.zw, at_near), dot(sides.x_edges.zw, at_far)),
+                  max(dot(sides.y_edges.zw, at_near), dot(sides.y_edges.zw, at_far)), -z_near);
+  return box;
 }
 
 // A sphere around that part: through the farthest of its corners, from the middle of its axis.

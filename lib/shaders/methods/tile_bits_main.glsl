@@ -33,10 +33,11 @@ void prune_batch(uvec2 tile, TileRanges ranges, uint first) {
   }
 }
 
-void find_batch(uint light, TileSides sides, TileRanges ranges) {
+void find_batch(uint light, TileTarget target) {
   const LightBounds sphere = bounds_of(light);
+  if (!touches_any_range(sphere, target)) return;
   for (uint range = 0u; range < RANGES; ++range)
-    if (touches_range(light, sphere, sides, ranges, range))
+    if (touches_range(light, sphere, target, range))
       atomicOr(s_found[range * BATCH_WORDS + gl_LocalInvocationIndex / 32u], 1u << (gl_LocalInvocationIndex % 32u));
 }
 
@@ -45,7 +46,7 @@ void main() {
   const uint threads = gl_WorkGroupSize.x;
   const uint tile = tile_index(gl_WorkGroupID.xy);
   const TileRanges ranges = ranges_of(gl_WorkGroupID.xy);
-  const TileSides sides = tile_sides(gl_WorkGroupID.xy);
+  const TileTarget target = tile_target(gl_WorkGroupID.xy, ranges);
   if (thread == 0u) splits[tile] = ranges.split;
 
   for (uint first = 0u; first < cull_frame.light_count; first += threads) {
@@ -54,7 +55,7 @@ void main() {
       s_kept[thread] = 0u;
     }
     barrier();  // cleared words before bits are set
-    if (first + thread < cull_frame.light_count && !is_empty(ranges)) find_batch(first + thread, sides, ranges);
+    if (first + thread < cull_frame.light_count && !is_empty(ranges)) find_batch(first + thread, target);
     barrier();  // all found before they are pruned or written
     if (PRUNE) prune_batch(gl_WorkGroupID.xy, ranges, first);
     barrier();  // all kept before the words are written

@@ -105,11 +105,12 @@ TileRanges cull_tile(uvec2 tile) {
   barrier();  // counters before the first append
   const TileRanges ranges = ranges_of(tile);
   if (is_empty(ranges)) return ranges;
-  const TileSides sides = tile_sides(tile);
+  const TileTarget target = tile_target(tile, ranges);
   for (uint light = gl_LocalInvocationIndex; light < cull_frame.light_count; light += group_threads()) {
     const LightBounds sphere = bounds_of(light);
+    if (!touches_any_range(sphere, target)) continue;
     for (uint range = 0u; range < RANGES; ++range)
-      if (touches_range(light, sphere, sides, ranges, range)) append_light(range, light);
+      if (touches_range(light, sphere, target, range)) append_light(range, light);
   }
   barrier();  // the lists before they are pruned and sorted
   if (PRUNE) prune_lights(tile, ranges);

@@ -79,26 +79,49 @@ bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges,
     const uint length = filled == ~0u ? 32u : uint(findLSB(~filled));
     const float z_first = ranges.z_near[0] + step * (float(first) - 0.001);
     const float z_last = ranges.z_near[0] + step * (float(first + length) + 0.001);
-    if (sphere_touches_tile(sphere, sides, z_first, z_last)) return true;
+    const TileBox box = tile_box(sides, z_first, z_last);
+    if (sphere_touches_tile_depths(sphere, sides, box, z_first, z_last)) return true;
     parts &= first + length >= 32u ? 0u : ~0u << (first + length);
   }
   return false;
 }
 
-// Whether a light may reach the pixels of one of the tile's ranges.
-bool touches_range(uint light, LightBounds sphere, TileSides sides, TileRanges ranges, uint range) {
-  const float z_near = ranges.z_near[range];
-  const float z_far = ranges.z_far[range];
-  if (!sphere_touches_depths(sphere, z_near, z_far)) return false;
+// A tile as lights are tested against it: made once, before the loop over the lights.
+struct TileTarget {
+  TileSides sides;
+  TileRanges ranges;
+  TileBox boxes[2];  // of the ranges
+};
+
+TileTarget tile_target(uvec2 tile, TileRanges ranges) {
+  TileTarget target;
+  target.sides = tile_sides(tile);
+  target.ranges = ranges;
+  for (uint range = 0u; range < 2u; ++range)
+    target.boxes[range] = tile_box(target.sides, ranges.z_near[range], ranges.z_far[range]);
+  return target;
+}
+
+// The part of the test that all ranges share.
+bool touches_any_range(LightBounds sphere, TileTarget target) {
+  const float z_far = max(target.ranges.z_far[0], target.ranges.z_far[1]);
+  return sphere_touches_depths(sphere, target.ranges.z_near[0], z_far) &&
+         sphere_touches_tile_sides(sphere, target.sides);
+}
+
+// Whether a light that passed it may reach the pixels of one of the tile's ranges.
+bool touches_range(uint light, LightBounds sphere, TileTarget target, uint range) {
+  const float z_near = target.ranges.z_near[range];
+  const float z_far = target.ranges.z_far[range];
   uint parts = ~0u;
   if (BOUNDS == BOUNDS_MASK) {
-    parts = parts_near(sphere, ranges);
-    if (!sphere_touches_runs(sphere, sides, ranges, parts)) return false;
-  } else if (!sphere_touches_tile(sphere, sides, z_near, z_far)) {
+    parts = parts_near(sphere, target.ranges);
+    if (!sphere_touches_runs(sphere, target.sides, target.ranges, parts)) return false;
+  } else if (!sphere_touches_tile_depths(sphere, target.sides, target.boxes[range], z_near, z_far)) {
     return false;
   }
   if (SPOT == SPOT_SPHERE || cull_lights[light].type != LIGHT_SPOT) return true;
-  return spot_touches_tile(cull_frame, cull_lights[light], sides, z_near, z_far, parts);
+  return spot_touches_tile(cull_frame, cull_lights[light], target.sides, z_near, z_far, parts);
 }
 
 LightBounds bounds_of(uint light) {

@@ -1,0 +1,102 @@
+// Every value of every option of every method, one at a time against the row's own values, and random combinations:
+// nothing missed, same picture. Refused combinations must say which option and why.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <random>
+
+#include "gpu/method_check.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t WIDTH = 77;
+constexpr std::uint32_t HEIGHT = 45;
+constexpr std::uint32_t LIGHTS = 150;
+
+/// Values to try of an option: each word, or the ends and the middle of a range.
+std::vector<std::string> values_of(const OptionSpec& spec) {
+  std::vector<std::string> values(spec.choices.begin(), spec.choices.end());
+  if (values.empty())
+    for (const long long value : {spec.min, (spec.min + spec.max) / 2, spec.max})
+      values.push_back(std::to_string(value));
+  return values;
+}
+
+class Axes : public GpuTest {
+ protected:
+  Axes()
+      : scene_(builtin_test_scene("posts")),
+        view_(view_of(find_camera(scene_.scene, ""), WIDTH, HEIGHT, "infinite")),
+        renderer_(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, LIGHTS + 64),
+        lit_(make_case(renderer_, view_, test_lights(scene_.air, view_, {.count = LIGHTS}))) {}
+
+  /// Checks the combination; false if the library refuses it.
+  bool check(const Method& method, const std::vector<std::string>& settings) {
+    SCOPED_TRACE(fmt::format("{} {}", method.name, fmt::join(settings, " ")));
+    const Result<Options> options = resolve_options(method, settings);
+    EXPECT_TRUE(options.ok());
+    const auto capacity = static_cast<std::uint32_t>(lit_.lights.size());
+    const Result<Plan> plan = make_plan(method, {.width = WIDTH,
+                                                 .height = HEIGHT,
+                                                 .light_capacity = capacity,
+                                                 .options = options.value(),
+                                                 .traits = renderer_.device().traits});
+    if (!plan) {
+      EXPECT_NE(plan.error().text().find("option"), std::string::npos) << plan.error().text();
+      return false;
+    }
+    check_method(renderer_, lit_, {.method = &method, .settings = settings, .light_capacity = capacity});
+    return true;
+  }
+
+  const TestScene& scene_;
+  View view_;
+  Renderer renderer_;
+  LitCase lit_;
+};
+
+TEST_F(Axes, EveryValueOfEveryOption) {
+  for (const Method& method : methods()) {
+    if (method.name != "tiled" && method.name != "tiled-bits" && method.name != "clustered" && method.name != "tight")
+      continue;  // the other rows differ from these in their options only; the matrix covers them as they are
+    for (const OptionSpec& spec : method.options)
+      for (const std::string& value : values_of(spec)) check(method, {fmt::format("{}={}", spec.key, value)});
+  }
+}
+
+TEST_F(Axes, RandomCombinationsOfTiledCulling) {
+  const Method& tiled = *take(find_method("tiled"));
+  std::mt19937 random(7);
+  std::uint32_t accepted = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::string> settings;
+    for (const OptionSpec& spec : tiled.options) {
+      const std::vector<std::string> values = values_of(spec);
+      settings.push_back(fmt::format("{}={}", spec.key, values[random() % values.size()]));
+    }
+    accepted += check(tiled, settings) ? 1 : 0;
+  }
+  EXPECT_GT(accepted, 10U);
+}
+
+TEST_F(Axes, KeptFrustaAreMadeAnewOnlyWhenTheProjectionChanges) {
+  const Method& method = *take(find_method("article-deferred"));
+  Lighting lighting =
+      make_lighting(renderer_, {.method = &method, .light_capacity = static_cast<std::uint32_t>(lit_.lights.size())});
+  for (int frame = 0; frame < 3; ++frame) {
+    renderer_.set_frame(view_, lit_.lights);
+    static_cast<void>(renderer_.render(lighting));
+  }
+  EXPECT_EQ(lighting.runner().projection_rebuilds(), 1U);
+  const View other = view_of(find_camera(scene_.scene, ""), WIDTH, HEIGHT, "orthographic");
+  renderer_.set_frame(other, lit_.lights);
+  static_cast<void>(renderer_.render(lighting));
+  EXPECT_EQ(lighting.runner().projection_rebuilds(), 2U);
+}
+
+}  // namespace
+}  // namespace lamp::app
