@@ -33,9 +33,8 @@ bool has_debug_utils(const char* layer) {
 }
 
 VkInstance make_instance(ContextInfo::Validation validation) {
-  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                      .pApplicationName = "lamp",
-                                      .apiVersion = VK_API_VERSION_1_3};
+  const VkApplicationInfo application{
+      .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "lamp", .apiVersion = VK_API_VERSION_1_3};
   constexpr std::array FEATURES{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                          .enabledValidationFeatureCount = FEATURES.size(),
@@ -120,7 +119,8 @@ void Context::create_device() {
   vulkan::RequiredFeatures features;
   VkPhysicalDeviceFeatures has{};
   vkGetPhysicalDeviceFeatures(physical_, &has);
-  if (has.depthClamp == VK_FALSE) throw Error("device " + row_.name + ": lacks the feature depthClamp", Exit::no_device);
+  if (has.depthClamp == VK_FALSE)
+    throw Error("device " + row_.name + ": lacks the feature depthClamp", Exit::no_device);
   features.base.features.depthClamp = VK_TRUE;
   features.base.features.samplerAnisotropy = has.samplerAnisotropy;
 

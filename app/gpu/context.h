@@ -14,16 +14,16 @@ namespace lamp::app {
 
 struct DeviceRow {
   std::string name;
-  std::string kind;    ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
-  std::string driver;  ///< name and version
-  std::string problem; ///< why it cannot be used, or empty
+  std::string kind;     ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+  std::string driver;   ///< name and version
+  std::string problem;  ///< why it cannot be used, or empty
 };
 
 /// What `--device` may name: a row's number, or a part of its name.
 [[nodiscard]] std::vector<DeviceRow> list_devices();
 
 struct ContextInfo {
-  std::string device;                               ///< empty: the best
+  std::string device;                                              ///< empty: the best
   enum class Validation { off, on } validation = Validation::off;  ///< core and synchronization validation
 };
 
@@ -43,7 +43,6 @@ class Context {
 
   /// Validation messages since the last call (warnings and errors).
   [[nodiscard]] std::vector<std::string> take_messages();
-
 
  private:
   struct Messages;

@@ -33,9 +33,8 @@ GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : inf
   vkGetImageMemoryRequirements(device.handle, image, &needs);
   const std::uint32_t type =
       take(vulkan::find_memory_type(device, needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT));
-  const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                      .allocationSize = needs.size,
-                                      .memoryTypeIndex = type};
+  const VkMemoryAllocateInfo allocate{
+      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
   check(vkAllocateMemory(device.handle, &allocate, nullptr, &memory), what.c_str());
   memory_ = vulkan::OwnedMemory(device.handle, memory);
@@ -73,9 +72,7 @@ vulkan::Resource GpuImage::combined(VkSampler sampler) const {
   return resource;
 }
 
-vulkan::Resource GpuImage::storage() const {
-  return as(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_IMAGE_LAYOUT_GENERAL);
-}
+vulkan::Resource GpuImage::storage() const { return as(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_IMAGE_LAYOUT_GENERAL); }
 
 vulkan::Resource GpuImage::attachment() const {
   return as(VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, aspect() == VK_IMAGE_ASPECT_DEPTH_BIT

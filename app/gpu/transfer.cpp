@@ -11,11 +11,11 @@ namespace lamp::app {
 namespace {
 
 vulkan::Buffer staging(Context& context, std::span<const std::byte> bytes) {
-  vulkan::Buffer buffer = take(vulkan::Buffer::create(
-      context.device(), {.name = "staging",
-                         .bytes = std::max<std::uint64_t>(bytes.size(), 16),
-                         .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                         .memory = vulkan::MemoryUse::upload}));
+  vulkan::Buffer buffer =
+      take(vulkan::Buffer::create(context.device(), {.name = "staging",
+                                                     .bytes = std::max<std::uint64_t>(bytes.size(), 16),
+                                                     .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                     .memory = vulkan::MemoryUse::upload}));
   if (!bytes.empty()) std::memcpy(buffer.mapped().data(), bytes.data(), bytes.size());
   return buffer;
 }
@@ -88,10 +88,10 @@ GpuImage upload_texture(Context& context, const GpuImageInfo& wanted, std::span<
       halve(commands, image, level);
     }
     for (std::uint32_t level = 0; level < info.mips; ++level)
-      level_barrier(commands, image.handle(), level,
-                    level + 1 == info.mips ? VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
-                                           : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+      level_barrier(
+          commands, image.handle(), level,
+          level + 1 == info.mips ? VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
   return image;
 }

@@ -36,7 +36,8 @@ void FrameData::record_upload(vulkan::Recorder& recorder) const {
   const VkBufferCopy frame_copy{.size = sizeof(shared::Frame)};
   vkCmdCopyBuffer(recorder.commands(), staging_.handle(), frame_.handle(), 1, &frame_copy);
   if (host_lights_.empty()) return;
-  const VkBufferCopy light_copy{.srcOffset = sizeof(shared::Frame), .size = host_lights_.size() * sizeof(shared::Light)};
+  const VkBufferCopy light_copy{.srcOffset = sizeof(shared::Frame),
+                                .size = host_lights_.size() * sizeof(shared::Light)};
   vkCmdCopyBuffer(recorder.commands(), staging_.handle(), lights_.handle(), 1, &light_copy);
 }
 

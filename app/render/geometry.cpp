@@ -24,8 +24,8 @@ Geometry::Geometry(const vulkan::Device& device, const ShaderLibrary& shaders) {
   };
   depth_opaque_ = make("depth, opaque", nullptr, {});
   depth_masked_ = make("depth, masked", "depth", {});
-  gbuffer_ = make("g-buffer", "gbuffer",
-                  {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R32G32_UINT, VK_FORMAT_R16G16B16A16_SFLOAT});
+  gbuffer_ =
+      make("g-buffer", "gbuffer", {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R32G32_UINT, VK_FORMAT_R16G16B16A16_SFLOAT});
 }
 
 void Geometry::record_depth(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,

@@ -66,8 +66,8 @@ std::vector<std::byte> surroundings_bytes(const Scene& scene) {
   return bytes;
 }
 
-/// Where the device can. Not on a software device: Mesa's lavapipe walks every texel under a pixel one by one, and under
-/// a triangle seen edge-on those have no end.
+/// Where the device can. Not on a software device: Mesa's lavapipe walks every texel under a pixel one by one, and
+/// under a triangle seen edge-on those have no end.
 bool filters_anisotropically(const vulkan::Device& device) {
   VkPhysicalDeviceFeatures features{};
   vkGetPhysicalDeviceFeatures(device.physical, &features);
@@ -107,8 +107,7 @@ GpuScene::GpuScene(Context& context, const Scene& scene) : scene_(&scene) {
   vertices_ = upload_buffer(context, "vertices", bytes_of(scene.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   indices_ = upload_buffer(context, "indices", bytes_of(scene.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   upload_materials(context);
-  surroundings_ =
-      upload_buffer(context, "surroundings", surroundings_bytes(scene), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  surroundings_ = upload_buffer(context, "surroundings", surroundings_bytes(scene), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   upload_textures(context);
   make_draws(context);
 }
@@ -201,10 +200,11 @@ std::array<vulkan::Bound, 6> GpuScene::material_bound(std::uint32_t material) co
         textures[i]->image < 0 ? images_.back() : images_[static_cast<std::size_t>(textures[i]->image)];
     bound[i] = {5 + i, image.combined(material_samplers_[material][i])};
   }
-  bound[5] = {1, {.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                  .buffer = materials_.handle(),
-                  .offset = material * material_stride_,
-                  .range = sizeof(gpu::MaterialData)}};
+  bound[5] = {1,
+              {.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+               .buffer = materials_.handle(),
+               .offset = material * material_stride_,
+               .range = sizeof(gpu::MaterialData)}};
   return bound;
 }
 

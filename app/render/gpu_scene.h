@@ -24,7 +24,7 @@ class GpuScene {
   GpuScene(Context& context, const Scene& scene);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
-  [[nodiscard]] std::span<const Draw> opaque() const { return opaque_; }  ///< opaque and masked, by material
+  [[nodiscard]] std::span<const Draw> opaque() const { return opaque_; }    ///< opaque and masked, by material
   [[nodiscard]] std::span<const Draw> blended() const { return blended_; }  ///< one instance each
   [[nodiscard]] const Material& material_of(const Draw& draw) const;
 

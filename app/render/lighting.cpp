@@ -27,7 +27,9 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-std::string variant(const char* shader, std::string_view lookup) { return std::string(shader) + "@" + std::string(lookup); }
+std::string variant(const char* shader, std::string_view lookup) {
+  return std::string(shader) + "@" + std::string(lookup);
+}
 
 std::vector<vulkan::Use> lookup_uses(const vulkan::BoundLookUp& lookup, VkPipelineStageFlags2 stages) {
   std::vector<vulkan::Use> uses;
@@ -108,12 +110,11 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
                                        .depth_clamp = true,
                                        .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                        .blend = vulkan::GraphicsState::Blend::add};
-  volumes_ = take(vulkan::Pipeline::graphics(
-      device,
-      {.name = "light volumes",
-       .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)}},
-       .bindings = gbuffer_bindings()},
-      shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
+  volumes_ = take(vulkan::Pipeline::graphics(device,
+                                             {.name = "light volumes",
+                                              .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)}},
+                                              .bindings = gbuffer_bindings()},
+                                             shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
 }
 
 void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders) {
@@ -126,8 +127,8 @@ void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibra
   vulkan::GraphicsState state = mesh_state(VK_COMPARE_OP_GREATER, {VK_FORMAT_R32G32B32A32_SFLOAT});
   state.depth_write = false;
   state.blend = vulkan::GraphicsState::Blend::over;
-  transparent_ = forward_pipeline(device, shaders, info_, any_depth_runner_ ? *any_depth_runner_ : runner_, state,
-                                  "transparent");
+  transparent_ =
+      forward_pipeline(device, shaders, info_, any_depth_runner_ ? *any_depth_runner_ : runner_, state, "transparent");
 }
 
 bool Lighting::is_cull_pass(std::string_view name) const {

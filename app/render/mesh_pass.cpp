@@ -39,9 +39,8 @@ void begin_rendering(VkCommandBuffer commands, const Attachments& attachments, c
                              .pColorAttachments = colors.data(),
                              .pDepthAttachment = attachments.depth == nullptr ? nullptr : &depth};
   vkCmdBeginRendering(commands, &info);
-  const VkViewport viewport{.width = static_cast<float>(targets.width),
-                            .height = static_cast<float>(targets.height),
-                            .maxDepth = 1.0F};
+  const VkViewport viewport{
+      .width = static_cast<float>(targets.width), .height = static_cast<float>(targets.height), .maxDepth = 1.0F};
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &area);
 }
@@ -68,10 +67,8 @@ void draw_meshes(vulkan::Recorder& recorder, const MeshDraws& what) {
   const VkCommandBuffer commands = recorder.commands();
   const GpuScene& scene = *what.scene;
   scene.bind_geometry(commands);
-  std::vector<vulkan::Bound> shared_bound{{0, what.frame->frame()},
-                                          {2, scene.instances()},
-                                          {3, what.frame->lights()},
-                                          {4, scene.surroundings()}};
+  std::vector<vulkan::Bound> shared_bound{
+      {0, what.frame->frame()}, {2, scene.instances()}, {3, what.frame->lights()}, {4, scene.surroundings()}};
   shared_bound.insert(shared_bound.end(), what.more.begin(), what.more.end());
 
   const vulkan::Pipeline* bound_pipeline = nullptr;
@@ -79,13 +76,11 @@ void draw_meshes(vulkan::Recorder& recorder, const MeshDraws& what) {
   for (const Draw& draw : what.draws) {
     const std::uint32_t material = scene.scene().meshes[draw.mesh].material;
     const bool opaque = scene.material_of(draw).alpha_mode == AlphaMode::opaque;
-    const vulkan::Pipeline* pipeline =
-        opaque && what.opaque_pipeline != nullptr ? what.opaque_pipeline : what.pipeline;
+    const vulkan::Pipeline* pipeline = opaque && what.opaque_pipeline != nullptr ? what.opaque_pipeline : what.pipeline;
     if (pipeline != bound_pipeline) recorder.bind(*pipeline, shared_bound);
     if (material != bound_material || pipeline != bound_pipeline) {
       recorder.push(*pipeline, scene.material_bound(material));
-      vkCmdSetCullMode(commands,
-                       scene.material_of(draw).double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+      vkCmdSetCullMode(commands, scene.material_of(draw).double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
     }
     bound_pipeline = pipeline;
     bound_material = material;

@@ -74,11 +74,11 @@ class TimeTable {
 };
 
 vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
-  return take(vulkan::Buffer::create(
-      device, {.name = name,
-               .bytes = bytes,
-               .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               .memory = vulkan::MemoryUse::readback}));
+  return take(
+      vulkan::Buffer::create(device, {.name = name,
+                                      .bytes = bytes,
+                                      .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                      .memory = vulkan::MemoryUse::readback}));
 }
 
 template <class T>
@@ -144,8 +144,8 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
       if (counted == VK_NULL_HANDLE) return;
-      recorder.barrier({copies_from(vulkan::Resource::storage(counted)),
-                        copies_to(vulkan::Resource::storage(counters.handle()))});
+      recorder.barrier(
+          {copies_from(vulkan::Resource::storage(counted)), copies_to(vulkan::Resource::storage(counters.handle()))});
       const VkBufferCopy whole{.size = sizeof(shared::Counters)};
       vkCmdCopyBuffer(commands, counted, counters.handle(), 1, &whole);
       recorder.barrier({host_reads(vulkan::Resource::storage(counters.handle()))});
@@ -154,8 +154,7 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   }
   tracker_.forget(picture.handle());
   tracker_.forget(counters.handle());
-  Rendered rendered{
-      .image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
+  Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
   times.fill(rendered, lighting);
   if (counted != VK_NULL_HANDLE) rendered.counters = copy_out<shared::Counters>(counters, 1)[0];
   return rendered;
@@ -195,7 +194,8 @@ std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, 
       upload_buffer(context_, "truth offsets", bytes_of(truth.offsets), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer lights =
       upload_buffer(context_, "truth lights", bytes_of(truth.lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer found = readback(context_.device(), "visits", std::max<std::size_t>(1, pixels) * sizeof(gpu::Visit));
+  const vulkan::Buffer found =
+      readback(context_.device(), "visits", std::max<std::size_t>(1, pixels) * sizeof(gpu::Visit));
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
   const bool fused = which == vulkan::PlanRunner::Passes::fused;

@@ -25,7 +25,7 @@ struct PassTime {
 struct Rendered {
   HdrImage image;
   std::vector<PassTime> passes;
-  double cull_ms = 0.0;   ///< medians of the frames' sums
+  double cull_ms = 0.0;  ///< medians of the frames' sums
   double shade_ms = 0.0;
   double frame_ms = 0.0;
   shared::Counters counters{};

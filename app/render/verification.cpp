@@ -59,8 +59,8 @@ void Verification::add_pixel(const Truth& truth, std::size_t pixel, const gpu::V
   sums_.list_max = std::max(sums_.list_max, visit.visited);
   sums_.unordered = sums_.unordered || visit.unordered != 0;
   if (visit.missed != 0 && sums_.first_miss.empty())
-    sums_.first_miss = fmt::format("pixel ({}, {}): light {}", pixel % width_, truth.first_row + pixel / width_,
-                                   visit.first_missed);
+    sums_.first_miss =
+        fmt::format("pixel ({}, {}): light {}", pixel % width_, truth.first_row + pixel / width_, visit.first_missed);
   for (std::uint32_t i = truth.offsets[pixel]; i < truth.offsets[pixel + 1]; ++i)
     cell_lights_.push_back(std::uint64_t{visit.cell} << 32 | truth.lights[i]);
 }

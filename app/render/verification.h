@@ -23,8 +23,8 @@ struct Findings {
   std::uint64_t truth_sum = 0;    ///< per cell, the lights that reach one of its pixels
   std::uint64_t cells_seen = 0;   ///< cells that hold a pixel
   std::uint32_t list_max = 0;
-  bool unordered = false;      ///< a list did not ascend
-  std::string first_miss;      ///< "pixel (12, 34): light 56", or empty
+  bool unordered = false;  ///< a list did not ascend
+  std::string first_miss;  ///< "pixel (12, 34): light 56", or empty
 
   [[nodiscard]] double waste() const;   ///< evaluations / useful; 1 when there is nothing to do and nothing done
   [[nodiscard]] double excess() const;  ///< list_sum / truth_sum, likewise

@@ -40,9 +40,9 @@ struct Texture {
   std::uint32_t uv = 0;     ///< 0 or 1
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
-  bool nearest = false;            ///< magnification filter
-  glm::vec2 offset{0.0F};          ///< KHR_texture_transform
-  float rotation = 0.0F;           ///< radians, counter-clockwise as the extension defines
+  bool nearest = false;    ///< magnification filter
+  glm::vec2 offset{0.0F};  ///< KHR_texture_transform
+  float rotation = 0.0F;   ///< radians, counter-clockwise as the extension defines
   glm::vec2 scale{1.0F};
 };
 

@@ -35,8 +35,8 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
     return Error{"size " + std::to_string(problem.width) + "x" + std::to_string(problem.height),
                  "expected 1 to " + std::to_string(limit) + " pixels a side on this device"};
   if (problem.light_capacity > MAX_LIGHTS)
-    return Error{"light capacity", "expected at most " + std::to_string(MAX_LIGHTS) + ", got " +
-                                       std::to_string(problem.light_capacity)};
+    return Error{"light capacity",
+                 "expected at most " + std::to_string(MAX_LIGHTS) + ", got " + std::to_string(problem.light_capacity)};
   if (method.check != nullptr)
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);

@@ -72,7 +72,7 @@ TEST_F(Axes, RandomCombinationsOfTiledCulling) {
   const Method& tiled = *take(find_method("tiled"));
   std::mt19937 random(7);
   std::uint32_t accepted = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 20; ++round) {
     std::vector<std::string> settings;
     for (const OptionSpec& spec : tiled.options) {
       const std::vector<std::string> values = values_of(spec);
@@ -80,7 +80,7 @@ TEST_F(Axes, RandomCombinationsOfTiledCulling) {
     }
     accepted += check(tiled, settings) ? 1 : 0;
   }
-  EXPECT_GT(accepted, 10U);
+  EXPECT_GT(accepted, 3U);
 }
 
 TEST_F(Axes, KeptFrustaAreMadeAnewOnlyWhenTheProjectionChanges) {

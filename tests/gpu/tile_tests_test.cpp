@@ -12,7 +12,7 @@ namespace lamp::app {
 namespace {
 
 constexpr std::uint32_t BATCH = 1U << 16;
-constexpr std::uint32_t BATCHES = 4;  // with five tests and four kinds of spot tests: over five million cases
+constexpr std::uint32_t BATCHES = 24;  // a million and a half lights for each pair of tests
 constexpr std::uint32_t VIEWS = 256;
 constexpr std::uint32_t SPHERE_TOUCHES = 1;
 constexpr std::uint32_t SPOT_TOUCHES = 2;

@@ -50,12 +50,12 @@ struct BufferDesc {
 
 /// How many work groups a compute pass has, or how many vertices and instances a raster pass draws.
 struct Extent {
-  std::uint32_t x = 1;                   ///< groups in x; raster: vertices of an instance
-  std::uint32_t y = 1;                   ///< groups in y; raster: instances
-  std::uint32_t z = 1;                   ///< groups in z; raster: unused
-  std::uint32_t lights_per_group = 0;    ///< not 0: x (raster: y) is ceil(light count of the frame / this)
-  ResourceId indirect = NO_RESOURCE;     ///< not NO_RESOURCE: read from this buffer instead
-  std::uint64_t indirect_offset = 0;     ///< bytes, a multiple of 4
+  std::uint32_t x = 1;                 ///< groups in x; raster: vertices of an instance
+  std::uint32_t y = 1;                 ///< groups in y; raster: instances
+  std::uint32_t z = 1;                 ///< groups in z; raster: unused
+  std::uint32_t lights_per_group = 0;  ///< not 0: x (raster: y) is ceil(light count of the frame / this)
+  ResourceId indirect = NO_RESOURCE;   ///< not NO_RESOURCE: read from this buffer instead
+  std::uint64_t indirect_offset = 0;   ///< bytes, a multiple of 4
 };
 
 enum class PassKind : std::uint8_t { compute, raster, host };
@@ -63,8 +63,8 @@ enum class PassKind : std::uint8_t { compute, raster, host };
 /// Raster passes have no colour attachment: fragments write to buffers.
 struct RasterState {
   std::string vertex_shader;
-  std::uint32_t width = 0;   ///< viewport, pixels
-  std::uint32_t height = 0;  ///< viewport, pixels
+  std::uint32_t width = 0;    ///< viewport, pixels
+  std::uint32_t height = 0;   ///< viewport, pixels
   std::uint32_t samples = 1;  ///< 1 or 4: what every device has without attachments
   enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
 };
@@ -85,8 +85,8 @@ struct Pass {
   std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ...
   std::vector<Binding> bindings;         ///< set 0, bindings 0, 1, 2, ...
   Extent extent;
-  RasterState raster;           ///< raster passes
-  HostFunction host = nullptr;  ///< host passes; they run while recording, before every GPU pass
+  RasterState raster;                 ///< raster passes
+  HostFunction host = nullptr;        ///< host passes; they run while recording, before every GPU pass
   bool on_projection_change = false;  ///< only in frames whose projection is not the last frame's; its output is kept
   std::uint32_t shared_bytes = 0;     ///< shared memory of a work group, for plan_check
 };
@@ -117,11 +117,11 @@ struct Plan {
   std::vector<Pass> passes;
   LookUp lookup;
   std::optional<FusedLookUp> fused;
-  std::uint64_t cells = 1;                ///< cells of the look-up
-  bool ordered = true;                    ///< lists ascend
-  bool approximate = false;               ///< may miss lights, by the paper's design
-  std::uint32_t light_capacity = 0;       ///< the problem's
-  ResourceId counters = NO_RESOURCE;      ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
+  std::uint64_t cells = 1;            ///< cells of the look-up
+  bool ordered = true;                ///< lists ascend
+  bool approximate = false;           ///< may miss lights, by the paper's design
+  std::uint32_t light_capacity = 0;   ///< the problem's
+  ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
 
   /// Adds a buffer and returns its id.
   ResourceId add(BufferDesc buffer);

@@ -19,6 +19,7 @@ bool sphere_touches_cone_as_printed(LightBounds sphere, TileCone cone) {
 // The signed distance to the cone's surface is that of its nearest generatrix; beyond the apex it is a lower bound.
 bool sphere_touches_cone(LightBounds sphere, TileCone cone) {
   if (cone.slope < 0.0) return distance(sphere.center.xy, cone.axis.xy) <= sphere.radius - cone.slope;
+  if (cone.slope >= NO_CONE) return true;
   const float along = dot(sphere.center, cone.axis);
   const vec3 rejection = sphere.center - along * cone.axis;
   const float outside = length(rejection) - along * cone.slope;

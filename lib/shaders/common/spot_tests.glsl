@@ -33,7 +33,7 @@ bool cone_touches_sphere(SpotCone cone, vec4 sphere) {
   const vec3 offset = sphere.xyz - cone.tip;
   const float distance2 = dot(offset, offset);
   const float along = dot(offset, cone.axis);
-  const float rejection = sqrt(max(distance2 - along * along, 0.0));
+  const float rejection = length(offset - along * cone.axis);  // not a difference of squares: narrow cones need it exact
   const float reach = sphere.w + cone.slack + ROUND_RADIUS * (sqrt(distance2) + min(cone.range, sqrt(distance2)));
   return cone.cos_angle * rejection - cone.sin_angle * along <= reach && along >= -reach &&
          distance2 <= (cone.range + reach) * (cone.range + reach);

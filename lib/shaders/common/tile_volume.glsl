@@ -39,6 +39,8 @@ TilePlanes tile_planes(Frame frame, vec2 min_px, vec2 max_px) {
 
 // Based on: Primal engine, Light Culling with Approximate Sphere-Cone Intersection, listing 4: radius to the top left
 // corner per metre of z. The exact test takes the widest corner, per metre of the axis.
+const float NO_CONE = 1e6;  // the slope of a tile that is wider than any cone: a large one in a tiny, wide picture
+
 TileCone tile_cone(Frame frame, vec2 min_px, vec2 max_px, bool as_printed) {
   const vec3 middle = view_position(frame, 0.5 * (min_px + max_px), 1.0);
   const vec3 corners[4] = vec3[](view_position(frame, min_px, 1.0), view_position(frame, max_px, 1.0),
@@ -54,7 +56,8 @@ TileCone tile_cone(Frame frame, vec2 min_px, vec2 max_px, bool as_printed) {
   float slope = 0.0;
   for (int i = 0; i < 4; ++i) {
     const float along = dot(corners[i], axis);
-    slope = max(slope, length(corners[i] - along * axis) / along);
+    const bool bounded = along > 1e-3 * length(corners[i]);
+    slope = max(slope, bounded ? length(corners[i] - along * axis) / along : NO_CONE);
   }
   return TileCone(axis, slope);
 }

@@ -1,8 +1,7 @@
-// Clustered culling: tiles cut into slices of depth, without reading the depth buffer; one list of any length a cluster.
-// Based on: Olsson, Billeter, Assarsson, Clustered Deferred and Forward Shading, HPG (2012); Drobot, Improved Culling
-// for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
-// Promise: right for any depth of a pixel; count, scan, fill, so lists are compact and ascend.
-// SPDX-License-Identifier: Apache-2.0
+// Clustered culling: tiles cut into slices of depth, without reading the depth buffer; one list of any length a
+// cluster. Based on: Olsson, Billeter, Assarsson, Clustered Deferred and Forward Shading, HPG (2012); Drobot, Improved
+// Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017). Promise: right for any depth of a pixel; count,
+// scan, fill, so lists are compact and ascend. SPDX-License-Identifier: Apache-2.0
 #include "methods.h"
 #include "parts.h"
 

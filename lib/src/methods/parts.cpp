@@ -5,8 +5,7 @@
 namespace lamp::parts {
 
 ResourceId add_light_bounds(Plan& plan, const Problem& problem) {
-  return plan.add(
-      {.name = "light bounds", .bytes = std::uint64_t{capacity(problem)} * sizeof(shared::LightBounds)});
+  return plan.add({.name = "light bounds", .bytes = std::uint64_t{capacity(problem)} * sizeof(shared::LightBounds)});
 }
 
 Pass light_bounds_pass(ResourceId bounds) {

@@ -54,8 +54,7 @@ TiledAxes tiled_axes(const Options& options) {
           .cached_frusta = options.word("frusta") == "cached"};
 }
 
-std::vector<OptionSpec> tiled_options(
-    std::initializer_list<std::pair<std::string_view, std::string_view>> fallbacks) {
+std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::string_view, std::string_view>> fallbacks) {
   std::vector<OptionSpec> specs{
       {.key = "tile", .help = "tile size, pixels", .fallback = "16", .choices = {"8", "16", "32"}},
       {.key = "bounds",
@@ -105,11 +104,11 @@ std::optional<Error> check_tiled(const Problem& problem) {
     return Error{"option order", "a bit array keeps the lights' own order; container=bits goes with order=index"};
   if (axes.spot == shared::SPOT_CONE_SEGMENTS && axes.bounds != shared::BOUNDS_MASK)
     return Error{"option spot", "cone-segments tests the occupied parts of a depth mask; it goes with bounds=mask"};
-  const bool has_frusta =
-      axes.cone() || axes.test == shared::TEST_PLANES || axes.test == shared::TEST_PLANES_AABB;
+  const bool has_frusta = axes.cone() || axes.test == shared::TEST_PLANES || axes.test == shared::TEST_PLANES_AABB;
   if (axes.cached_frusta && !has_frusta)
-    return Error{"option frusta", "only planes and cones are kept; frusta=cached goes with test=planes, planes+aabb, "
-                                  "cone or cone-approximate"};
+    return Error{"option frusta",
+                 "only planes and cones are kept; frusta=cached goes with test=planes, planes+aabb, "
+                 "cone or cone-approximate"};
   const std::uint64_t cells = parts::tile_grid(problem, axes.tile_px).count() * axes.ranges();
   if (axes.order == shared::ORDER_TYPE && cells * axes.capacity > 0xffffffffULL)
     return Error{"option capacity", "cells x capacity must stay below 2^32 for order=type; take a smaller capacity"};

@@ -25,7 +25,9 @@ Method row(const Preset& preset, Fallbacks fallbacks) {
           .title = preset.title,
           .source = preset.source,
           .summary = preset.summary,
-          .result = value("container", "list") == "bits" ? "tile_bits" : order == "type" ? "tile_typed" : "tile_lists",
+          .result = value("container", "list") == "bits" ? "tile_bits"
+                    : order == "type"                    ? "tile_typed"
+                                                         : "tile_lists",
           .ordered = order == "index",
           .approximate = value("test", "planes") == "cone-approximate",
           .options = tiled_options(fallbacks),
@@ -47,7 +49,8 @@ std::vector<Method> tiled_methods() {
       row({"stewart-baseline", "Stewart, baseline", "Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.3",
            "Depth bounds by atomics, six planes, appended lists of a buffer of spheres, 16 px."},
           {{"order", "append"}, {"capacity", "1024"}}),
-      row({"stewart-unoptimized", "Stewart, both pitfalls", "Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.4.1",
+      row({"stewart-unoptimized", "Stewart, both pitfalls",
+           "Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.4.1",
            "The baseline with culling data inside the light records and 8 px tiles."},
           {{"order", "append"}, {"capacity", "1024"}, {"lights", "aos"}, {"tile", "8"}}),
       row({"stewart-half-z", "Stewart, Half Z", "Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.4.2",
@@ -82,7 +85,8 @@ std::vector<Method> tiled_methods() {
            {"lights", "aos"},
            {"spot", "cone-planes"}}),
       row({"primal", "Primal", "Primal engine, Light Culling with Approximate Sphere-Cone Intersection",
-           "Cached cones, approximate sphere-cone test, subgroup reduction, pruning by pixel, points before spots, 32 px."},
+           "Cached cones, approximate sphere-cone test, subgroup reduction, pruning by pixel, points before spots, 32 "
+           "px."},
           {{"order", "type"},
            {"capacity", "1024"},
            {"tile", "32"},

@@ -42,9 +42,8 @@ Result<Buffer> Buffer::create(const Device& device, const BufferInfo& info) {
   const MemoryFlags flags = flags_of(info.memory);
   const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, flags.preferred);
   if (!type) return type.error();
-  const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                      .allocationSize = needs.size,
-                                      .memoryTypeIndex = type.value()};
+  const VkMemoryAllocateInfo allocate{
+      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type.value()};
   VkDeviceMemory memory = VK_NULL_HANDLE;
   if (const VkResult r = vkAllocateMemory(device.handle, &allocate, nullptr, &memory); r != VK_SUCCESS)
     return failed(r);

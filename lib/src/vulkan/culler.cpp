@@ -57,8 +57,8 @@ void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   tracker_.assume(Resource::storage(inputs.lights));
 
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
-                      .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
-                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
+                     .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                     .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
   runner_.record(recorder, inputs);
 
@@ -72,16 +72,16 @@ void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   const VkBuffer counters = runner_.buffer(runner_.plan().counters);
   if (counters == VK_NULL_HANDLE) return;
   recorder.barrier({{.resource = Resource::storage(counters),
-                      .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
-                      .access = VK_ACCESS_2_TRANSFER_READ_BIT},
-                     {.resource = Resource::storage(counters_.handle()),
-                      .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
-                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
+                     .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                     .access = VK_ACCESS_2_TRANSFER_READ_BIT},
+                    {.resource = Resource::storage(counters_.handle()),
+                     .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                     .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   const VkBufferCopy whole{.size = sizeof(shared::Counters)};
   vkCmdCopyBuffer(commands, counters, counters_.handle(), 1, &whole);
   recorder.barrier({{.resource = Resource::storage(counters_.handle()),
-                      .stages = VK_PIPELINE_STAGE_2_HOST_BIT,
-                      .access = VK_ACCESS_2_HOST_READ_BIT}});
+                     .stages = VK_PIPELINE_STAGE_2_HOST_BIT,
+                     .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
 BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle()}); }

@@ -53,12 +53,12 @@ std::optional<Error> check_device(VkPhysicalDevice physical) {
     if (!has_extension(physical, extension)) return Error{source, std::string("lacks the extension ") + extension};
   RequiredFeatures has;
   vkGetPhysicalDeviceFeatures2(physical, &has.base);
-  const std::pair<VkBool32, const char*> needed[] = {{has.vulkan12.scalarBlockLayout, "scalarBlockLayout"},
-                                                     {has.vulkan13.synchronization2, "synchronization2"},
-                                                     {has.vulkan13.dynamicRendering, "dynamicRendering"},
-                                                     {has.vulkan13.maintenance4, "maintenance4"},
-                                                     {has.base.features.fragmentStoresAndAtomics,
-                                                      "fragmentStoresAndAtomics"}};
+  const std::pair<VkBool32, const char*> needed[] = {
+      {has.vulkan12.scalarBlockLayout, "scalarBlockLayout"},
+      {has.vulkan13.synchronization2, "synchronization2"},
+      {has.vulkan13.dynamicRendering, "dynamicRendering"},
+      {has.vulkan13.maintenance4, "maintenance4"},
+      {has.base.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics"}};
   for (const auto& [supported, name] : needed)
     if (supported == VK_FALSE) return Error{source, std::string("lacks the feature ") + name};
   return std::nullopt;

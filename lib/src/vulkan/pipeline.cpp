@@ -29,9 +29,8 @@ class Specialization {
 
 Result<OwnedShaderModule> make_module(const Device& device, const std::string& name,
                                       std::span<const std::uint32_t> spirv) {
-  const VkShaderModuleCreateInfo create{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                        .codeSize = spirv.size_bytes(),
-                                        .pCode = spirv.data()};
+  const VkShaderModuleCreateInfo create{
+      .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv.size_bytes(), .pCode = spirv.data()};
   VkShaderModule module = VK_NULL_HANDLE;
   if (const VkResult r = vkCreateShaderModule(device.handle, &create, nullptr, &module); r != VK_SUCCESS)
     return Error{"shader " + name, result_text(r)};
@@ -135,14 +134,12 @@ std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineI
                         .descriptorType = binding.type,
                         .descriptorCount = 1,
                         .stageFlags = VK_SHADER_STAGE_ALL});
-  const VkDescriptorSetLayoutCreateInfo set_create{
-      .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-      .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
-      .bindingCount = static_cast<std::uint32_t>(bindings.size()),
-      .pBindings = bindings.data()};
+  const VkDescriptorSetLayoutCreateInfo set_create{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                   .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+                                                   .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                                   .pBindings = bindings.data()};
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateDescriptorSetLayout(device.handle, &set_create, nullptr, &set_layout);
-      r != VK_SUCCESS)
+  if (const VkResult r = vkCreateDescriptorSetLayout(device.handle, &set_create, nullptr, &set_layout); r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
   out.set_layout_ = OwnedSetLayout(device.handle, set_layout);
 

@@ -12,7 +12,8 @@ namespace {
 Use use_of(const Resource& resource, Access access, VkPipelineStageFlags2 stages) {
   VkAccessFlags2 flags = 0;
   const bool sampled = resource.type == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-  if (access != Access::write) flags |= sampled ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  if (access != Access::write)
+    flags |= sampled ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
   if (access != Access::read) flags |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   return {.resource = resource, .stages = stages, .access = flags};
 }
@@ -201,8 +202,7 @@ void PlanRunner::dispatch(VkCommandBuffer commands, const Pass& pass, const Plan
 
 void PlanRunner::draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const {
   const VkRect2D area{.extent = {pass.raster.width, pass.raster.height}};
-  const VkRenderingInfo rendering{
-      .sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1};
+  const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1};
   const VkViewport viewport{.width = static_cast<float>(pass.raster.width),
                             .height = static_cast<float>(pass.raster.height),
                             .maxDepth = 1.0F};

@@ -7,10 +7,10 @@
 namespace lamp::vulkan {
 namespace {
 
-constexpr VkAccessFlags2 WRITES =
-    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
-    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-    VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+constexpr VkAccessFlags2 WRITES = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_WRITE_BIT |
+                                  VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
+                                  VK_ACCESS_2_MEMORY_WRITE_BIT;
 
 std::uint64_t key_of(const Resource& resource) {
   return resource.image != VK_NULL_HANDLE ? reinterpret_cast<std::uint64_t>(resource.image)
@@ -32,18 +32,18 @@ void AccessTracker::barrier(VkCommandBuffer commands, std::span<const Use> uses)
     const bool orders_reads = (writes || changes_layout) && state.read_stages != 0;
 
     if (changes_layout) {
-      images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                        .srcStageMask = state.write_stages | state.read_stages,
-                        .srcAccessMask = state.write_access,
-                        .dstStageMask = use.stages,
-                        .dstAccessMask = use.access,
-                        .oldLayout = use.discard ? VK_IMAGE_LAYOUT_UNDEFINED : state.layout,
-                        .newLayout = use.resource.layout,
-                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                        .image = use.resource.image,
-                        .subresourceRange = {use.resource.aspect, 0, VK_REMAINING_MIP_LEVELS, 0,
-                                             VK_REMAINING_ARRAY_LAYERS}});
+      images.push_back(
+          {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+           .srcStageMask = state.write_stages | state.read_stages,
+           .srcAccessMask = state.write_access,
+           .dstStageMask = use.stages,
+           .dstAccessMask = use.access,
+           .oldLayout = use.discard ? VK_IMAGE_LAYOUT_UNDEFINED : state.layout,
+           .newLayout = use.resource.layout,
+           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+           .image = use.resource.image,
+           .subresourceRange = {use.resource.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}});
     } else if (orders_write || orders_reads) {
       memory.srcStageMask |= (orders_write ? state.write_stages : 0) | (orders_reads ? state.read_stages : 0);
       memory.srcAccessMask |= orders_write ? state.write_access : 0;

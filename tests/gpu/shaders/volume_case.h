@@ -18,10 +18,10 @@ LAMP_CONST TOUCHES_DEPTHS = 2u;
 LAMP_CONST TOUCHES_BOX = 4u;
 
 struct VolumeCase {
-  uint frame;      // index of the view
-  vec2 min_px;     // the tile
+  uint frame;   // index of the view
+  vec2 min_px;  // the tile
   vec2 max_px;
-  float nearest;   // device depths
+  float nearest;  // device depths
   float farthest;
 };
 

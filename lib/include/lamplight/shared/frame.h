@@ -14,9 +14,9 @@ struct Frame {
   mat4 clip_from_view;   // reversed depth, Vulkan clip space (y down); no shear (see view.h)
   mat4 view_from_world;  // rigid
   mat4 world_from_view;
-  vec3 eye_world;        // m, world_from_view * (0,0,0)
-  uint light_count;      // lights of this frame, at most the plan's capacity
-  uvec2 size_px;         // width, height
+  vec3 eye_world;    // m, world_from_view * (0,0,0)
+  uint light_count;  // lights of this frame, at most the plan's capacity
+  uvec2 size_px;     // width, height
   uint reserved0;
   uint reserved1;
 };

@@ -16,17 +16,17 @@ struct CullerInfo {
   std::uint32_t width = 0;   ///< pixels
   std::uint32_t height = 0;  ///< pixels
   std::uint32_t light_capacity = 0;
-  std::string method = "clustered";   ///< `lamp list methods`
-  std::vector<std::string> options;   ///< "tile=32"
+  std::string method = "clustered";  ///< `lamp list methods`
+  std::vector<std::string> options;  ///< "tile=32"
 };
 
 /// What a frame brings. Lights and depth must be visible to compute shaders when the recorded commands run.
 struct CullerFrame {
-  const View* view = nullptr;         ///< its size must be the Culler's
-  VkBuffer lights = VK_NULL_HANDLE;   ///< storage buffer of shared::Light (`lamp::pack`)
-  std::uint32_t light_count = 0;      ///< at most the capacity
-  VkImage depth_image = VK_NULL_HANDLE;       ///< only for methods that need depth: one sample, device depth
-  VkImageView depth_view = VK_NULL_HANDLE;    ///< of its depth aspect
+  const View* view = nullptr;               ///< its size must be the Culler's
+  VkBuffer lights = VK_NULL_HANDLE;         ///< storage buffer of shared::Light (`lamp::pack`)
+  std::uint32_t light_count = 0;            ///< at most the capacity
+  VkImage depth_image = VK_NULL_HANDLE;     ///< only for methods that need depth: one sample, device depth
+  VkImageView depth_view = VK_NULL_HANDLE;  ///< of its depth aspect
   VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 };
 

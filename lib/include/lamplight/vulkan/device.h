@@ -42,9 +42,9 @@ struct Device {
   DeviceTraits traits;
   float timestamp_period_ns = 1.0F;
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
-  PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;         ///< null without VK_EXT_debug_utils
-  PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;             ///< null without VK_EXT_debug_utils
-  PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;     ///< null without VK_EXT_debug_utils
+  PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;      ///< null without VK_EXT_debug_utils
+  PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;          ///< null without VK_EXT_debug_utils
+  PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;  ///< null without VK_EXT_debug_utils
 
   /// Gives an object its debug name, where the instance has VK_EXT_debug_utils.
   void name(VkObjectType type, std::uint64_t object, std::string_view text) const;

@@ -17,12 +17,12 @@ using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::strin
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
-  VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame
-  VkBuffer lights = VK_NULL_HANDLE;   ///< shared::Light[light_count]
-  Resource depth;                     ///< sampled image; unset for methods that do not need it
+  VkBuffer frame = VK_NULL_HANDLE;   ///< one shared::Frame
+  VkBuffer lights = VK_NULL_HANDLE;  ///< shared::Light[light_count]
+  Resource depth;                    ///< sampled image; unset for methods that do not need it
   std::uint32_t light_count = 0;
-  std::span<const shared::Light> host_lights;   ///< for host passes
-  const shared::Frame* host_frame = nullptr;    ///< the frame's record, as in `frame`; must be set
+  std::span<const shared::Light> host_lights;  ///< for host passes
+  const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`; must be set
 };
 
 /// A look-up's resources at their bindings, and its constants with their ids.

@@ -58,7 +58,7 @@ class AccessTracker {
   struct State {
     VkPipelineStageFlags2 write_stages = 0;
     VkAccessFlags2 write_access = 0;
-    VkPipelineStageFlags2 read_stages = 0;   // since the write
+    VkPipelineStageFlags2 read_stages = 0;     // since the write
     VkPipelineStageFlags2 visible_stages = 0;  // stages that already wait for the write
     VkAccessFlags2 visible_access = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
