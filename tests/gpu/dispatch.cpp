@@ -35,19 +35,6 @@ GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vecto
   return image;
 }
 
-std::vector<std::uint32_t> read_words(VkBuffer buffer, std::uint64_t count) {
-  const vulkan::Buffer words = host_buffer("words", count * sizeof(std::uint32_t));
-  test_context().submit([&](VkCommandBuffer commands) {
-    vulkan::AccessTracker tracker;
-    vulkan::Recorder recorder(test_context().device(), commands, tracker);
-    const VkBufferCopy whole{.size = words.bytes()};
-    recorder.barrier({copies_to(vulkan::Resource::storage(words.handle()))});
-    vkCmdCopyBuffer(commands, buffer, words.handle(), 1, &whole);
-    recorder.barrier({host_reads(vulkan::Resource::storage(words.handle()))});
-  });
-  return contents<std::uint32_t>(words);
-}
-
 void dispatch(const Dispatch& what) {
   const vulkan::Device& device = test_context().device();
   vulkan::PipelineInfo info{.name = std::string(what.shader)};

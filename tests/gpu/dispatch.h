@@ -30,9 +30,6 @@ template <class T>
 /// A depth image with these device depths, row by row, ready to be sampled.
 [[nodiscard]] GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth);
 
-/// The bytes of a device buffer of a plan.
-[[nodiscard]] std::vector<std::uint32_t> read_words(VkBuffer buffer, std::uint64_t count);
-
 /// A test shader with specialization constants 0, 1, 2, ... and bindings 0, 1, 2, ...
 struct Dispatch {
   std::string_view shader;

@@ -14,7 +14,7 @@
 namespace lamp::app {
 namespace {
 
-std::map<std::string_view, std::unique_ptr<TestScene>> scenes;
+std::map<std::string, std::unique_ptr<TestScene>> scenes;
 
 void add_facing_quad(Scene& scene, const View& view, glm::uvec2 pixel, double z_view) {
   constexpr std::array<glm::uvec2, 4> COUNTER_CLOCKWISE{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
@@ -34,7 +34,7 @@ void add_facing_quad(Scene& scene, const View& view, glm::uvec2 pixel, double z_
 
 const TestScene& builtin_test_scene(std::string_view name) {
   if (scenes.empty()) at_context_end([] { scenes.clear(); });
-  std::unique_ptr<TestScene>& scene = scenes[name];
+  std::unique_ptr<TestScene>& scene = scenes[std::string(name)];
   if (scene == nullptr)
     scene = std::make_unique<TestScene>(std::ranges::find(builtin_scenes(), name, &BuiltinScene::name)->make());
   return *scene;

@@ -1,6 +1,7 @@
 // Properties of tiled culling's sphere and spot tests, each specialised in turn: what a light reaches is never
 // rejected; and every test does reject a good share of lights that are elsewhere. The approximate cone is left out: it
-// may miss. SPDX-License-Identifier: Apache-2.0
+// may miss.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
 #include "gpu/dispatch.h"

@@ -57,7 +57,7 @@ void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   tracker_.assume(Resource::storage(inputs.lights));
 
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
-                     .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                     .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
   runner_.record(recorder, inputs);

@@ -1,0 +1,70 @@
+// Records plans.
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/plan_harness.h"
+
+#include "render/pass_uses.h"
+
+namespace lamp::app {
+
+vulkan::ShaderSource test_shader_source() {
+  return [](std::string_view name) -> Result<std::vector<std::uint32_t>> {
+    const ShaderCode* code = find_shader(test_shaders(), name);
+    if (code == nullptr) return lamp::Error{"shader " + std::string(name), "is not among the tests' shaders"};
+    return std::vector<std::uint32_t>(code->spirv.begin(), code->spirv.end());
+  };
+}
+
+Pass words_pass(const char* shader, std::vector<std::uint32_t> constants, std::vector<Binding> bindings,
+                std::uint32_t words) {
+  return {.name = shader,
+          .shader = shader,
+          .constants = std::move(constants),
+          .bindings = std::move(bindings),
+          .extent = {.x = (words + 63) / 64}};
+}
+
+PlanHarness::PlanHarness(Plan plan, std::vector<Light> lights)
+    : device(test_context().device()),
+      timestamps_(take(vulkan::Timestamps::create(device, 16))),
+      frame_(host_buffer_of("frame", std::vector{shared::Frame{}})) {
+  if (plan.light_capacity == 0) plan.light_capacity = 1U << 16;
+  runner_ = take(vulkan::PlanRunner::create(device, std::move(plan), test_shader_source()));
+  set_lights(lights);
+}
+
+void PlanHarness::set_lights(const std::vector<Light>& lights) { lights_ = pack(lights); }
+
+void PlanHarness::read_back(vulkan::Recorder& recorder, const std::vector<vulkan::Buffer>& copies) const {
+  for (std::uint32_t i = 0; i < copies.size(); ++i) {
+    const VkBuffer from = runner_.buffer(PLAN_BUFFER + i);
+    recorder.barrier(
+        {copies_from(vulkan::Resource::storage(from)), copies_to(vulkan::Resource::storage(copies[i].handle()))});
+    const VkBufferCopy whole{.size = copies[i].bytes()};
+    vkCmdCopyBuffer(recorder.commands(), from, copies[i].handle(), 1, &whole);
+    recorder.barrier({host_reads(vulkan::Resource::storage(copies[i].handle()))});
+  }
+}
+
+std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
+  std::vector<vulkan::Buffer> copies;
+  for (const BufferDesc& buffer : runner_.plan().buffers) copies.push_back(host_buffer(buffer.name, buffer.bytes));
+  test_context().submit([&](VkCommandBuffer commands) {
+    timestamps_.reset(commands);
+    vulkan::Recorder recorder(device, commands, tracker_, &timestamps_);
+    const shared::Frame frame{};
+    runner_.record(recorder, {.frame = frame_.handle(),
+                              .light_count = static_cast<std::uint32_t>(lights_.size()),
+                              .host_lights = lights_,
+                              .host_frame = &frame});
+    read_back(recorder, copies);
+  });
+  times_ = timestamps_.read();
+  std::vector<std::vector<std::uint32_t>> words;
+  for (const vulkan::Buffer& copy : copies) {
+    words.push_back(contents<std::uint32_t>(copy));
+    tracker_.forget(copy.handle());
+  }
+  return words;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,43 @@
+// Runs small hand-made plans of test shaders, and reads their buffers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gpu/dispatch.h"
+
+namespace lamp::app {
+
+/// SPIR-V of the tests' own shaders. (`plan_check` would refuse them: plans name shaders of the library.)
+[[nodiscard]] vulkan::ShaderSource test_shader_source();
+
+/// A compute pass over every word of buffers of `words` words, for shaders with 64 threads a group.
+[[nodiscard]] Pass words_pass(const char* shader, std::vector<std::uint32_t> constants, std::vector<Binding> bindings,
+                              std::uint32_t words);
+
+/// A plan and what it runs with. Frames share a tracker, as an application's do.
+class PlanHarness {
+ public:
+  explicit PlanHarness(Plan plan, std::vector<Light> lights = {});
+
+  /// Records and submits a frame, waits, and returns each buffer's words.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> run();
+
+  void set_lights(const std::vector<Light>& lights);
+  [[nodiscard]] const std::vector<vulkan::Timestamps::Time>& times() const { return times_; }
+  [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
+  /// The device that records; tests may take features from it.
+  vulkan::Device device;
+
+ private:
+  void read_back(vulkan::Recorder& recorder, const std::vector<vulkan::Buffer>& copies) const;
+
+  vulkan::PlanRunner runner_;
+  vulkan::AccessTracker tracker_;
+  vulkan::Timestamps timestamps_;
+  vulkan::Buffer frame_;
+  std::vector<shared::Light> lights_;
+  std::vector<vulkan::Timestamps::Time> times_;
+};
+
+}  // namespace lamp::app
