@@ -53,7 +53,8 @@ std::vector<vulkan::DescriptorBinding> gbuffer_bindings() {
 }
 
 vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
-                                  const vulkan::PlanRunner& runner, vulkan::GraphicsState state, const char* name) {
+                                  const vulkan::PlanRunner& runner, const vulkan::GraphicsState& state,
+                                  const char* name) {
   const vulkan::BoundLookUp lookup = runner.lookup({});
   vulkan::PipelineInfo pipeline{.name = name, .constants = lookup.constants, .bindings = mesh_bindings()};
   pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});

@@ -11,7 +11,7 @@ namespace {
 
 std::string joined(std::span<const std::string_view> words) {
   std::string text;
-  for (std::string_view word : words) {
+  for (const std::string_view word : words) {
     if (!text.empty()) text += ", ";
     text += word;
   }
@@ -87,7 +87,7 @@ Result<Options> resolve_options(const Method& method, const std::vector<std::str
 std::vector<std::string> nearest_names(std::string_view wanted, std::span<const std::string_view> names,
                                        std::size_t count) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
-  for (std::string_view name : names) ranked.emplace_back(edit_distance(wanted, name), name);
+  for (const std::string_view name : names) ranked.emplace_back(edit_distance(wanted, name), name);
   std::ranges::sort(ranked);  // by distance, then by name
   std::vector<std::string> nearest;
   for (std::size_t i = 0; i < std::min(count, ranked.size()); ++i) nearest.push_back(ranked[i].second);

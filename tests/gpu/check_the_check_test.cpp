@@ -126,9 +126,9 @@ TEST_F(CheckTheCheck, FaultyListsAreFoundOut) {
   const std::uint64_t pixels = std::ranges::count_if(lit_.depth, [](float depth) { return depth > 0.0F; });
   struct Expectation {
     Method method;
-    std::uint64_t missed;
-    bool unordered;
-    std::uint64_t walked;
+    std::uint64_t missed = 0;
+    bool unordered = false;
+    std::uint64_t walked = 0;
   };
   const Expectation expectations[] = {
       {faulty_method<Fault::none>(), 0, false, COUNT},

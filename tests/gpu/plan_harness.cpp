@@ -23,7 +23,7 @@ Pass words_pass(const char* shader, std::vector<std::uint32_t> constants, std::v
           .extent = {.x = (words + 63) / 64}};
 }
 
-PlanHarness::PlanHarness(Plan plan, std::vector<Light> lights)
+PlanHarness::PlanHarness(Plan plan, const std::vector<Light>& lights)
     : device(test_context().device()),
       timestamps_(take(vulkan::Timestamps::create(device, 16))),
       frame_(host_buffer_of("frame", std::vector{shared::Frame{}})) {

@@ -18,7 +18,7 @@ namespace lamp::app {
 /// A plan and what it runs with. Frames share a tracker, as an application's do.
 class PlanHarness {
  public:
-  explicit PlanHarness(Plan plan, std::vector<Light> lights = {});
+  explicit PlanHarness(Plan plan, const std::vector<Light>& lights = {});
 
   /// Records and submits a frame, waits, and returns each buffer's words.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> run();

@@ -40,7 +40,7 @@ TEST(Gltf, LoadsBuffersAndImagesNextToTheFile) {
   GltfBuilder builder = triangle();
   builder.document["buffers"][0] = {{"byteLength", builder.bytes.size()}, {"uri", "a%20buffer.bin"}};
   // A file may be longer than the buffer in it.
-  std::string contents(reinterpret_cast<const char*>(builder.bytes.data()), builder.bytes.size());
+  const std::string contents(reinterpret_cast<const char*>(builder.bytes.data()), builder.bytes.size());
   std::ofstream(folder / "a buffer.bin", std::ios::binary) << contents << "more";
   std::ofstream(folder / "scene.gltf") << builder.document.dump();
   const Scene scene = lamp::app::load_gltf(folder / "scene.gltf");
