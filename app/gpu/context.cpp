@@ -139,6 +139,8 @@ void Context::create_device() {
   check(vkCreateDevice(physical_, &create, nullptr, &handle_), "creating the device");
   vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
   device_ = take(vulkan::make_device(physical_, handle_), Exit::no_device);
+  pipelines_ = std::make_unique<vulkan::PipelineStore>();
+  device_.pipelines = pipelines_.get();
 
   const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                      .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
@@ -149,6 +151,7 @@ void Context::create_device() {
 }
 
 Context::~Context() {
+  pipelines_.reset();
   if (handle_ != VK_NULL_HANDLE) {
     vkDestroyFence(handle_, fence_, nullptr);
     vkDestroyCommandPool(handle_, pool_, nullptr);

@@ -58,6 +58,7 @@ class Context {
   std::uint32_t queue_family_ = 0;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;
+  std::unique_ptr<vulkan::PipelineStore> pipelines_;
   vulkan::Device device_;
   DeviceRow row_;
 };

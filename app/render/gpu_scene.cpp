@@ -20,8 +20,7 @@ gpu::TextureData texture_data(const Texture& t) {
   return {.u_row = {c * t.scale.x, s * t.scale.y},
           .v_row = {-s * t.scale.x, c * t.scale.y},
           .offset = t.offset,
-          .uv = t.uv,
-          .present = t.image >= 0 ? 1U : 0U};
+          .uv = t.uv};
 }
 
 gpu::MaterialData material_data(const Material& m) {
@@ -29,10 +28,10 @@ gpu::MaterialData material_data(const Material& m) {
           .emissive = m.emissive,
           .metallic = m.metallic,
           .roughness = m.roughness,
-          .normal_scale = m.normal_scale,
+          .normal_scale = m.normal_texture.image < 0 ? 0.0F : m.normal_scale,
           .occlusion_strength = m.occlusion_strength,
-          .alpha_cutoff = m.alpha_cutoff,
-          .alpha_mode = static_cast<std::uint32_t>(m.alpha_mode),
+          .alpha_cutoff = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0F,
+          .least_alpha = m.alpha_mode == AlphaMode::blend ? 0.0F : 1.0F,
           .base_color_texture = texture_data(m.base_color_texture),
           .metallic_roughness_texture = texture_data(m.metallic_roughness_texture),
           .normal_texture = texture_data(m.normal_texture),

@@ -5,15 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <memory>
+#include <list>
+#include <utility>
 
 namespace lamp::app {
 namespace {
 
 using Passes = vulkan::PlanRunner::Passes;
 
-std::map<std::string, std::unique_ptr<Lighting>> kept;
+/// The lightings used last, latest first. A driver in software keeps tens of megabytes of code for each.
+constexpr std::size_t KEPT = 24;
+std::list<std::pair<std::string, Lighting>> kept;
 
 LightingInfo info_of(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
   return {.method = candidate.method,
@@ -83,11 +85,17 @@ Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, Sh
   const std::string key =
       fmt::format("{} {} {}x{} {} {}", candidate.method->name, fmt::join(candidate.settings, " "),
                   renderer.targets().width, renderer.targets().height, capacity, static_cast<int>(path));
-  std::unique_ptr<Lighting>& lighting = kept[key];
-  if (lighting == nullptr)
-    lighting = std::make_unique<Lighting>(make_lighting(
-        renderer, {.method = candidate.method, .settings = candidate.settings, .light_capacity = capacity}, path));
-  return *lighting;
+  const auto found = std::ranges::find(kept, key, &std::pair<std::string, Lighting>::first);
+  if (found != kept.end()) {
+    kept.splice(kept.begin(), kept, found);
+    return kept.front().second;
+  }
+  kept.emplace_front(
+      key,
+      make_lighting(renderer, {.method = candidate.method, .settings = candidate.settings, .light_capacity = capacity},
+                    path));
+  if (kept.size() > KEPT) kept.pop_back();
+  return kept.front().second;
 }
 
 Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& candidate, Check check) {

@@ -32,7 +32,7 @@ struct Candidate {
 /// Throws Error when the plan does not fit the device.
 [[nodiscard]] Lighting make_lighting(const Renderer& renderer, const Candidate& candidate,
                                      ShadingPath path = ShadingPath::deferred);
-/// The same, kept until the context ends: for tests that come back to it.
+/// The same, kept until a few dozen others have been asked for: for tests that come back to it.
 [[nodiscard]] Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path);
 
 enum class Check : std::uint8_t { separate, separate_and_fused };

@@ -50,6 +50,25 @@ TEST_F(RecorderTest, PassesThatAreKeptRunOnceForAProjection) {
   EXPECT_EQ(harness.runner().projection_rebuilds(), 1);
 }
 
+TEST_F(RecorderTest, PipelinesThatAreAlikeAreMadeOnce) {
+  vulkan::PipelineStore store;
+  vulkan::Device device = test_context().device();
+  device.pipelines = &store;
+  const auto write = [&](std::uint32_t constant, std::uint32_t binding) {
+    return take(vulkan::Pipeline::compute(device,
+                                          {.name = "write", .constants = {{0, constant}}, .bindings = {{0}, {binding}}},
+                                          test_shader("plan_write")));
+  };
+  const vulkan::Pipeline first = write(1, 1);
+  EXPECT_EQ(write(1, 1).handle(), first.handle());
+  EXPECT_NE(write(2, 1).handle(), first.handle());
+  EXPECT_NE(write(1, 2).handle(), first.handle());
+  EXPECT_EQ(store.size(), 3);
+  device.pipelines = nullptr;
+  EXPECT_NE(write(1, 1).handle(), first.handle());
+  EXPECT_EQ(store.size(), 3);
+}
+
 TEST_F(RecorderTest, HostPassesAndEmptyPlansTakeNoTime) {
   Plan plan;
   PlanHarness empty(plan);

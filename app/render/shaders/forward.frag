@@ -32,6 +32,5 @@ void main() {
   const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
   const Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
   const vec3 sum = shade_cell(s, uvec2(gl_FragCoord.xy), z_view);
-  const float alpha = material.alpha_mode == ALPHA_BLEND ? color.a : 1.0;
-  out_color = vec4(shade_surroundings(s, emission) + sum, alpha);
+  out_color = vec4(shade_surroundings(s, emission) + sum, max(color.a, material.least_alpha));
 }

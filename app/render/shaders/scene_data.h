@@ -9,22 +9,14 @@
 #ifdef __cplusplus
 namespace lamp::app::gpu {
 using namespace lamp::shared;
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
-
-LAMP_CONST ALPHA_OPAQUE = 0u;
-LAMP_CONST ALPHA_MASK = 1u;
-LAMP_CONST ALPHA_BLEND = 2u;
 
 // A texture of a material: (u', v') = (dot(u_row, uv), dot(v_row, uv)) + offset.
 struct TextureData {
   vec2 u_row;
   vec2 v_row;
   vec2 offset;
-  uint uv;       // which set, 0 or 1
-  uint present;  // 0: reads as 1
+  uint uv;  // which set, 0 or 1
 };
 
 struct MaterialData {
@@ -32,10 +24,10 @@ struct MaterialData {
   vec3 emissive;    // radiance
   float metallic;
   float roughness;
-  float normal_scale;
+  float normal_scale;  // 0 without a normal texture
   float occlusion_strength;
-  float alpha_cutoff;
-  uint alpha_mode;
+  float alpha_cutoff;  // 0 unless masked
+  float least_alpha;   // 0 if blended, else 1
   TextureData base_color_texture;
   TextureData metallic_roughness_texture;
   TextureData normal_texture;
@@ -74,6 +66,5 @@ struct Visit {
 #ifdef __cplusplus
 }  // namespace lamp::app::gpu
 #endif
-#undef LAMP_CONST
 
 #endif

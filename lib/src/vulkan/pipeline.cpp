@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "pipeline_store.h"
+
 namespace lamp::vulkan {
 namespace {
 
@@ -127,7 +129,7 @@ struct GraphicsCreate {
 
 }  // namespace
 
-std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineInfo& info, Pipeline& out) {
+std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineInfo& info, Objects& out) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const DescriptorBinding& binding : info.bindings)
     bindings.push_back({.binding = binding.binding,
@@ -141,7 +143,7 @@ std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineI
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   if (const VkResult r = vkCreateDescriptorSetLayout(device.handle, &set_create, nullptr, &set_layout); r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  out.set_layout_ = OwnedSetLayout(device.handle, set_layout);
+  out.set_layout = OwnedSetLayout(device.handle, set_layout);
 
   const VkPushConstantRange range{.stageFlags = VK_SHADER_STAGE_ALL, .size = info.push_constant_bytes};
   const VkPipelineLayoutCreateInfo create{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -152,36 +154,36 @@ std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineI
   VkPipelineLayout layout = VK_NULL_HANDLE;
   if (const VkResult r = vkCreatePipelineLayout(device.handle, &create, nullptr, &layout); r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  out.layout_ = OwnedPipelineLayout(device.handle, layout);
+  out.layout = OwnedPipelineLayout(device.handle, layout);
   return std::nullopt;
 }
 
-Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& info,
-                                   std::span<const std::uint32_t> spirv) {
-  Pipeline pipeline;
-  if (auto error = make_layout(device, info, pipeline)) return *error;
+Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo& info,
+                                        std::span<const std::uint32_t> spirv) {
+  Objects objects;
+  if (auto error = make_layout(device, info, objects)) return *error;
   const Result<OwnedShaderModule> module = make_module(device, info.name, spirv);
   if (!module) return module.error();
   const Specialization specialization(info.constants);
   const VkComputePipelineCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
       .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module.value(), specialization),
-      .layout = pipeline.layout_.get()};
+      .layout = objects.layout.get()};
   VkPipeline handle = VK_NULL_HANDLE;
   if (const VkResult r = vkCreateComputePipelines(device.handle, VK_NULL_HANDLE, 1, &create, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  pipeline.pipeline_ = OwnedPipeline(device.handle, handle);
+  objects.pipeline = OwnedPipeline(device.handle, handle);
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
-  return pipeline;
+  return Pipeline(std::move(objects));
 }
 
-Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& info,
-                                    std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
-                                    const GraphicsState& state) {
-  Pipeline pipeline;
-  pipeline.bind_point_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  if (auto error = make_layout(device, info, pipeline)) return *error;
+Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInfo& info,
+                                         std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                                         const GraphicsState& state) {
+  Objects objects;
+  objects.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  if (auto error = make_layout(device, info, objects)) return *error;
   const Specialization specialization(info.constants);
   std::vector<OwnedShaderModule> modules;
   std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -197,14 +199,27 @@ Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& in
   GraphicsCreate create(state);
   create.info.stageCount = static_cast<std::uint32_t>(stages.size());
   create.info.pStages = stages.data();
-  create.info.layout = pipeline.layout_.get();
+  create.info.layout = objects.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
   if (const VkResult r = vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &create.info, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  pipeline.pipeline_ = OwnedPipeline(device.handle, handle);
+  objects.pipeline = OwnedPipeline(device.handle, handle);
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
-  return pipeline;
+  return Pipeline(std::move(objects));
+}
+
+Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& info,
+                                   std::span<const std::uint32_t> spirv) {
+  const std::string description = (Description() << info << spirv).bytes();
+  return stored_or_made(device, description, [&] { return make_compute(device, info, spirv); });
+}
+
+Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& info,
+                                    std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                                    const GraphicsState& state) {
+  const std::string description = (Description() << info << vertex << fragment << state).bytes();
+  return stored_or_made(device, description, [&] { return make_graphics(device, info, vertex, fragment, state); });
 }
 
 }  // namespace lamp::vulkan

@@ -1,4 +1,6 @@
-// From a material and interpolated vertex attributes to a surface. Textures that a material lacks read as 1.
+// From a material and interpolated vertex attributes to a surface. Textures that a material lacks are bound as white.
+// No branch depends on the material's values alone: lavapipe compiles such shaders anew for each draw's values, and in
+// Mesa 22.3 keeps the old ones.
 // Based on: Khronos, glTF 2.0, 3.9; KHR_texture_transform.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_MATERIAL
@@ -22,9 +24,8 @@ layout(location = 3) in vec2 in_uv1;
 layout(location = 4) in vec4 in_color;
 
 vec4 texel(sampler2D image, TextureData t) {
-  const vec2 uv = t.uv == 0u ? in_uv0 : in_uv1;
-  const vec4 read = texture(image, vec2(dot(t.u_row, uv), dot(t.v_row, uv)) + t.offset);
-  return t.present == 0u ? vec4(1.0) : read;
+  const vec2 uv = mix(in_uv0, in_uv1, bvec2(t.uv != 0u));
+  return texture(image, vec2(dot(t.u_row, uv), dot(t.v_row, uv)) + t.offset);
 }
 
 vec4 material_color() {
@@ -32,19 +33,17 @@ vec4 material_color() {
 }
 
 bool is_cut_out(float alpha) {
-  return material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff;
+  return alpha < material.alpha_cutoff;
 }
 
 // Back faces of double-sided materials turn their normal.
 vec3 material_normal(bool front) {
-  vec3 n = normalize(in_normal);
-  if (material.normal_texture.present != 0u) {
-    const vec3 t = normalize(in_tangent.xyz - n * dot(n, in_tangent.xyz) + vec3(1e-12));
-    const vec3 b = cross(n, t) * in_tangent.w;
-    vec3 read = texel(normal_image, material.normal_texture).xyz * 2.0 - 1.0;
-    read.xy *= material.normal_scale;
-    n = normalize(t * read.x + b * read.y + n * read.z);
-  }
+  const vec3 z = normalize(in_normal);
+  const vec3 x = normalize(in_tangent.xyz - z * dot(z, in_tangent.xyz) + vec3(1e-12));
+  const vec3 y = cross(z, x) * in_tangent.w;
+  vec3 read = texel(normal_image, material.normal_texture).xyz * 2.0 - 1.0;
+  read.xy *= material.normal_scale;
+  const vec3 n = normalize(x * read.x + y * read.y + z * read.z);
   return front ? n : -n;
 }
 

@@ -34,6 +34,8 @@ struct RequiredFeatures {
 /// Limits for planning.
 [[nodiscard]] DeviceTraits traits_of(VkPhysicalDevice physical);
 
+class PipelineStore;
+
 /// An engine's device, with what recording needs at hand. Plain handles; destroys nothing.
 struct Device {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -41,6 +43,7 @@ struct Device {
   VkPhysicalDeviceMemoryProperties memory{};
   DeviceTraits traits;
   float timestamp_period_ns = 1.0F;
+  PipelineStore* pipelines = nullptr;  ///< not owned; where pipelines are shared, or null: each is made anew
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;      ///< null without VK_EXT_debug_utils
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;          ///< null without VK_EXT_debug_utils

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +48,7 @@ struct GraphicsState {
   enum class Blend : std::uint8_t { none, add, over } blend = Blend::none;  ///< of every colour attachment
 };
 
+/// Copies share one pipeline, which lives as long as the last of them.
 class Pipeline {
  public:
   Pipeline() = default;
@@ -55,17 +59,43 @@ class Pipeline {
                                                  std::span<const std::uint32_t> vertex,
                                                  std::span<const std::uint32_t> fragment, const GraphicsState& state);
 
-  [[nodiscard]] VkPipeline handle() const { return pipeline_.get(); }
-  [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
-  [[nodiscard]] VkPipelineBindPoint bind_point() const { return bind_point_; }
+  /// Only of a pipeline that has been made.
+  [[nodiscard]] VkPipeline handle() const { return objects_->pipeline.get(); }
+  [[nodiscard]] VkPipelineLayout layout() const { return objects_->layout.get(); }
+  [[nodiscard]] VkPipelineBindPoint bind_point() const { return objects_->bind_point; }
 
  private:
-  [[nodiscard]] static std::optional<Error> make_layout(const Device& device, const PipelineInfo& info, Pipeline& out);
+  struct Objects {
+    OwnedSetLayout set_layout;
+    OwnedPipelineLayout layout;
+    OwnedPipeline pipeline;
+    VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
+  };
+  explicit Pipeline(Objects objects) : objects_(std::make_shared<const Objects>(std::move(objects))) {}
+  [[nodiscard]] static std::optional<Error> make_layout(const Device& device, const PipelineInfo& info, Objects& out);
+  [[nodiscard]] static Result<Pipeline> make_compute(const Device& device, const PipelineInfo& info,
+                                                     std::span<const std::uint32_t> spirv);
+  [[nodiscard]] static Result<Pipeline> make_graphics(const Device& device, const PipelineInfo& info,
+                                                      std::span<const std::uint32_t> vertex,
+                                                      std::span<const std::uint32_t> fragment,
+                                                      const GraphicsState& state);
 
-  OwnedSetLayout set_layout_;
-  OwnedPipelineLayout layout_;
-  OwnedPipeline pipeline_;
-  VkPipelineBindPoint bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+  std::shared_ptr<const Objects> objects_;
+};
+
+/// Keeps the pipelines of a device (`Device::pipelines`), so that the same code with the same constants and state is
+/// compiled once, whoever asks: other methods with the same passes, a plan that is made anew for more lights.
+/// Destroy it before the device. Safe to use from several threads.
+class PipelineStore {
+ public:
+  /// The pipeline of that description, if it was made before.
+  [[nodiscard]] std::optional<Pipeline> find(const std::string& description) const;
+  void add(const std::string& description, const Pipeline& pipeline);
+  [[nodiscard]] std::size_t size() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, Pipeline, std::less<>> pipelines_;
 };
 
 }  // namespace lamp::vulkan

@@ -1,0 +1,31 @@
+// What two pipelines must have in common to be one: everything but the name, as bytes.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lamplight/vulkan/pipeline.h"
+
+namespace lamp::vulkan {
+
+class Description {
+ public:
+  Description& operator<<(const PipelineInfo& info);
+  Description& operator<<(std::span<const std::uint32_t> spirv);
+  Description& operator<<(const GraphicsState& state);
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  void add(std::uint64_t value);
+  std::string bytes_;
+};
+
+/// The stored pipeline of that description, or the one that `make` makes, stored.
+template <class Make>
+Result<Pipeline> stored_or_made(const Device& device, const std::string& description, const Make& make) {
+  if (device.pipelines == nullptr) return make();
+  if (auto found = device.pipelines->find(description)) return std::move(*found);
+  Result<Pipeline> made = make();
+  if (made) device.pipelines->add(description, made.value());
+  return made;
+}
+
+}  // namespace lamp::vulkan
