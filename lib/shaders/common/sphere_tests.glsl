@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SPHERE_TESTS
 #define LAMP_COMMON_SPHERE_TESTS
+#include "common/mask_tests.glsl"
 #include "common/tile_volume.glsl"
 #include "common/volume_tests.glsl"
 
@@ -70,6 +71,22 @@ bool sphere_touches_tile_depths(LightBounds sphere, TileSides sides, TileBox box
   if (!sphere_touches_depths(sphere, z_near, z_far)) return false;
   if (TESTS_BOX) return sphere_touches_box(sphere, box.low, box.high);
   return TEST != TEST_EXACT || sphere_touches_frustum(sphere, sides, z_near, z_far);
+}
+
+// The test, repeated for every run of occupied parts that the sphere's depths meet.
+bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges, uint parts) {
+  const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
+  while (parts != 0u) {
+    const uint first = uint(findLSB(parts));
+    const uint filled = parts >> first;
+    const uint length = filled == ~0u ? 32u : uint(findLSB(~filled));
+    const float z_first = ranges.z_near[0] + step * (float(first) - 0.001);
+    const float z_last = ranges.z_near[0] + step * (float(first + length) + 0.001);
+    const TileBox box = tile_box(sides, z_first, z_last);
+    if (sphere_touches_tile_depths(sphere, sides, box, z_first, z_last)) return true;
+    parts &= first + length >= 32u ? 0u : ~0u << (first + length);
+  }
+  return false;
 }
 
 #endif

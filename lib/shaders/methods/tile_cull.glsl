@@ -11,6 +11,8 @@
 // Array sizes are plain constants: expressions of specialization constants are not safe as sizes everywhere.
 shared uint s_light_count[2];
 shared uint s_lights[LIST_ENTRIES];
+#define SORT_KEYS s_lights
+#include "common/sort.glsl"
 shared uint s_kept[128];  // one bit an entry, for up to 2 x 2048: a pixel is reached by it
 
 uint group_threads() { return gl_WorkGroupSize.x * gl_WorkGroupSize.y; }
@@ -22,30 +24,6 @@ void append_light(uint range, uint light) {
   if (place >= CAPACITY) return;
   const bool by_type = ORDER == ORDER_TYPE && cull_lights[light].type == LIGHT_SPOT;
   s_lights[range * CAPACITY + place] = by_type ? light | TYPE_BIT : light;
-}
-
-void compare_exchange(uint range, uint low, uint high) {
-  if (high >= s_light_count[range]) return;  // beyond the list stands an imaginary infinity
-  const uint a = s_lights[range * CAPACITY + low];
-  const uint b = s_lights[range * CAPACITY + high];
-  if (a <= b) return;
-  s_lights[range * CAPACITY + low] = b;
-  s_lights[range * CAPACITY + high] = a;
-}
-
-// Batcher's bitonic sort in the form whose comparators all point the same way, so that any length works.
-void sort_lights(uint range) {
-  const uint n = s_light_count[range];
-  for (uint run = 2u; run < 2u * n; run *= 2u) {
-    for (uint step = run / 2u; step > 0u; step /= 2u) {
-      for (uint i = gl_LocalInvocationIndex; 2u * i < n + run; i += group_threads()) {
-        const uint low = (i / step) * 2u * step + i % step;
-        const uint high = step == run / 2u ? (low ^ (run - 1u)) : low + step;
-        compare_exchange(range, low, high);
-      }
-      barrier();  // one step's exchanges before the next step reads
-    }
-  }
 }
 
 // Flags the entries of the pixel's range that reach it.
@@ -115,7 +93,7 @@ TileRanges cull_tile(uvec2 tile) {
   barrier();  // the lists before they are pruned and sorted
   if (PRUNE) prune_lights(tile, ranges);
   for (uint range = 0u; range < RANGES; ++range)
-    if (ORDER != ORDER_APPEND && list_fits(range)) sort_lights(range);
+    if (ORDER != ORDER_APPEND && list_fits(range)) sort_keys(range * CAPACITY, s_light_count[range]);
   return ranges;
 }
 

@@ -62,30 +62,6 @@ TileRanges ranges_of(uvec2 tile) {
   return tile_ranges(cull_frame, cull_depth, tile);
 }
 
-// Which of the mask's parts the sphere may reach.
-uint parts_near(LightBounds sphere, TileRanges ranges) {
-  const float z = -sphere.center.z;
-  const uint first = mask_part(z - sphere.radius, ranges.z_near[0], ranges.z_far[0]);
-  const uint last = mask_part(z + sphere.radius, ranges.z_near[0], ranges.z_far[0]);
-  return ranges.mask & (~0u << first) & (~0u >> (31u - last));
-}
-
-// The test, repeated for every run of occupied parts that the sphere's depths meet.
-bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges, uint parts) {
-  const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
-  while (parts != 0u) {
-    const uint first = uint(findLSB(parts));
-    const uint filled = parts >> first;
-    const uint length = filled == ~0u ? 32u : uint(findLSB(~filled));
-    const float z_first = ranges.z_near[0] + step * (float(first) - 0.001);
-    const float z_last = ranges.z_near[0] + step * (float(first + length) + 0.001);
-    const TileBox box = tile_box(sides, z_first, z_last);
-    if (sphere_touches_tile_depths(sphere, sides, box, z_first, z_last)) return true;
-    parts &= first + length >= 32u ? 0u : ~0u << (first + length);
-  }
-  return false;
-}
-
 // A tile as lights are tested against it: made once, before the loop over the lights.
 struct TileTarget {
   TileSides sides;
