@@ -25,11 +25,12 @@ constexpr const char* WELCOME =
     "  lamp verify                                  is any light missed? every method, against the oracle\n"
     "  lamp compare tiled clustered                 two methods side by side: compare.png\n"
     "  lamp list methods                            what there is\n"
-    "`lamp COMMAND --help` explains each.\n";
+    "`lamp COMMAND --help` explains each; `lamp --version` says which release this is.\n";
 
 int run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
   app.require_subcommand(0, 1);
+  app.set_version_flag("--version", "lamp " LAMP_VERSION, "Print the version and exit");
   app.footer(
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png\n"
