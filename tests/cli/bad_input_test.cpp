@@ -59,6 +59,7 @@ TEST_F(BadInput, Numbers) {
   expect_error(BAD_INPUT, {"render", "--seed=-1"}, {"--seed", "whole number", "'-1'"});
   expect_error(BAD_INPUT, {"render", "--frame=-5"}, {"--frame", "whole number", "'-5'"});
   expect_error(BAD_INPUT, {"render", "--frames", "0"}, {"--frames", "from 1 to ", "'0'"});
+  expect_error(BAD_INPUT, {"render", "--samples", "0"}, {"--samples", "from 1 to ", "'0'"});
   for (const char* spots : {"-0.5", "2", "many"})
     expect_error(BAD_INPUT, {"render", std::string("--spots=") + spots}, {"--spots"});
   expect_error(BAD_INPUT, {"render", "plane", "--spots", "nan"}, {"spots", "nan"});
