@@ -84,6 +84,19 @@ TEST_F(Axes, RandomCombinationsOfTiledCulling) {
   EXPECT_GT(accepted, 3U);
 }
 
+TEST_F(Axes, WithoutDepthBoundsWhateverNeedsNone) {
+  const Method& tiled = *take(find_method("tiled"));
+  std::uint32_t accepted = 0;
+  for (const char* test : {"planes", "aabb", "planes+aabb", "cone-approximate", "cone", "exact"})
+    for (const char* spot : {"sphere", "cone-planes", "cone-sphere"})
+      for (const char* prune : {"none", "pixel"})
+        accepted += check(tiled, {"bounds=none", fmt::format("test={}", test), fmt::format("spot={}", spot),
+                                  fmt::format("prune={}", prune)})
+                        ? 1
+                        : 0;
+  EXPECT_EQ(accepted, 3U * 2U * 2U);  // planes and both cones; spheres of spots and their cones against planes
+}
+
 TEST_F(Axes, KeptFrustaAreMadeAnewOnlyWhenTheProjectionChanges) {
   const Method& method = *take(find_method("article-deferred"));
   Lighting lighting =

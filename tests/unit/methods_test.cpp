@@ -215,6 +215,32 @@ std::string test_name(const ::testing::TestParamInfo<const Method*>& row) {
 }
 INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(every_method()), test_name);
 
+TEST(Methods, CombinationsThatMakeNoSenseAreRefusedWithTheReason) {
+  struct Refusal {
+    std::vector<std::string> settings;
+    std::string source, reason;
+  };
+  const std::vector<Refusal> refusals{
+      {{"container=bits", "order=append"}, "option order", "container=bits goes with order=index"},
+      {{"spot=cone-segments"}, "option spot", "goes with bounds=mask"},
+      {{"frusta=cached", "test=aabb"}, "option frusta", "frusta=cached goes with"},
+      {{"frusta=cached", "test=exact"}, "option frusta", "frusta=cached goes with"},
+      {{"bounds=none", "test=aabb"}, "option test", "bounds=none goes with"},
+      {{"bounds=none", "test=exact"}, "option test", "bounds=none goes with"},
+      {{"bounds=none", "spot=cone-sphere"}, "option spot", "bounds=none goes with"},
+      {{"bounds=none", "reduce=parallel"}, "option reduce", "bounds=none reduces nothing"}};
+  const Method& tiled = *lamp::find_method("tiled").value();
+  for (const auto& [settings, source, reason] : refusals) {
+    const auto options = lamp::resolve_options(tiled, settings);
+    ASSERT_TRUE(options);
+    const auto plan = lamp::make_plan(
+        tiled, {.width = 640, .height = 360, .light_capacity = 100, .options = options.value(), .traits = LARGE});
+    ASSERT_FALSE(plan) << settings.front() << " " << settings.back();
+    EXPECT_NE(plan.error().text().find(source), std::string::npos) << plan.error().text();
+    EXPECT_NE(plan.error().text().find(reason), std::string::npos) << plan.error().text();
+  }
+}
+
 TEST(Methods, NamesAreUniqueAndFound) {
   std::set<std::string_view> names;
   for (const Method& method : lamp::methods()) {

@@ -1,4 +1,4 @@
-// A tile's depth ranges: one, or two halves of it, or one with a mask of its occupied parts.
+// A tile's depth ranges: one, or two halves of it, or one with a mask of its occupied parts; or every depth there is.
 // Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.4.2 (Half Z, Modified Half Z); Harada, A 2.5D
 // Culling for Forward+, SIGGRAPH Asia (2012).
 // Needs: TILE_PX, BOUNDS.
@@ -11,6 +11,7 @@
 const uint MASK_BITS = 32u;
 const float EMPTY_NEAR = 1.0;
 const float EMPTY_FAR = -1.0;
+const float ANY_DEPTH = 1e30;  // m: beyond every light, and far enough from infinity to be added to
 
 
 TileRanges masked_range(float z_near, float z_far, uint mask) {
@@ -72,6 +73,7 @@ TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float 
 
 // For all threads of the group together.
 TileRanges tile_ranges(Frame frame, texture2D depth_image, uvec2 tile) {
+  if (BOUNDS == BOUNDS_NONE) return one_range(-ANY_DEPTH, ANY_DEPTH);  // the depth buffer is not looked at
   const TileDepth depth = tile_depth(frame, depth_image, tile);
   if (is_empty(depth)) return empty_ranges();
   const float z_near = z_view_of(frame, depth.nearest);
