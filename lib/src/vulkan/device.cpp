@@ -75,6 +75,7 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
           .max_group_invocations = limits.maxComputeWorkGroupInvocations,
           .shared_memory_bytes = limits.maxComputeSharedMemorySize,
           .max_image_size = limits.maxImageDimension2D,
+          .max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers,
           .subgroup_size = v11.subgroupSize};
 }
 
