@@ -1,4 +1,5 @@
-// Look-up: clusters (tile and depth slice), each a range of one shared list; a range beyond its end means every light.
+// Look-up: clusters (tile and depth slice), each a range of one shared list. A range beyond its end means what its tile's
+// bits say, and every light where there are no bits.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/shared/frame.h"
 
@@ -7,9 +8,11 @@ layout(constant_id = 101) const uint LOOKUP_SLICES = 24;
 layout(constant_id = 102) const uint LOOKUP_NEAR_MM = 500;
 layout(constant_id = 103) const uint LOOKUP_FAR_M = 500;
 layout(constant_id = 104) const uint LOOKUP_ENTRIES = 1;
+layout(constant_id = 105) const uint LOOKUP_WORDS = 0;  // of a tile's bits
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupRanges { uvec2 lookup_ranges[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
+layout(set = 0, binding = 19, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
 
 #define SLICES LOOKUP_SLICES
 #define NEAR_MM LOOKUP_NEAR_MM
@@ -22,26 +25,44 @@ layout(set = 0, binding = 18, scalar) readonly buffer LookupLists { uint lookup_
 struct Walk {
   uint at;
   uint end;
-  bool overflowed;
+  uint first_word;  // of the tile's bits; NO_WORD: `at` is an entry of the list
 };
+const uint NO_WORD = ~0u;
 
 void lookup_prepare() {}
 
-uint lookup_cell(uvec2 pixel, float z_view) {
+uint lookup_tile(uvec2 pixel) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
+  return tile.x + (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX * tile.y;
+}
+
+uint lookup_cell(uvec2 pixel, float z_view) {
   const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  return tile.x + tiles.x * (tile.y + tiles.y * slice_of(z_view));
+  return lookup_tile(pixel) + tiles.x * tiles.y * slice_of(z_view);
 }
 
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uvec2 range = lookup_ranges[lookup_cell(pixel, z_view)];
-  if (range.x > LOOKUP_ENTRIES || range.y > LOOKUP_ENTRIES - range.x) return Walk(0u, lookup_frame.light_count, true);
-  return Walk(range.x, range.x + range.y, false);
+  const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
+  if (fits) return Walk(range.x, range.x + range.y, NO_WORD);
+  return Walk(0u, lookup_frame.light_count, lookup_tile(pixel) * LOOKUP_WORDS);
+}
+
+// The first light from `from` on that the tile's bits name, or one past the last.
+uint lookup_next_bit(uint first_word, uint from, uint end) {
+  while (from < end) {
+    const uint bits = lookup_bits[first_word + from / 32u] >> (from % 32u);
+    if (bits != 0u) return from + uint(findLSB(bits));
+    from = (from / 32u + 1u) * 32u;
+  }
+  return end;
 }
 
 bool walk_next(inout Walk walk, out uint light) {
+  if (walk.first_word != NO_WORD && LOOKUP_WORDS != 0u)
+    walk.at = lookup_next_bit(walk.first_word, walk.at, walk.end);
   if (walk.at >= walk.end) return false;
-  light = walk.overflowed ? walk.at : lookup_lists[walk.at];
+  light = walk.first_word == NO_WORD ? lookup_lists[walk.at] : walk.at;
   ++walk.at;
   return true;
 }

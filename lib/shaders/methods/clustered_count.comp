@@ -17,6 +17,7 @@ layout(set = 0, binding = 2, scalar) writeonly buffer RangeBuffer { uvec2 ranges
 
 uint found = 0u;
 #define VISIT(light) ++found
+#define SURVIVORS(word, bits)
 #include "methods/cluster_cull.glsl"
 
 void main() {

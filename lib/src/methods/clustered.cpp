@@ -8,6 +8,16 @@
 namespace lamp {
 namespace {
 
+/// A tile's bits serve where lists do not fit; beyond this size of them all, every light serves.
+constexpr std::uint64_t MOST_BIT_BYTES = 1U << 26;  // a million lights at 1920x1080
+
+/// Words of a tile's bits, 0 if there shall be none.
+std::uint32_t words_of_a_tile(const Problem& problem, const parts::TileGrid& tiles) {
+  const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
+  const std::uint64_t bytes = tiles.count() * words * 4;
+  return bytes <= std::min(MOST_BIT_BYTES, problem.traits.max_storage_buffer_bytes) ? words : 0;
+}
+
 Plan plan_clustered(const Problem& problem) {
   const std::uint32_t tile_px = problem.options.integer("tile");
   const std::uint32_t slices = problem.options.integer("slices");
@@ -25,13 +35,15 @@ Plan plan_clustered(const Problem& problem) {
   const ResourceId counters = parts::add_counters(plan);
   const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = std::uint64_t{clusters} * 8});
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
+  const std::uint32_t words = words_of_a_tile(problem, tiles);
+  // Bound to the list, and not used, where there are none.
+  const ResourceId bits = words == 0 ? lists : plan.add({.name = "tile bits", .bytes = tiles.count() * words * 4});
 
-  const std::vector<std::uint32_t> constants{threads, tile_px, slices, near_mm, far_m, entries};
   const Extent one_group_a_tile{.x = tiles.width, .y = tiles.height};
   plan.passes = {parts::light_bounds_pass(bounds),
                  {.name = "cluster count",
                   .shader = "methods/clustered_count",
-                  .constants = constants,
+                  .constants = {threads, tile_px, slices, near_mm, far_m},
                   .bindings = {{INPUT_FRAME}, {bounds}, {ranges, Access::write}},
                   .extent = one_group_a_tile},
                  {.name = "cluster scan",
@@ -40,12 +52,12 @@ Plan plan_clustered(const Problem& problem) {
                   .bindings = {{ranges, Access::read_write}, {counters, Access::read_write}}},
                  {.name = "cluster fill",
                   .shader = "methods/clustered_fill",
-                  .constants = constants,
-                  .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}},
+                  .constants = {threads, tile_px, slices, near_mm, far_m, entries, words},
+                  .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}, {bits, Access::write}},
                   .extent = one_group_a_tile}};
   plan.lookup = {.name = "cluster_lists",
-                 .constants = {tile_px, slices, near_mm, far_m, entries},
-                 .bindings = {{INPUT_FRAME}, {ranges}, {lists}}};
+                 .constants = {tile_px, slices, near_mm, far_m, entries, words},
+                 .bindings = {{INPUT_FRAME}, {ranges}, {lists}, {bits}}};
   return plan;
 }
 
