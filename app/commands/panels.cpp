@@ -80,6 +80,7 @@ Row make_row(Session& session, const Setup& setup, std::vector<std::string> opti
 std::vector<Row> measure(Session& session, const Setup& setup) {
   std::vector<Row> rows;
   for (const std::vector<std::string>& options : tests()) rows.push_back(make_row(session, setup, options));
+  static_cast<void>(session.renderer().render(rows.front().lighting));  // for its depth
   const std::vector<float> depth = session.renderer().read_depth();
   for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
                  [&](const Truth& truth) {
@@ -112,11 +113,8 @@ LdrImage stacked(const LdrImage& above, const LdrImage& below) {
   return image;
 }
 
-}  // namespace
-
-Exit draw_panels(const Request& request, const std::filesystem::path& out, bool json) {
-  const Setup setup = make_setup(request);
-  Session session(request, setup);
+/// Picture, legend and heat maps on one scale, six panels.
+LdrImage panels_of(Session& session) {
   std::vector<std::vector<std::uint32_t>> counts;
   LdrImage picture;
   std::uint32_t most = 1;
@@ -135,10 +133,17 @@ Exit draw_panels(const Request& request, const std::filesystem::path& out, bool 
   picture.pixels.resize(std::size_t{picture.width} * picture.height, glm::u8vec4(16, 16, 20, 255));
   const LdrImage top[] = {picture, legend(picture.width, picture.height, scale), maps[0]};
   const LdrImage bottom[] = {maps[1], maps[2], maps[3]};
-  write_png(out, stacked(side_by_side(top), side_by_side(bottom)));
+  return stacked(side_by_side(top), side_by_side(bottom));
+}
 
+}  // namespace
+
+Exit draw_panels(const Request& request, const std::filesystem::path& out, bool json) {
+  const Setup setup = make_setup(request);
+  Session session(request, setup);
   std::vector<Row> rows = measure(session, setup);
   print_rows(rows, json);
+  write_png(out, panels_of(session));
   if (!json) fmt::print("panels: {}\n", out.string());
   const bool missed = std::ranges::any_of(
       rows, [](Row& r) { return r.verification.findings().missed != 0 && !r.lighting.runner().plan().approximate; });
