@@ -135,7 +135,7 @@ struct DeviceTraits {
   std::array<std::uint32_t, 3> max_groups{65535, 65535, 65535};
   std::uint32_t max_group_invocations = 128;
   std::uint32_t shared_memory_bytes = 16384;
-  std::uint32_t max_image_size = 4096;  ///< pixels a side
+  std::uint32_t max_image_size = 4096;     ///< pixels a side
   std::uint32_t max_storage_buffers = 16;  ///< that a shader stage sees; Vulkan guarantees 4, too few for most methods
   std::uint32_t subgroup_size = 32;
 };
