@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_WALK = 11;
+constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
 constexpr std::uint32_t SHADE_GROUP_PX = 16;  // compute shading without a fused cull: any size works
 constexpr std::uint32_t VOLUME_VERTICES = 60;
 
@@ -76,6 +77,14 @@ vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLib
                                          {.colors = {VK_FORMAT_R32G32B32A32_SFLOAT}}));
 }
 
+/// Draws reach only these rows.
+void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
+  if (info.shaded.count == 0) return;
+  const VkRect2D rows{.offset = {0, static_cast<std::int32_t>(info.shaded.first)},
+                      .extent = {info.width, info.shaded.count}};
+  vkCmdSetScissor(commands, 0, 1, &rows);
+}
+
 }  // namespace
 
 std::span<const std::string_view> path_names() {
@@ -117,7 +126,8 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
   info.constants = {{0, fused_lookup != nullptr ? fused_lookup->group_width : SHADE_GROUP_PX},
                     {1, fused_lookup != nullptr ? fused_lookup->group_height : SHADE_GROUP_PX},
                     {CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)},
-                    {CONSTANT_WALK, volumes ? 0U : 1U}};
+                    {CONSTANT_WALK, volumes ? 0U : 1U},
+                    {CONSTANT_FIRST_ROW, info_.shaded.first}};
   append(info.constants, lookup.constants);
   append(info.bindings, lookup_bindings(fused_lookup != nullptr ? fused_lookup->lookup : runner_.plan().lookup));
   shade_ = take(vulkan::Pipeline::compute(device, info, shaders.spirv(variant("deferred", lookup.name))));
@@ -151,7 +161,7 @@ void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibra
 
 bool Lighting::is_cull_pass(std::string_view name) const {
   const std::vector<Pass>& passes = fused() ? runner_.plan().fused->passes : runner_.plan().passes;
-  return std::ranges::any_of(passes, [&](const Pass& pass) { return pass.name == name; });
+  return name == vulkan::CLEAR_PASS || std::ranges::any_of(passes, [&](const Pass& pass) { return pass.name == name; });
 }
 
 void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {
@@ -189,6 +199,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS)});
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
+  limit_rows(recorder.commands(), info_);
   draw_meshes(recorder, {.scene = &frame.scene,
                          .frame = &frame.data,
                          .draws = frame.scene.opaque(),
@@ -239,8 +250,9 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
 
   recorder.begin_pass(fused() ? "cull and shade" : "deferred shading", uses);
   recorder.bind(shade_, bound);
+  const std::uint32_t rows = info_.shaded.count == 0 ? info_.height : info_.shaded.count;
   vkCmdDispatch(recorder.commands(), (info_.width + group_width - 1) / group_width,
-                (info_.height + group_height - 1) / group_height, 1);
+                (rows + group_height - 1) / group_height, 1);
   recorder.end_pass();
 }
 
@@ -254,6 +266,7 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
     if (b.binding != 1) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
   recorder.begin_pass("light volumes", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
+  limit_rows(recorder.commands(), info_);
   recorder.bind(volumes_, bound);
   if (frame.data.light_count() != 0) vkCmdDraw(recorder.commands(), VOLUME_VERTICES, frame.data.light_count(), 0, 0);
   vkCmdEndRendering(recorder.commands());
@@ -264,7 +277,9 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
   vulkan::PlanRunner& runner = any_depth_runner_ ? *any_depth_runner_ : runner_;
   const bool culled = !any_depth_runner_ && info_.path != ShadingPath::standard_deferred && !fused();
+  recorder.name_group("transparent");
   if (!culled) runner.record(recorder, inputs);
+  recorder.name_group("");
 
   std::vector<Draw> far_to_near(frame.scene.blended().begin(), frame.scene.blended().end());
   std::ranges::sort(far_to_near, {}, [&](const Draw& draw) {
@@ -279,6 +294,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS)});
   recorder.begin_pass("transparent", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
+  limit_rows(recorder.commands(), info_);
   draw_meshes(recorder, {.scene = &frame.scene,
                          .frame = &frame.data,
                          .draws = far_to_near,

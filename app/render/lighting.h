@@ -22,6 +22,12 @@ enum class Brdf : std::uint32_t { ggx = 0, blinn_phong = 1 };
 /// "forward", "tiled-deferred", "deferred", "standard-deferred", in the order of ShadingPath.
 [[nodiscard]] std::span<const std::string_view> path_names();
 
+/// Rows of a picture; 0 rows: all of it.
+struct Rows {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
 struct LightingInfo {
   const Method* method = nullptr;
   Options options;
@@ -32,6 +38,7 @@ struct LightingInfo {
   Brdf brdf = Brdf::ggx;
   bool transparency = false;  ///< the scene has blended surfaces
   bool captured = false;      ///< the scene is a captured frame
+  Rows shaded;                ///< what is shaded: a reference picture may need a part alone; not with a fused look-up
 };
 
 /// What a frame is lit with.

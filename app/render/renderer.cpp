@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 
 #include "gpu/check.h"
+#include "render/frame_times.h"
 #include "render/gbuffer_texels.h"
 
 namespace lamp::app {
@@ -22,57 +22,6 @@ std::unique_ptr<Targets> make_targets(const vulkan::Device& device, std::uint32_
     throw Error(fmt::format("size {}x{}: expected 1 to {} pixels a side on this device", width, height, limit));
   return std::make_unique<Targets>(device, width, height);
 }
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
-/// Sorts the frames' timestamps by pass.
-class TimeTable {
- public:
-  void add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
-    double cull = 0.0;
-    double shade = 0.0;
-    double frame = 0.0;
-    for (const auto& [name, ms] : times) {
-      if (!samples_.contains(name)) order_.push_back(name);
-      samples_[name].push_back(ms);
-      frame += ms;
-      if (lighting.is_cull_pass(name)) cull += ms;
-      if (is_shade_pass(name)) shade += ms;
-    }
-    cull_.push_back(cull);
-    shade_.push_back(shade);
-    frame_.push_back(frame);
-  }
-
-  void fill(Rendered& rendered, const Lighting& lighting) const {
-    for (const std::string& name : order_) {
-      const std::vector<double>& ms = samples_.at(name);
-      rendered.passes.push_back({.name = name,
-                                 .ms_median = percentile(ms, 0.5),
-                                 .ms_p5 = percentile(ms, 0.05),
-                                 .ms_p95 = percentile(ms, 0.95),
-                                 .cull = lighting.is_cull_pass(name),
-                                 .shade = is_shade_pass(name)});
-    }
-    rendered.cull_ms = percentile(cull_, 0.5);
-    rendered.shade_ms = percentile(shade_, 0.5);
-    rendered.frame_ms = percentile(frame_, 0.5);
-  }
-
- private:
-  static bool is_shade_pass(std::string_view name) {
-    return name == "forward+ shading" || name == "deferred shading" || name == "cull and shade" ||
-           name == "light volumes";
-  }
-
-  std::vector<std::string> order_;
-  std::map<std::string, std::vector<double>, std::less<>> samples_;
-  std::vector<double> cull_, shade_, frame_;
-};
 
 vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
   return take(
@@ -134,7 +83,7 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
   const vulkan::Buffer counters = readback(context_.device(), "counters read-back", sizeof(shared::Counters));
   const VkBuffer counted = lighting.runner().buffer(lighting.runner().plan().counters);
-  TimeTable times;
+  FrameTimes times;
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
     context_.submit([&](VkCommandBuffer commands) {
@@ -159,6 +108,16 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   times.fill(rendered, lighting);
   if (counted != VK_NULL_HANDLE) rendered.counters = copy_out<shared::Counters>(counters, 1)[0];
   return rendered;
+}
+
+std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting) {
+  context_.submit([&](VkCommandBuffer commands) {
+    timestamps_.reset(commands);
+    vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
+    data_.record_upload(recorder);
+    lighting.record(recorder, lighting_frame());
+  });
+  return timestamps_.read();
 }
 
 template <class Texel>

@@ -25,7 +25,7 @@ struct PassTime {
 struct Rendered {
   HdrImage image;
   std::vector<PassTime> passes;
-  double cull_ms = 0.0;  ///< medians of the frames' sums
+  double cull_ms = 0.0;  ///< medians over the frames
   double shade_ms = 0.0;
   double frame_ms = 0.0;
   shared::Counters counters{};
@@ -42,6 +42,9 @@ class Renderer {
 
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
+
+  /// Records and submits one frame, reads nothing back but its times, pass by pass.
+  [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting);
 
   /// The depth of the last frame, device depth, row by row; 0 is sky.
   [[nodiscard]] std::vector<float> read_depth();

@@ -34,10 +34,24 @@ TEST_F(RecorderTest, EachPassHasATimeInOrder) {
     EXPECT_EQ(harness.run()[0], Words(16, 15));
     EXPECT_EQ(names(harness.times()), (std::vector<std::string>{"first", "second"}));
     for (const auto& time : harness.times()) {
-      EXPECT_GE(time.ms, 0.0);
-      EXPECT_LT(time.ms, 10000.0);
+      EXPECT_GE(time.ms(), 0.0);
+      EXPECT_LT(time.ms(), 10000.0);
     }
   }
+}
+
+// The clearing of a plan's buffers is a pass with a time; passes follow each other on one clock.
+TEST_F(RecorderTest, ClearingHasATimeAndPassesFollowEachOther) {
+  Plan plan;
+  const ResourceId words = plan.add({.name = "words", .bytes = 64, .zeroed = true});
+  plan.passes = {words_pass("plan_multiply", {3}, {{words, Access::read_write}}, 16)};
+  plan.passes[0].name = "only";
+  PlanHarness harness(plan);
+  EXPECT_EQ(harness.run()[0], Words(16, 0));
+  ASSERT_EQ(names(harness.times()), (std::vector<std::string>{"clear", "only"}));
+  EXPECT_EQ(harness.times()[0].begin_ms, 0.0);
+  EXPECT_LE(harness.times()[0].end_ms, harness.times()[1].begin_ms);
+  EXPECT_LE(harness.times()[1].begin_ms, harness.times()[1].end_ms);
 }
 
 TEST_F(RecorderTest, PassesThatAreKeptRunOnceForAProjection) {

@@ -12,6 +12,7 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 11) const bool WALK = true;  // false: only the surroundings; light volumes add the rest
+layout(constant_id = 12) const uint FIRST_ROW = 0;  // of the picture that is shaded; not 0 only for a part of a reference
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
@@ -26,7 +27,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
 
 void main() {
   lookup_prepare();
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy + uvec2(0u, FIRST_ROW));
   if (any(greaterThanEqual(uvec2(pixel), frame.size_px))) return;
   const float depth = texelFetch(depth_image, pixel, 0).x;
   if (depth <= 0.0) {

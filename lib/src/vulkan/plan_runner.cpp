@@ -155,8 +155,10 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
       uses.push_back({.resource = Resource::storage(buffers_[i].handle()),
                       .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                       .access = VK_ACCESS_2_TRANSFER_WRITE_BIT});
-  recorder.barrier(uses);
+  if (uses.empty()) return;
+  recorder.begin_pass(CLEAR_PASS, uses);
   for (const Use& use : uses) vkCmdFillBuffer(recorder.commands(), use.resource.buffer, 0, VK_WHOLE_SIZE, 0);
+  recorder.end_pass();
 }
 
 void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) const {

@@ -116,22 +116,26 @@ std::vector<Timestamps::Time> Timestamps::read() const {
     vkGetQueryPoolResults(device_, pool_.get(), 0, static_cast<std::uint32_t>(ticks.size()),
                           ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+  const auto since_first = [&](std::size_t query) {
+    return static_cast<double>(ticks[query] - ticks.front()) * period_ns_ * 1e-6;
+  };
   std::vector<Time> times;
   times.reserve(passes_.size());
   for (std::size_t i = 0; i < passes_.size(); ++i)
-    times.push_back({passes_[i], static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * period_ns_ * 1e-6});
+    times.push_back({.pass = passes_[i], .begin_ms = since_first(2 * i), .end_ms = since_first(2 * i + 1)});
   return times;
 }
 
 void Recorder::begin_pass(std::string_view name, const std::vector<Use>& uses) {
+  const std::string full = group_.empty() ? std::string(name) : group_ + ": " + std::string(name);
   if (device_.begin_label != nullptr) {
-    const std::string terminated(name);
-    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
-                                     .pLabelName = terminated.c_str()};
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = full.c_str()};
     device_.begin_label(commands_, &label);
   }
+  // Before the barrier: what a pass waits for is its cost. And Mesa's llvmpipe takes a time only when something flushes
+  // what was recorded, which a barrier does and a dispatch that reads no image does not.
+  if (timestamps_ != nullptr) timestamps_->begin(commands_, full);
   tracker_.barrier(commands_, uses);
-  if (timestamps_ != nullptr) timestamps_->begin(commands_, name);
 }
 
 void Recorder::end_pass() {

@@ -32,6 +32,9 @@ struct BoundLookUp {
   std::vector<Bound> resources;
 };
 
+/// The pass that clears a plan's `zeroed` buffers, before all others.
+inline constexpr std::string_view CLEAR_PASS = "clear";
+
 class PlanRunner {
  public:
   enum class Passes : std::uint8_t { separate, fused };

@@ -71,14 +71,17 @@ class Timestamps {
  public:
   struct Time {
     std::string pass;
-    double ms = 0.0;
+    double begin_ms = 0.0;  ///< since the first pass began
+    double end_ms = 0.0;
+
+    [[nodiscard]] double ms() const { return end_ms - begin_ms; }
   };
   Timestamps() = default;
   [[nodiscard]] static Result<Timestamps> create(const Device& device, std::uint32_t max_passes);
   void reset(VkCommandBuffer commands);
   void begin(VkCommandBuffer commands, std::string_view pass);
   void end(VkCommandBuffer commands);
-  /// Milliseconds of each pass, after the work is done.
+  /// When each pass began and ended, after the work is done.
   [[nodiscard]] std::vector<Time> read() const;
 
  private:
@@ -95,7 +98,10 @@ class Recorder {
   Recorder(const Device& device, VkCommandBuffer commands, AccessTracker& tracker, Timestamps* timestamps = nullptr)
       : device_(device), commands_(commands), tracker_(tracker), timestamps_(timestamps) {}
 
-  /// Barrier, label, timestamp.
+  /// From here on, passes are named "GROUP: NAME": who runs a plan for a second purpose can tell its times apart.
+  /// Empty: names as they are.
+  void name_group(std::string_view group) { group_ = group; }
+  /// Label, timestamp, barrier.
   void begin_pass(std::string_view name, const std::vector<Use>& uses);
   void end_pass();
   /// Only the barrier: for transfers between passes.
@@ -113,6 +119,7 @@ class Recorder {
   VkCommandBuffer commands_;
   AccessTracker& tracker_;
   Timestamps* timestamps_;
+  std::string group_;
 };
 
 }  // namespace lamp::vulkan

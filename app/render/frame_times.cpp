@@ -1,0 +1,70 @@
+// Adds up timestamps by pass and by frame.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame_times.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "render/renderer.h"
+
+namespace lamp::app {
+namespace {
+
+bool is_shade_pass(std::string_view name) {
+  return name == "forward+ shading" || name == "deferred shading" || name == "cull and shade" ||
+         name == "light volumes";
+}
+
+double median_of(const std::vector<FrameTime>& frames, double FrameTime::* member) {
+  std::vector<double> values;
+  values.reserve(frames.size());
+  for (const FrameTime& frame : frames) values.push_back(frame.*member);
+  return percentile(std::move(values), 0.5);
+}
+
+}  // namespace
+
+double percentile(std::vector<double> samples, double share) {
+  if (samples.empty()) return 0.0;
+  std::ranges::sort(samples);
+  return samples[static_cast<std::size_t>(share * static_cast<double>(samples.size() - 1) + 0.5)];
+}
+
+double span_ms(std::span<const vulkan::Timestamps::Time> times, const std::function<bool(std::string_view)>& counts) {
+  double sum = 0.0;
+  std::optional<double> last_end;  // of the pass before, if it counts
+  for (const vulkan::Timestamps::Time& time : times) {
+    const bool counted = counts(time.pass);
+    // What lies between two passes that count, barriers above all, is their cost too.
+    if (counted) sum += time.end_ms - last_end.value_or(time.begin_ms);
+    last_end = counted ? std::optional(time.end_ms) : std::nullopt;
+  }
+  return sum;
+}
+
+void FrameTimes::add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
+  for (const vulkan::Timestamps::Time& time : times) {
+    if (!samples_.contains(time.pass)) order_.push_back(time.pass);
+    samples_[time.pass].push_back(time.ms());
+  }
+  frames_.push_back({.cull_ms = span_ms(times, [&](std::string_view pass) { return lighting.is_cull_pass(pass); }),
+                     .shade_ms = span_ms(times, is_shade_pass),
+                     .frame_ms = span_ms(times, [](std::string_view) { return true; })});
+}
+
+void FrameTimes::fill(Rendered& rendered, const Lighting& lighting) const {
+  for (const std::string& name : order_) {
+    const std::vector<double>& ms = samples_.at(name);
+    rendered.passes.push_back({.name = name,
+                               .ms_median = percentile(ms, 0.5),
+                               .ms_p5 = percentile(ms, 0.05),
+                               .ms_p95 = percentile(ms, 0.95),
+                               .cull = lighting.is_cull_pass(name),
+                               .shade = is_shade_pass(name)});
+  }
+  rendered.cull_ms = median_of(frames_, &FrameTime::cull_ms);
+  rendered.shade_ms = median_of(frames_, &FrameTime::shade_ms);
+  rendered.frame_ms = median_of(frames_, &FrameTime::frame_ms);
+}
+
+}  // namespace lamp::app
