@@ -25,6 +25,7 @@ constexpr const char* WELCOME =
     "  lamp verify                                  is any light missed? every method, against the oracle\n"
     "  lamp compare tiled clustered                 two methods side by side: compare.png\n"
     "  lamp capture --out frame                     one frame as files, a scene for every command\n"
+    "  lamp bench --out out/quick                   what does each cost? a report: out/quick/report.html\n"
     "  lamp list methods                            what there is\n"
     "`lamp COMMAND --help` explains each; `lamp --version` says which release this is.\n";
 
@@ -37,11 +38,14 @@ int run(int argc, char** argv) {
       "  lamp render atrium --lights 4096 --out atrium.png\n"
       "  lamp verify blocks --method tiled\n"
       "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 no usable device");
-  const std::vector<std::pair<const char*, Run>> commands{{"render", lamp::app::add_render(app)},
-                                                          {"verify", lamp::app::add_verify(app)},
-                                                          {"compare", lamp::app::add_compare(app)},
-                                                          {"capture", lamp::app::add_capture(app)},
-                                                          {"list", lamp::app::add_list(app)}};
+  const std::vector<std::pair<const char*, Run>> commands{
+      {"render", lamp::app::add_render(app)},
+      {"verify", lamp::app::add_verify(app)},
+      {"compare", lamp::app::add_compare(app)},
+      {"capture", lamp::app::add_capture(app)},
+      {"bench", lamp::app::add_bench(app, {argv, static_cast<std::size_t>(argc)})},
+      {"report", lamp::app::add_report(app)},
+      {"list", lamp::app::add_list(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

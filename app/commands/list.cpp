@@ -1,4 +1,4 @@
-// lamp list: methods, scenes, devices.
+// lamp list: methods, scenes, suites, devices.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bench/suite.h"
 #include "commands/commands.h"
 #include "gpu/context.h"
 #include "lamplight/method.h"
@@ -84,7 +85,24 @@ void print_devices(std::span<const DeviceRow> rows) {
     fmt::print("{} {} [{}] {} {}\n", i, rows[i].name, rows[i].kind, rows[i].driver, rows[i].problem);
 }
 
-constexpr std::string_view KINDS[] = {"methods", "scenes", "devices"};
+nlohmann::json suites_json() {
+  nlohmann::json json = nlohmann::json::array();
+  for (const std::string& name : suite_names()) {
+    const Suite suite = load_suite(name);
+    json.push_back({{"name", name}, {"title", suite.title}, {"about", suite.about}, {"source", suite.source}});
+  }
+  return json;
+}
+
+void print_suites() {
+  for (const std::string& name : suite_names()) {
+    const Suite suite = load_suite(name);
+    fmt::print("{:<15}{}\n", name, suite.title);
+    if (!suite.source.empty()) fmt::print("{:<15}{}\n", "", suite.source);
+  }
+}
+
+constexpr std::string_view KINDS[] = {"methods", "scenes", "suites", "devices"};
 
 Exit list(const std::string& what, bool json) {
   if (std::ranges::find(KINDS, what) == std::end(KINDS))
@@ -98,23 +116,23 @@ Exit list(const std::string& what, bool json) {
       print_devices(rows);
     return rows.empty() ? Exit::no_device : Exit::done;
   }
-  const bool is_methods = what == "methods";
+  const auto [as_json, print] = what == "methods"  ? std::pair(&methods_json, &print_methods)
+                                : what == "suites" ? std::pair(&suites_json, &print_suites)
+                                                   : std::pair(&scenes_json, &print_scenes);
   if (json)
-    fmt::print("{}\n", (is_methods ? methods_json() : scenes_json()).dump(2));
-  else if (is_methods)
-    print_methods();
+    fmt::print("{}\n", as_json().dump(2));
   else
-    print_scenes();
+    print();
   return Exit::done;
 }
 
 }  // namespace
 
 Run add_list(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "What there is: methods, scenes or devices");
+  CLI::App* command = app.add_subcommand("list", "What there is: methods, scenes, suites or devices");
   auto what = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("what", *what, "methods, scenes or devices")->required();
+  command->add_option("what", *what, "methods, scenes, suites or devices")->required();
   command->add_flag("--json", *json, "print an array of objects");
   command->footer("Examples:\n  lamp list methods\n  lamp list devices --json");
   return [what, json] { return list(*what, *json); };

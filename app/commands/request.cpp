@@ -32,20 +32,6 @@ bool parse_number(std::string_view text, Number& out) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-std::pair<float, float> parse_range(const std::string& text) {
-  if (text.empty()) return {0.0F, 0.0F};
-  const std::size_t colon = text.find(':');
-  float low = 0.0F;
-  float high = 0.0F;
-  const bool parsed =
-      parse_number(std::string_view(text).substr(0, colon), low) &&
-      parse_number(colon == std::string::npos ? std::string_view(text) : std::string_view(text).substr(colon + 1),
-                   high);
-  if (!parsed || !(low > 0.0F) || !(high >= low) || !std::isfinite(high))
-    throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX", text));
-  return {low, high};
-}
-
 std::string range_note(std::span<const Light> lights) {
   if (lights.empty()) return "";
   const auto [low, high] = std::ranges::minmax(lights, {}, &Light::range);
@@ -128,6 +114,20 @@ glm::uvec2 parse_size(const std::string& text) {
       !parse_number(std::string_view(text).substr(x + 1), size.y) || size.x == 0 || size.y == 0)
     throw Error(fmt::format("--size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1280x720", text));
   return size;
+}
+
+std::pair<float, float> parse_range(const std::string& text) {
+  if (text.empty()) return {0.0F, 0.0F};
+  const std::size_t colon = text.find(':');
+  float low = 0.0F;
+  float high = 0.0F;
+  const bool parsed =
+      parse_number(std::string_view(text).substr(0, colon), low) &&
+      parse_number(colon == std::string::npos ? std::string_view(text) : std::string_view(text).substr(colon + 1),
+                   high);
+  if (!parsed || !(low > 0.0F) || !(high >= low) || !std::isfinite(high))
+    throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX", text));
+  return {low, high};
 }
 
 ShadingPath parse_path(const std::string& text) {

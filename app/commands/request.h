@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "error.h"
@@ -58,6 +59,8 @@ struct Setup {
 
 /// "1280x720" to numbers, each 1 or more.
 [[nodiscard]] glm::uvec2 parse_size(const std::string& text);
+/// "MIN:MAX" or one number, in metres; 0, 0 when empty: automatic.
+[[nodiscard]] std::pair<float, float> parse_range(const std::string& text);
 [[nodiscard]] ShadingPath parse_path(const std::string& text);
 [[nodiscard]] Brdf parse_brdf(const std::string& text);
 [[nodiscard]] const Method& parse_method(const std::string& text);

@@ -4,20 +4,18 @@
 
 namespace lamp::app {
 
-Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup, Rendered rendered,
-                 std::uint32_t frames) {
-  const DeviceRow& row = session.context().row();
+Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
   const Plan& plan = lighting.runner().plan();
-  Stats stats{.device = row.name,
-              .driver = row.driver,
-              .scene = request.scene,
+  Stats stats{.device = info.device.name,
+              .driver = info.device.driver,
+              .scene = info.scene,
               .method = std::string(lighting.info().method->name),
               .options = lighting.info().options,
               .path = std::string(path_names()[static_cast<std::size_t>(lighting.info().path)]),
-              .width = setup.view.width(),
-              .height = setup.view.height(),
-              .lights = setup.lights.size(),
-              .frames = frames,
+              .width = info.view.width(),
+              .height = info.view.height(),
+              .lights = info.lights,
+              .frames = info.frames,
               .rendered = std::move(rendered),
               .cells = plan.cells,
               .ordered = plan.ordered,
@@ -26,6 +24,16 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
   for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, buffer.bytes);
   stats.bytes.emplace_back("total", plan.bytes());
   return stats;
+}
+
+Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup, Rendered rendered,
+                 std::uint32_t frames) {
+  return make_stats({.device = session.context().row(),
+                     .scene = request.scene,
+                     .view = setup.view,
+                     .lights = setup.lights.size(),
+                     .frames = frames},
+                    lighting, std::move(rendered));
 }
 
 nlohmann::json to_json(const Stats& s) {
@@ -48,8 +56,13 @@ nlohmann::json to_json(const Stats& s) {
                       {"overflowed_cells", s.rendered.counters.overflowed_cells}};
   for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
   for (const PassTime& pass : s.rendered.passes)
-    json["passes"].push_back(
-        {{"name", pass.name}, {"ms_median", pass.ms_median}, {"ms_p5", pass.ms_p5}, {"ms_p95", pass.ms_p95}});
+    json["passes"].push_back({{"name", pass.name},
+                              {"part", pass.cull    ? "cull"
+                                       : pass.shade ? "shade"
+                                                    : "other"},
+                              {"ms_median", pass.ms_median},
+                              {"ms_p5", pass.ms_p5},
+                              {"ms_p95", pass.ms_p95}});
   for (const auto& [name, bytes] : s.bytes) json["bytes"][name] = bytes;
   if (s.findings) {
     const Findings& f = *s.findings;

@@ -31,6 +31,16 @@ struct Stats {
   std::optional<float> image_tolerance;  ///< how large it may be
 };
 
+/// What of a run is known before it begins.
+struct StatsInfo {
+  const DeviceRow& device;
+  std::string scene;
+  const View& view;
+  std::size_t lights = 0;
+  std::uint32_t frames = 0;
+};
+[[nodiscard]] Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered);
+
 /// Fills what request, session and lighting know.
 [[nodiscard]] Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup,
                                Rendered rendered, std::uint32_t frames);

@@ -12,13 +12,14 @@ using List = CliTest;
 
 TEST_F(List, WithoutArgumentsItWelcomes) {
   const std::string text = output_of({});
-  for (const char* command : {"lamp render", "lamp verify", "lamp compare", "lamp list methods", "--help"})
+  for (const char* command :
+       {"lamp render", "lamp verify", "lamp compare", "lamp bench", "lamp list methods", "--help"})
     EXPECT_NE(text.find(command), std::string::npos) << command;
 }
 
 TEST_F(List, EveryHelpHasExamples) {
-  for (const Arguments& command :
-       {Arguments{}, Arguments{"render"}, Arguments{"verify"}, Arguments{"compare"}, Arguments{"list"}}) {
+  for (const Arguments& command : {Arguments{}, Arguments{"render"}, Arguments{"verify"}, Arguments{"compare"},
+                                   Arguments{"bench"}, Arguments{"report"}, Arguments{"list"}}) {
     Arguments help = command;
     help.emplace_back("--help");
     const std::string text = output_of(help);

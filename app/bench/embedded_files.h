@@ -1,0 +1,23 @@
+// What the build put into the tool: suites, the report's template and chart library, the commit.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace lamp::app {
+
+struct EmbeddedFile {
+  std::string_view name;  ///< without folder
+  std::string_view text;
+};
+
+/// Everything in bench/suites.
+[[nodiscard]] std::span<const EmbeddedFile> suite_files();
+/// Everything in bench/report, and chart.min.js.
+[[nodiscard]] std::span<const EmbeddedFile> report_files();
+
+/// The commit that the tool was built from, as `git describe` names it, or "unknown".
+[[nodiscard]] std::string_view built_from();
+
+}  // namespace lamp::app

@@ -1,0 +1,185 @@
+// Multiplies sweeps out.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t FLIGHT_FACTOR = 12;  // most_frames of a flight: it is one sample a frame, not a median
+
+// The oracle looks at blocks of pixels first and discards most lights for all of a block.
+constexpr std::uint64_t ORACLE_FACTOR = 256;
+
+using Swept = std::vector<std::pair<std::string, std::string>>;
+
+/// Width and height of "1280x720"; 0 if it is nothing like it.
+std::pair<std::uint32_t, std::uint32_t> size_of(const std::string& size) {
+  const std::size_t x = size.find('x');
+  if (x == std::string::npos) return {0, 0};
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  const char* end = size.data() + size.size();
+  const bool whole = std::from_chars(size.data(), end, width).ptr == size.data() + x &&
+                     std::from_chars(size.data() + x + 1, end, height).ptr == end;
+  return whole ? std::pair(width, height) : std::pair(0U, 0U);
+}
+
+/// All combinations of the swept options.
+std::vector<Swept> combinations(const Series& series) {
+  std::vector<Swept> all{{}};
+  for (const auto& [key, values] : series.options) {
+    std::vector<Swept> longer;
+    for (const Swept& swept : all)
+      for (const std::string& value : values) {
+        longer.push_back(swept);
+        longer.back().emplace_back(key, value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::vector<GroupEntry> entries_of(const Series& series) {
+  std::vector<GroupEntry> entries;
+  for (const SuiteMethod& method : series.methods)
+    for (const Swept& swept : combinations(series))
+      for (const std::string& path : method.path.empty() ? series.paths : std::vector<std::string>{method.path}) {
+        GroupEntry entry{
+            .method = method.name, .options = method.options, .path = path, .label = method.label, .swept = swept};
+        if (series.paths.size() > 1 && method.path.empty() && series.chart.x != "path") entry.label += ", " + path;
+        for (const auto& [key, value] : swept) entry.options.push_back(fmt::format("{}={}", key, value));
+        entries.push_back(std::move(entry));
+      }
+  return entries;
+}
+
+Group base_of(const Series& series, const Limits& limits) {
+  const std::uint32_t most = series.flight && limits.most_frames < ~0U / FLIGHT_FACTOR
+                                 ? limits.most_frames * FLIGHT_FACTOR
+                                 : limits.most_frames;
+  const bool limited = !limits.frames && series.frames > most;
+  return {.series = series.name,
+          .brdf = series.brdf,
+          .seed = series.seed,
+          .frame = series.frame,
+          .frames = limits.frames.value_or(std::min(series.frames, most)),
+          .warm_up = limits.warm_up.value_or(limited ? 1 : series.warm_up),
+          .flight = series.flight,
+          .entries = entries_of(series)};
+}
+
+/// Says what of a group is checked, and why not all.
+void limit_verify(const Series& series, const Limits& limits, Group& group) {
+  group.verify = series.verify;
+  group.unchecked.clear();
+  const auto [width, height] = size_of(group.size);
+  const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
+  const std::uint64_t pairs = std::uint64_t{width} * rows * group.lights;
+  if (series.verify.what == Verify::What::nothing) {
+    group.unchecked = "not verified: the suite says so";
+  } else if (pairs / ORACLE_FACTOR > limits.most_pairs) {
+    group.verify.what = Verify::What::nothing;
+    group.unchecked = "not verified: too many lights for the oracle";
+  } else if (pairs > limits.most_pairs) {
+    group.verify.compares_pictures = false;
+    group.unchecked =
+        "lists were held against the oracle; the picture was not compared: too many lights for brute force";
+  }
+}
+
+/// Calls `use` with every group of a series.
+template <class Use>
+void for_each_group(const Series& series, const Limits& limits, const Use& use) {
+  const std::vector<std::uint32_t> counts =
+      series.flight ? std::vector<std::uint32_t>{series.flight->to} : series.lights;
+  Group group = base_of(series, limits);
+  for (const std::string& scene : series.scenes)
+    for (const std::string& camera : series.cameras)
+      for (const std::string& projection : series.projections)
+        for (const std::string& size : series.sizes)
+          for (const std::string& range : series.ranges)
+            for (const double spots : series.spots)
+              for (const std::uint32_t lights : counts) {
+                group.scene = scene;
+                group.camera = camera;
+                group.projection = projection;
+                group.size = size;
+                group.range = range;
+                group.spots = spots;
+                group.lights = lights;
+                limit_verify(series, limits, group);
+                use(group);
+              }
+}
+
+/// Marks, for every scene of a series, the first group with the most lights.
+void choose_pictures(const Series& series, std::span<Group> groups) {
+  if (!series.pictures) return;
+  std::set<std::string> done;
+  for (Group& group : groups) {
+    if (done.contains(group.scene)) continue;
+    Group* best = &group;
+    for (Group& other : groups)
+      if (other.scene == group.scene && other.lights > best->lights) best = &other;
+    best->pictures = true;
+    done.insert(group.scene);
+  }
+}
+
+}  // namespace
+
+Expansion expand(const Suite& suite, const Limits& limits) {
+  Expansion expansion;
+  for (const Series& series : suite.series) {
+    const std::size_t first = expansion.groups.size();
+    for_each_group(series, limits, [&](const Group& group) {
+      if (group.lights > limits.max_lights || pixels_of(group.size) > limits.max_pixels)
+        expansion.left_out += group.entries.size();
+      else
+        expansion.groups.push_back(group);
+    });
+    choose_pictures(series, std::span(expansion.groups).subspan(first));
+  }
+  return expansion;
+}
+
+std::string words_of(const Verify& verify) {
+  if (verify.what == Verify::What::nothing) return "nothing";
+  const std::string what = verify.what == Verify::What::rows ? fmt::format("{} rows", verify.rows) : "picture";
+  return what + (verify.compares_pictures ? "" : ", lists alone");
+}
+
+std::string key_of(const Group& group, const GroupEntry& entry) {
+  std::string lights = std::to_string(group.lights);
+  if (group.flight)
+    lights = fmt::format("{}..{} in {} waves", group.flight->from, group.flight->to, group.flight->waves);
+  std::vector<std::string> options = entry.options;
+  return fmt::format(
+      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={} | {} {}{}{} | "
+      "frames={}+{} verify={}{}",
+      group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
+      group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
+      entry.method, fmt::join(options, " "), options.empty() ? "" : " ", entry.path, group.warm_up, group.frames,
+      words_of(group.verify), group.pictures ? " pictures" : "");
+}
+
+std::uint32_t lights_at(const LightWave& wave, std::uint32_t frame, std::uint32_t frames) {
+  if (frames <= 1) return wave.to;
+  const double turns = static_cast<double>(frame) / frames * wave.waves;
+  const double t = 1.0 - std::abs(2.0 * (turns - std::floor(turns)) - 1.0);
+  return wave.from + static_cast<std::uint32_t>(std::lround(t * t * (wave.to - wave.from)));
+}
+
+std::uint64_t pixels_of(const std::string& size) {
+  const auto [width, height] = size_of(size);
+  return std::uint64_t{width} * height;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,69 @@
+// A suite's series expanded: groups of configurations that are measured together, in interleaved rounds.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/suite.h"
+
+namespace lamp::app {
+
+/// A method with its options and shading path.
+struct GroupEntry {
+  std::string method;
+  std::vector<std::string> options;  ///< KEY=VALUE, later ones win
+  std::string path;
+  std::string label;
+  std::vector<std::pair<std::string, std::string>> swept;  ///< the series' options here: for the chart's x axis
+};
+
+/// Everything that the entries of a group share.
+struct Group {
+  std::string series;
+  std::string scene, size, range, camera, projection, brdf;
+  std::uint32_t lights = 0;  ///< the most, in a flight
+  double spots = 0.0;
+  std::uint64_t seed = 1;
+  int frame = -1;
+  std::uint32_t frames = 0;
+  std::uint32_t warm_up = 0;
+  std::optional<LightWave> flight;
+  Verify verify;
+  std::string unchecked;  ///< what of the output is not checked, and why; empty when all is
+  bool pictures = false;
+  std::vector<GroupEntry> entries;
+};
+
+/// What the command line changes in every series.
+struct Limits {
+  std::optional<std::uint32_t> frames;
+  std::optional<std::uint32_t> warm_up;
+  std::uint32_t most_frames = ~0U;   ///< of a series without `frames` from the command line; of a flight 12 times
+                                     ///< as many
+  std::uint32_t max_lights = ~0U;    ///< groups with more are left out
+  std::uint64_t max_pixels = ~0ULL;  ///< likewise
+  std::uint64_t most_pairs = ~0ULL;  ///< of pixel and light that brute force can walk here; beyond, lists alone are
+                                     ///< checked, and nothing where there are too many for the oracle as well
+};
+
+/// All groups, in the order in which they are measured. `left_out` counts those beyond the limits.
+struct Expansion {
+  std::vector<Group> groups;
+  std::size_t left_out = 0;
+};
+[[nodiscard]] Expansion expand(const Suite& suite, const Limits& limits);
+
+/// Names a configuration by all that decides its result, one line of text.
+[[nodiscard]] std::string key_of(const Group& group, const GroupEntry& entry);
+
+/// "picture", "64 rows", "64 rows, lists alone", "nothing".
+[[nodiscard]] std::string words_of(const Verify& verify);
+
+/// Lights at a frame of a flight of so many frames.
+[[nodiscard]] std::uint32_t lights_at(const LightWave& wave, std::uint32_t frame, std::uint32_t frames);
+
+/// Width times height of "1280x720"; 0 if it is nothing like it.
+[[nodiscard]] std::uint64_t pixels_of(const std::string& size);
+
+}  // namespace lamp::app

@@ -1,0 +1,173 @@
+// Makes, reads and joins results.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "error.h"
+
+namespace lamp::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view FORMAT = "lamplight-results";
+
+json to_json(const Series& series) {
+  return {
+      {"name", series.name},
+      {"title", series.title},
+      {"about", series.about},
+      {"flight", series.flight.has_value()},
+      {"chart",
+       {{"x", series.chart.x}, {"y", series.chart.y}, {"log_x", series.chart.log_x}, {"log_y", series.chart.log_y}}}};
+}
+
+const json* find_key(const json& results, const std::string& key) {
+  for (const json& entry : results["results"])
+    if (entry["key"] == key) return &entry;
+  return nullptr;
+}
+
+/// Throws Error unless both runs agree on a field of `run`.
+void check_same(const json& results, const json& earlier, const std::string& file, const char* field) {
+  const json& now = results["run"][field];
+  const json& then = earlier["run"][field];
+  if (now == then) return;
+  throw Error(fmt::format("{}: was measured with {} {}, and now it is {}; expected the same, or another --out", file,
+                          field, then.dump(), now.dump()));
+}
+
+/// A cell of the table: quoted where it must be.
+std::string csv_cell(const json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return value.dump();
+  std::string text = value.get<std::string>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+constexpr std::array<const char*, 6> ENTRY_COLUMNS{"series", "label", "verdict", "reason", "range", "spots"};
+constexpr std::array<const char*, 9> STATS_COLUMNS{"scene", "width",  "height",           "lights", "method",
+                                                   "path",  "frames", "overflowed_cells", "cells"};
+constexpr std::array<const char*, 4> TIMES{"cull", "shade", "cull+shade", "frame"};
+constexpr std::array<const char*, 5> SPREAD{"median", "p5", "p95", "mean", "deviation"};
+constexpr std::array<const char*, 8> FOUND{"list_mean", "list_max", "missed", "evaluations",
+                                           "useful",    "waste",    "excess", "image_max_abs_diff"};
+
+json value_or_null(const json& object, const char* key) { return object.contains(key) ? object[key] : json(); }
+
+std::vector<std::string> csv_row(const json& entry) {
+  std::vector<std::string> cells;
+  for (const char* key : ENTRY_COLUMNS)
+    cells.push_back(csv_cell(value_or_null(entry.contains(key) ? entry : entry["parameters"], key)));
+  const json& stats = entry["stats"];
+  for (const char* key : STATS_COLUMNS) cells.push_back(csv_cell(value_or_null(stats, key)));
+  std::vector<std::string> options;
+  if (stats.contains("options"))
+    for (const auto& [key, value] : stats["options"].items()) options.push_back(key + "=" + value.get<std::string>());
+  cells.push_back(fmt::format("{}", fmt::join(options, " ")));
+  for (const char* time : TIMES)
+    for (const char* part : SPREAD)
+      cells.push_back(entry["times"].is_null() ? "" : csv_cell(entry["times"][time][part]));
+  cells.push_back(stats.contains("bytes") ? csv_cell(stats["bytes"]["total"]) : "");
+  for (const char* key : FOUND) cells.push_back(csv_cell(value_or_null(stats, key)));
+  return cells;
+}
+
+std::vector<std::string> csv_header() {
+  std::vector<std::string> names(ENTRY_COLUMNS.begin(), ENTRY_COLUMNS.end());
+  names.insert(names.end(), STATS_COLUMNS.begin(), STATS_COLUMNS.end());
+  names.emplace_back("options");
+  for (const char* time : TIMES)
+    for (const char* part : SPREAD) names.push_back(fmt::format("{}_ms_{}", time, part));
+  names.emplace_back("bytes");
+  names.insert(names.end(), FOUND.begin(), FOUND.end());
+  return names;
+}
+
+}  // namespace
+
+json to_json(const Spread& s) {
+  return {{"median", s.median}, {"p5", s.p5}, {"p95", s.p95}, {"mean", s.mean}, {"deviation", s.deviation}};
+}
+
+json new_results(const RunInfo& run, const Suite& suite) {
+  json series = json::array();
+  for (const Series& one : suite.series) series.push_back(to_json(one));
+  return {{"format", FORMAT},
+          {"version", RESULTS_VERSION},
+          {"run",
+           {{"command", run.command},
+            {"device", run.device},
+            {"device_kind", run.device_kind},
+            {"driver", run.driver},
+            {"commit", run.commit},
+            {"date", run.date},
+            {"complete", false}}},
+          {"suite",
+           {{"name", suite.name},
+            {"title", suite.title},
+            {"about", suite.about},
+            {"source", suite.source},
+            {"series", series}}},
+          {"results", json::array()}};
+}
+
+json load_results(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error(fmt::format("{}: cannot be read; expected a results.json of lamp bench", file.string()));
+  const json document = json::parse(stream, nullptr, /* allow_exceptions= */ false);
+  if (!document.is_object() || document.value("format", json()) != FORMAT)
+    throw Error(fmt::format("{}: is no results file; expected a results.json of lamp bench", file.string()));
+  if (document.value("version", json()) != RESULTS_VERSION)
+    throw Error(fmt::format("{}: version: expected {}, got {}; measure anew, or use the lamp that wrote it",
+                            file.string(), RESULTS_VERSION, document.value("version", json()).dump()));
+  for (const char* part : {"run", "suite", "results"})
+    if (!document.contains(part)) throw Error(fmt::format("{}: {}: is missing", file.string(), part));
+  return document;
+}
+
+void take_over(json& results, const json& earlier, const std::string& file, std::span<const Group> groups) {
+  if (earlier["suite"]["name"] != results["suite"]["name"])
+    throw Error(fmt::format("{}: holds the suite {}; expected {}, or another --out", file,
+                            earlier["suite"]["name"].dump(), results["suite"]["name"].dump()));
+  for (const char* field : {"device", "driver", "commit"}) check_same(results, earlier, file, field);
+  std::set<std::string> wanted;
+  for (const Group& group : groups)
+    if (has_group(earlier, group))
+      for (const GroupEntry& entry : group.entries) wanted.insert(key_of(group, entry));
+  for (const json& entry : earlier["results"])
+    if (wanted.contains(entry["key"])) results["results"].push_back(entry);
+}
+
+bool has_group(const json& results, const Group& group) {
+  return std::ranges::all_of(
+      group.entries, [&](const GroupEntry& entry) { return find_key(results, key_of(group, entry)) != nullptr; });
+}
+
+void add_group(json& results, const std::vector<json>& entries) {
+  std::set<std::string> keys;
+  for (const json& entry : entries) keys.insert(entry["key"]);
+  json kept = json::array();
+  for (json& entry : results["results"])
+    if (!keys.contains(entry["key"])) kept.push_back(std::move(entry));
+  for (const json& entry : entries) kept.push_back(entry);
+  results["results"] = std::move(kept);
+}
+
+std::string results_csv(const json& results) {
+  std::string text = fmt::format("{}\n", fmt::join(csv_header(), ","));
+  for (const json& entry : results["results"]) text += fmt::format("{}\n", fmt::join(csv_row(entry), ","));
+  return text;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,223 @@
+// Parses suites: strict, because a key that is misspelt and ignored measures something else than was meant.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "bench/embedded_files.h"
+#include "bench/json_object.h"
+#include "error.h"
+#include "lamplight/method.h"
+
+namespace lamp::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint32_t MAX_FRAMES = 100000;
+constexpr std::array<std::string_view, 11> VALUES{"cull",   "shade",       "cull+shade", "frame",    "excess", "waste",
+                                                  "missed", "evaluations", "list_mean",  "list_max", "bytes"};
+constexpr std::array<std::string_view, 9> AXES{"lights", "size",   "spots",      "range", "scene",
+                                               "camera", "method", "projection", "path"};
+
+std::string joined(std::span<const std::string_view> words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+Chart parse_chart(const json& value, const std::string& where) {
+  JsonObject object(value, where + ": chart");
+  Chart chart;
+  object.read("x", chart.x);
+  object.read("y", chart.y);
+  object.read("log_x", chart.log_x);
+  object.read("log_y", chart.log_y);
+  object.finish();
+  if (std::ranges::find(AXES, chart.x) == AXES.end() && !chart.x.starts_with("option:"))
+    object.wrong("x", joined(AXES) + " or option:KEY");
+  if (std::ranges::find(VALUES, chart.y) == VALUES.end()) object.wrong("y", joined(VALUES));
+  return chart;
+}
+
+SuiteMethod parse_method_entry(const json& value, const std::string& where) {
+  SuiteMethod method;
+  if (value.is_string()) {
+    method.name = value.get<std::string>();
+  } else {
+    JsonObject object(value, where + ": methods");
+    object.require("name", method.name);
+    object.read("options", method.options);
+    object.read("label", method.label);
+    object.read("path", method.path);
+    object.finish();
+  }
+  const auto known = find_method(method.name);
+  if (!known.ok()) throw Error(where + ": " + known.error().text());
+  const auto options = resolve_options(*known.value(), method.options);
+  if (!options.ok()) throw Error(fmt::format("{}: method {}: {}", where, method.name, options.error().text()));
+  if (method.label.empty()) {
+    method.label = method.name;
+    for (const std::string& option : method.options) method.label += " " + option;
+  }
+  return method;
+}
+
+std::vector<SuiteMethod> every_method() {
+  std::vector<SuiteMethod> all;
+  for (const Method& method : methods())
+    all.push_back({.name = std::string(method.name), .label = std::string(method.name)});
+  return all;
+}
+
+std::vector<SuiteMethod> parse_methods(JsonObject& object) {
+  if (!object.has("methods") || object.at("methods") == "all") return every_method();
+  const json& list = object.at("methods");
+  if (!list.is_array() || list.empty()) object.wrong("methods", "\"all\" or a list of methods");
+  std::vector<SuiteMethod> entries;
+  for (const json& value : list) entries.push_back(parse_method_entry(value, object.where()));
+  return entries;
+}
+
+std::vector<std::pair<std::string, std::vector<std::string>>> parse_options(JsonObject& object) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> options;
+  if (!object.has("options")) return options;
+  if (!object.at("options").is_object()) object.wrong("options", "an object such as {\"tile\": [\"8\", \"16\"]}");
+  JsonObject values(object.at("options"), object.where() + ": options");
+  for (const auto& [key, ignored] : object.at("options").items())
+    values.read(key, options.emplace_back(key, std::vector<std::string>{}).second);
+  return options;
+}
+
+Verify parse_verify(JsonObject& object) {
+  if (!object.has("verify")) return {};
+  const json& value = object.at("verify");
+  if (value.is_boolean()) return {.what = value.get<bool>() ? Verify::What::picture : Verify::What::nothing};
+  Verify verify{.what = Verify::What::rows};
+  if (!value.is_object()) object.wrong("verify", "true, false or {\"rows\": N}");
+  JsonObject rows(value, object.where() + ": verify");
+  rows.read("rows", verify.rows, 1, MAX_IMAGE_SIZE);
+  rows.finish();
+  if (verify.rows == 0) object.wrong("verify", "true, false or {\"rows\": N}");
+  return verify;
+}
+
+std::optional<LightWave> parse_flight(JsonObject& object) {
+  if (!object.has("flight")) return std::nullopt;
+  JsonObject flight(object.at("flight"), object.where() + ": flight");
+  LightWave wave;
+  flight.read("from", wave.from, 0, MAX_LIGHTS);
+  flight.read("to", wave.to, 0, MAX_LIGHTS);
+  flight.read("waves", wave.waves, 1, 1000);
+  flight.finish();
+  if (wave.to < wave.from) object.wrong("flight", "from <= to");
+  return wave;
+}
+
+Series parse_series(const json& value, const std::string& source) {
+  std::string where = source + ": series";
+  if (value.is_object() && value.contains("name") && value["name"].is_string())
+    where += fmt::format(" '{}'", value["name"].get<std::string>());
+  JsonObject object(value, where);
+  Series series;
+  object.require("name", series.name);
+  series.title = series.name;
+  object.read("title", series.title);
+  object.read("about", series.about);
+  if (object.has("chart")) series.chart = parse_chart(object.at("chart"), where);
+  series.methods = parse_methods(object);
+  series.options = parse_options(object);
+  object.read("scenes", series.scenes);
+  object.read("sizes", series.sizes);
+  object.read("lights", series.lights, 0, MAX_LIGHTS);
+  object.read("spots", series.spots, 0.0, 1.0);
+  object.read("ranges", series.ranges);
+  object.read("cameras", series.cameras);
+  object.read("projections", series.projections);
+  object.read("paths", series.paths);
+  object.read("brdf", series.brdf);
+  object.read("seed", series.seed);
+  std::uint32_t frame = ~0U;
+  object.read("frame", frame, 0, MAX_FRAMES);
+  if (frame != ~0U) series.frame = static_cast<int>(frame);
+  object.read("frames", series.frames, 1, MAX_FRAMES);
+  object.read("warm_up", series.warm_up, 0, MAX_FRAMES);
+  series.flight = parse_flight(object);
+  series.verify = parse_verify(object);
+  object.read("pictures", series.pictures);
+  object.finish();
+  return series;
+}
+
+/// The file of a built-in suite, or nothing.
+const EmbeddedFile* builtin_suite(const std::string& name) {
+  const auto found = std::ranges::find(suite_files(), name + ".json", &EmbeddedFile::name);
+  return found == suite_files().end() ? nullptr : &*found;
+}
+
+std::string read_suite_file(const std::string& name) {
+  std::ifstream stream(name, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.good() && !stream.eof())
+    throw Error(
+        fmt::format("{}: cannot be read; expected a suite's file, or one of {}", name, fmt::join(suite_names(), ", ")));
+  return text;
+}
+
+}  // namespace
+
+std::span<const std::string_view> chart_values() { return VALUES; }
+
+Suite parse_suite(std::string_view text, const std::string& source) {
+  json document;
+  try {
+    document = json::parse(text);
+  } catch (const json::parse_error& error) {
+    throw Error(fmt::format("{}: byte {}: is no JSON: {}", source, error.byte, error.what()));
+  }
+  JsonObject object(document, source);
+  std::uint32_t version = 0;
+  object.read("version", version, 0, ~0U);
+  if (version != 1)
+    throw Error(
+        fmt::format("{}: version: expected 1, got {}", source, version == 0 ? "none" : std::to_string(version)));
+  Suite suite;
+  object.require("name", suite.name);
+  suite.title = suite.name;
+  object.read("title", suite.title);
+  object.read("about", suite.about);
+  object.read("source", suite.source);
+  if (!object.has("series")) throw Error(source + ": series: is missing; expected a list of series");
+  if (!object.at("series").is_array() || object.at("series").empty()) object.wrong("series", "a list of series");
+  object.finish();
+  std::set<std::string> names;
+  for (const json& value : object.at("series")) {
+    suite.series.push_back(parse_series(value, source));
+    if (!names.insert(suite.series.back().name).second)
+      throw Error(fmt::format("{}: series '{}': has the name of another", source, suite.series.back().name));
+  }
+  return suite;
+}
+
+std::vector<std::string> suite_names() {
+  std::vector<std::string> names;
+  for (const EmbeddedFile& file : suite_files()) names.emplace_back(file.name.substr(0, file.name.rfind('.')));
+  return names;
+}
+
+bool is_suite(const std::string& name) { return name.ends_with(".json") || builtin_suite(name) != nullptr; }
+
+Suite load_suite(const std::string& name) {
+  if (const EmbeddedFile* builtin = builtin_suite(name)) return parse_suite(builtin->text, "suite " + name);
+  return parse_suite(read_suite_file(name), name);
+}
+
+Suite scene_suite(Series series) {
+  Suite suite{.name = "scene", .title = series.title, .about = series.about};
+  suite.series.push_back(std::move(series));
+  return suite;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,255 @@
+// lamp bench: measures a suite or a scene, into a folder with results.json, results.csv and report.html.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bench/embedded_files.h"
+#include "bench/report.h"
+#include "bench/results.h"
+#include "commands/bench_measure.h"
+#include "commands/bench_progress.h"
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/pictures.h"
+#include "scene/builtin.h"
+
+namespace lamp::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::uint32_t SOFTWARE_FRAMES = 5;  // a software device takes seconds for a frame of a large suite
+
+// Pairs of pixel and light that brute force walks in about a minute, and on a GPU in the second or two after which a
+// desktop takes the device away.
+constexpr std::uint64_t SOFTWARE_PAIRS = 3'000'000'000;
+constexpr std::uint64_t GPU_PAIRS = 200'000'000'000;
+
+struct BenchOptions {
+  Request request;
+  std::vector<std::string> methods;
+  std::string out = "bench";
+  std::string max_size;
+  std::uint32_t max_lights = MAX_LIGHTS;
+  std::optional<std::uint32_t> frames, warm_up;
+  std::string command_line;
+};
+
+/// All methods, or those named, on one scene as the options say.
+Suite suite_of_scene(const BenchOptions& o) {
+  const Request& r = o.request;
+  Series series{.name = "scene",
+                .title = fmt::format("{}, {} lights, {}", r.scene, r.lights, r.size),
+                .chart = {.x = "method"},
+                .scenes = {r.scene},
+                .sizes = {r.size},
+                .lights = {r.lights},
+                .spots = {r.spots},
+                .ranges = {r.range},
+                .cameras = {r.camera},
+                .projections = {r.projection},
+                .paths = {r.path},
+                .brdf = r.brdf,
+                .seed = r.seed,
+                .frame = r.frame,
+                .pictures = true};
+  std::vector<std::string> names = o.methods;
+  if (names.empty())
+    for (const Method& method : methods()) names.emplace_back(method.name);
+  if (names.size() != 1 && !r.options.empty()) throw Error("--option: belongs to one method; name it with --method");
+  for (const std::string& name : names) {
+    series.methods.push_back({.name = name, .options = r.options, .label = name});
+    static_cast<void>(parse_method(name));
+  }
+  return scene_suite(std::move(series));
+}
+
+/// Checks what a suite's file cannot know by itself to be wrong, before any work.
+void check_groups(const std::string& source, std::span<const Group> groups) {
+  for (const Group& group : groups)
+    for (const GroupEntry& entry : group.entries) {
+      try {
+        check_request(request_of(group, entry), parse_method(entry.method));
+      } catch (const Error& error) {
+        throw Error(fmt::format("{}: series '{}': {}", source, group.series, error.what()));
+      }
+    }
+}
+
+void check_folder(const std::string& out) {
+  const fs::path folder = fs::absolute(out);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error(fmt::format("--out '{}': the folder cannot be made: {}", out, error.message()));
+  if (access(folder.c_str(), W_OK) != 0) throw Error(fmt::format("--out '{}': the folder is not writable", out));
+}
+
+/// How long a group takes, in some unit: pixels, rounds, and lights where they are many.
+double weight_of(const Group& group) {
+  const double rounds = group.frames + group.warm_up + (group.verify.what == Verify::What::nothing ? 1.0 : 4.0);
+  return static_cast<double>(pixels_of(group.size)) * std::sqrt(256.0 + group.lights) * rounds *
+         static_cast<double>(group.entries.size());
+}
+
+/// Measures what is missing; false when the user stopped it. Writes the results after every group.
+bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Group> groups, json& results) {
+  const StopSignal signal;
+  Progress progress;
+  double all = 0.0;
+  double done = 0.0;
+  for (const Group& group : groups)
+    if (!has_group(results, group)) all += weight_of(group);
+  bool stopped = false;
+  for (const Group& group : groups) {
+    if (stopped || has_group(results, group)) continue;
+    const std::string where = fmt::format("{}: {} {} {} lights: ", group.series, group.scene, group.size, group.lights);
+    try {
+      add_group(results, measure({.device = device,
+                                  .group = group,
+                                  .folder = folder,
+                                  .progress =
+                                      [&](const std::string& what, double share) {
+                                        progress.show(where + what, (done + share * weight_of(group)) / all);
+                                      },
+                                  .stop = StopSignal::raised}));
+    } catch (const Interrupted&) {
+      stopped = true;
+      continue;
+    }
+    done += weight_of(group);
+    write_text(folder / "results.json", results.dump(1) + "\n");
+  }
+  progress.clear();
+  return !stopped;
+}
+
+/// One line for each result that is not right; how many there are.
+std::size_t print_wrong(const json& results) {
+  std::size_t wrong = 0;
+  for (const json& entry : results["results"]) {
+    if (entry["verdict"] != "wrong" && entry["verdict"] != "impossible") continue;
+    fmt::print("{}: {}: {}\n", entry["key"].get<std::string>(), entry["verdict"].get<std::string>(),
+               entry["reason"].get<std::string>());
+    wrong += entry["verdict"] == "wrong" ? 1 : 0;
+  }
+  return wrong;
+}
+
+/// Throws Error for what is meant neither as a suite nor as a scene.
+void check_name(const std::string& name) {
+  const bool is_builtin = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name) != builtin_scenes().end();
+  if (is_suite(name) || is_builtin || fs::path(name).has_extension() || fs::exists(name)) return;
+  const std::vector<std::string> suites = suite_names();
+  std::vector<std::string_view> names(suites.begin(), suites.end());
+  for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+  throw Error(fmt::format("'{}': is neither a suite, a suite's .json file, nor a scene; the nearest are {}", name,
+                          fmt::join(nearest_names(name, names), ", ")));
+}
+
+Exit bench(const BenchOptions& o) {
+  check_name(o.request.scene);
+  const bool from_suite = is_suite(o.request.scene);
+  const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o);
+  const fs::path folder = o.out;
+  BenchDevice device(o.request.device, o.request.shader_dir);
+  const Expansion expansion = expand(suite, {.frames = o.frames,
+                                             .warm_up = o.warm_up,
+                                             .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,
+                                             .max_lights = o.max_lights,
+                                             .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
+                                             .most_pairs = device.software() ? SOFTWARE_PAIRS : GPU_PAIRS});
+  check_groups(from_suite ? o.request.scene : "lamp bench", expansion.groups);
+  check_views(expansion.groups);
+  check_folder(o.out);
+  const DeviceRow& row = device.context().row();
+  json results = new_results({.command = o.command_line,
+                              .device = row.name,
+                              .device_kind = row.kind,
+                              .driver = row.driver,
+                              .commit = std::string(built_from()),
+                              .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))},
+                             suite);
+  if (fs::exists(folder / "results.json"))
+    take_over(results, load_results(folder / "results.json"), (folder / "results.json").string(), expansion.groups);
+  const bool complete = measure_all(device, folder, expansion.groups, results);
+  results["run"]["complete"] = complete;
+  results["run"]["left_out"] = expansion.left_out;
+  write_text(folder / "results.json", results.dump(1) + "\n");
+  write_text(folder / "results.csv", results_csv(results));
+  const ReportRun run{.results = results, .file = folder / "results.json"};
+  write_text(folder / "report.html", report_html({&run, 1}));
+  const std::size_t wrong = print_wrong(results);
+  fmt::print("{} configurations measured, {} wrong, {} beyond the limits: {}\n", results["results"].size(), wrong,
+             expansion.left_out, (folder / "report.html").string());
+  if (!complete) fmt::print("stopped before its end; the same command goes on\n");
+  return complete && wrong == 0 ? Exit::done : Exit::check_failed;
+}
+
+/// Options that speak of a scene: a suite says its own.
+void refuse_with_suite(const CLI::App& command, const std::string& name) {
+  if (!is_suite(name)) return;
+  for (const char* option : {"--size", "--lights", "--spots", "--range", "--seed", "--camera", "--frame",
+                             "--projection", "--brdf", "--method", "--option", "--path"})
+    if (command.count(option) != 0)
+      throw Error(
+          fmt::format("{}: belongs to a scene, and {} is a suite, which says its own; a suite takes --max-lights, "
+                      "--max-size, --frames and --warm-up",
+                      option, name));
+}
+
+std::string shell_quoted(const std::string& word) {
+  if (!word.empty() &&
+      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+") ==
+          std::string::npos)
+    return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+Run add_bench(CLI::App& app, std::span<char* const> arguments) {
+  CLI::App* command =
+      app.add_subcommand("bench", "Measure methods: a suite, or all methods on a scene; writes a report");
+  auto o = std::make_shared<BenchOptions>();
+  o->request.scene = "quick";
+  add_common_options(*command, o->request);
+  command->get_option("scene")->description("a suite (lamp list suites), a suite's .json file, or a scene");
+  command->add_option("--method", o->methods, "method to measure on a scene; may be given more than once; default: all")
+      ->allow_extra_args(false);
+  command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
+      ->capture_default_str();
+  command->add_option("--out", o->out, "folder; results that are there already are not measured again")
+      ->capture_default_str();
+  command->add_option("--frames", o->frames, "timed frames; default: the suite's, on a software device at most 5")
+      ->check(whole_number(1, 100000));
+  command->add_option("--warm-up", o->warm_up, "frames before those")->check(whole_number(0, 100000));
+  command->add_option("--max-lights", o->max_lights, "leave out a suite's configurations with more")
+      ->check(whole_number(0, MAX_LIGHTS));
+  command->add_option("--max-size", o->max_size, "leave out a suite's configurations with more pixels, WIDTHxHEIGHT");
+  command->footer(
+      "Examples:\n"
+      "  lamp bench quick --out out/quick\n"
+      "  lamp bench atrium --lights 16384 --size 1920x1080 --out out/atrium\n"
+      "  lamp bench my_suite.json --out out/mine\n"
+      "Exit code 1: a method's output was wrong, or the run was stopped before its end.");
+  for (const char* argument : arguments)
+    o->command_line += (o->command_line.empty() ? "" : " ") + shell_quoted(argument);
+  return [o, command] {
+    refuse_with_suite(*command, o->request.scene);
+    if (!o->max_size.empty() && pixels_of(o->max_size) == 0)
+      throw Error(
+          fmt::format("--max-size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1920x1080", o->max_size));
+    return bench(*o);
+  };
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,54 @@
+// Holds an entry's output against the oracle and brute force, for all of a picture or for a band of rows.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/bench_device.h"
+#include "render/verification.h"
+
+namespace lamp::app {
+
+/// How far, relative to the brightest value, pictures may differ where lights are added in another order.
+inline constexpr float UNORDERED_TOLERANCE = 1e-4F;
+
+/// What was found about one entry.
+struct Checked {
+  std::string verdict;  ///< exact, approximate, wrong, unverified, impossible
+  std::string reason;   ///< of wrong, unverified and impossible; what was not checked
+  std::optional<Findings> findings;
+  std::optional<float> difference;  ///< from brute force's picture
+  Rendered rendered;                ///< the frame that was checked
+};
+
+/// The truth about one frame: made once for a group.
+class Checker {
+ public:
+  Checker(BenchDevice& device, const Group& group, Renderer& renderer, const BenchFrame& frame);
+
+  [[nodiscard]] Checked check(Lighting& lighting);
+
+ private:
+  [[nodiscard]] const HdrImage& reference(ShadingPath path);
+  [[nodiscard]] Findings find(Lighting& lighting);
+  /// Reads the depth that was rendered last: the same for every entry.
+  void need_truths();
+  /// What is wrong, or nothing.
+  [[nodiscard]] std::string fault(const Lighting& lighting, const Plan& plan, const Checked& checked);
+
+  BenchDevice& device_;
+  const Group& group_;
+  Renderer& renderer_;
+  const BenchFrame& frame_;
+  Rows rows_;
+  std::vector<Truth> truths_;
+  std::optional<HdrImage> forward_, deferred_;
+};
+
+/// The lighting of an entry.
+[[nodiscard]] LightingInfo lighting_info(const BenchScene& scene, const Group& group, const GroupEntry& entry);
+
+}  // namespace lamp::app

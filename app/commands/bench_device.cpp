@@ -1,0 +1,99 @@
+// Loads scenes, makes frames.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/bench_device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/flight.h"
+#include "scene/place_lights.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t PATH_FRAMES = 300;  // a scene without a flight: lights come back to where they were
+
+/// Frame of the scene's own time: of its flight and of the lights' paths.
+std::uint32_t scene_frame(const Group& group, std::uint32_t number, std::uint32_t path_frames) {
+  if (!group.flight) return static_cast<std::uint32_t>(std::max(0, group.frame)) + number;
+  return static_cast<std::uint32_t>(std::uint64_t{number} * path_frames / group.frames);
+}
+
+Camera camera_of(const Scene& scene, const Group& group, std::uint32_t frame) {
+  if (!group.flight && group.frame < 0) return find_camera(scene, group.camera);
+  if (!scene.flight) throw Error(fmt::format("scene '{}': has no camera flight", group.scene));
+  return flight_camera(*scene.flight, group.flight ? frame : static_cast<std::uint32_t>(group.frame));
+}
+
+View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
+  const glm::uvec2 size = parse_size(group.size);
+  return view_of(camera_of(scene, group, frame), size.x, size.y, group.projection);
+}
+
+}  // namespace
+
+BenchDevice::BenchDevice(const std::string& device, const std::string& shader_dir)
+    : shaders_(shader_dir), context_(std::make_unique<Context>(ContextInfo{.device = device})) {}
+
+BenchScene& BenchDevice::scene(const std::string& name) {
+  if (scene_.gpu != nullptr && scene_name_ == name) return scene_;
+  scene_ = {};
+  scene_.scene = load_scene(name);
+  if (const auto error = check_lights(scene_.scene.lights)) throw Error(name + ": " + error->text());
+  scene_.gpu = std::make_unique<GpuScene>(*context_, scene_.scene);
+  scene_name_ = name;
+  return scene_;
+}
+
+std::uint32_t light_capacity(const BenchScene& scene, const Group& group) {
+  return group.lights + static_cast<std::uint32_t>(scene.scene.lights.size());
+}
+
+void check_views(std::span<const Group> groups) {
+  std::string name;
+  Scene scene;
+  for (const Group& group : groups) {
+    if (group.scene != name) scene = load_scene(group.scene);
+    name = group.scene;
+    static_cast<void>(view_at(scene, group, 0));
+  }
+}
+
+BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t number) {
+  const Request request = request_of(group, group.entries.front());
+  const auto [min_range, max_range] = parse_range(request.range);
+  const std::uint32_t path_frames = scene.scene.flight ? scene.scene.flight->frames : PATH_FRAMES;
+  const std::uint32_t frame = scene_frame(group, number, path_frames);
+  const std::uint32_t count = group.flight ? lights_at(*group.flight, number, group.frames) : group.lights;
+  if (!scene.air && count != 0) scene.air = find_open_air(scene.scene);
+  BenchFrame made{.number = number, .view = view_at(scene.scene, group, frame), .lights = pack(scene.scene.lights)};
+  if (count == 0) return made;
+  const std::vector<shared::Light> generated = pack(place_lights(*scene.air, {.count = count,
+                                                                              .spots = request.spots,
+                                                                              .min_range = min_range,
+                                                                              .max_range = max_range,
+                                                                              .seed = group.seed,
+                                                                              .frame = frame,
+                                                                              .frames = path_frames}));
+  made.lights.insert(made.lights.end(), generated.begin(), generated.end());
+  return made;
+}
+
+Request request_of(const Group& group, const GroupEntry& entry) {
+  return {.scene = group.scene,
+          .size = group.size,
+          .lights = group.lights,
+          .spots = static_cast<float>(group.spots),
+          .range = group.range,
+          .seed = group.seed,
+          .method = entry.method,
+          .options = entry.options,
+          .path = entry.path,
+          .brdf = group.brdf,
+          .camera = group.camera,
+          .frame = group.frame,
+          .projection = group.projection};
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,58 @@
+// What a bench keeps over its groups: the device with its compiled pipelines, and the scene that was used last.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/groups.h"
+#include "commands/request.h"
+#include "scene/open_air.h"
+
+namespace lamp::app {
+
+/// A scene with what is made from it once.
+struct BenchScene {
+  Scene scene;
+  std::optional<OpenAir> air;
+  std::unique_ptr<GpuScene> gpu;
+};
+
+class BenchDevice {
+ public:
+  BenchDevice(const std::string& device, const std::string& shader_dir);
+
+  /// Loads a scene unless it is the last one's.
+  [[nodiscard]] BenchScene& scene(const std::string& name);
+  [[nodiscard]] Context& context() { return *context_; }
+  [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
+  [[nodiscard]] bool software() const { return context_->row().kind == "CPU"; }
+
+ private:
+  ShaderLibrary shaders_;
+  std::unique_ptr<Context> context_;
+  std::string scene_name_;
+  BenchScene scene_;
+};
+
+/// Camera and lights of one timed frame.
+struct BenchFrame {
+  std::uint32_t number = 0;  ///< from 0
+  View view;
+  std::vector<shared::Light> lights;
+};
+/// Throws Error for a scene, camera, flight or projection that is not there.
+void check_views(std::span<const Group> groups);
+
+[[nodiscard]] BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t number);
+
+/// The most lights that a frame of the group has, the scene's own included.
+[[nodiscard]] std::uint32_t light_capacity(const BenchScene& scene, const Group& group);
+
+/// The request of one group's entry, for the checks that every command makes.
+[[nodiscard]] Request request_of(const Group& group, const GroupEntry& entry);
+
+}  // namespace lamp::app

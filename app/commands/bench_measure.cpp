@@ -1,0 +1,229 @@
+// Check, warm up, then rounds: every entry once a frame, all on the same lights, which move from frame to frame.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/bench_measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <list>
+
+#include "bench/results.h"
+#include "commands/bench_check.h"
+#include "commands/bench_pictures.h"
+#include "commands/stats.h"
+#include "render/frame_times.h"
+
+namespace lamp::app {
+namespace {
+
+using nlohmann::json;
+
+/// An entry under measurement.
+struct Candidate {
+  const GroupEntry* entry = nullptr;
+  std::optional<Lighting> lighting;  ///< nothing: it cannot run here
+  Checked checked;
+  FrameTimes times;
+  std::vector<std::pair<std::uint32_t, std::size_t>> frames;  ///< number and lights of each timed frame
+
+  [[nodiscard]] bool timed() const { return lighting && checked.verdict != "wrong"; }
+};
+
+/// The frame whose output is checked: the middle one, of a flight the one with the most lights.
+std::uint32_t checked_frame(const Group& group) {
+  if (!group.flight) return group.frames / 2;
+  std::uint32_t best = 0;
+  for (std::uint32_t i = 0; i < group.frames; ++i)
+    if (lights_at(*group.flight, i, group.frames) > lights_at(*group.flight, best, group.frames)) best = i;
+  return best;
+}
+
+json spread_json(const FrameTimes& times, const auto& value) {
+  std::vector<double> samples;
+  for (const FrameTime& frame : times.frames()) samples.push_back(value(frame));
+  return to_json(spread_of(samples));
+}
+
+json times_json(const Candidate& candidate) {
+  if (!candidate.timed()) return nullptr;
+  const FrameTimes& t = candidate.times;
+  return {{"cull", spread_json(t, [](const FrameTime& f) { return f.cull_ms; })},
+          {"shade", spread_json(t, [](const FrameTime& f) { return f.shade_ms; })},
+          {"cull+shade", spread_json(t, [](const FrameTime& f) { return f.cull_ms + f.shade_ms; })},
+          {"frame", spread_json(t, [](const FrameTime& f) { return f.frame_ms; })}};
+}
+
+/// Every frame of a flight by itself.
+json samples_json(const Candidate& candidate) {
+  json samples = json::array();
+  for (std::size_t i = 0; i < candidate.frames.size(); ++i) {
+    const FrameTime& time = candidate.times.frames()[i];
+    samples.push_back({{"frame", candidate.frames[i].first},
+                       {"lights", candidate.frames[i].second},
+                       {"cull", time.cull_ms},
+                       {"shade", time.shade_ms},
+                       {"frame_ms", time.frame_ms}});
+  }
+  return samples;
+}
+
+json parameters_json(const Group& group, const GroupEntry& entry) {
+  json parameters{{"scene", group.scene},
+                  {"size", group.size},
+                  {"lights", group.lights},
+                  {"spots", group.spots},
+                  {"range", group.range.empty() ? "automatic" : group.range},
+                  {"camera", group.camera.empty() ? "first" : group.camera},
+                  {"projection", group.projection},
+                  {"path", entry.path},
+                  {"method", entry.method}};
+  for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
+  return parameters;
+}
+
+/// The label, and what tells entries of one label apart.
+std::string full_label(const GroupEntry& entry) {
+  std::string label = entry.label;
+  for (const auto& [key, value] : entry.swept) label += fmt::format(" {}={}", key, value);
+  return label;
+}
+
+/// Stats of an entry; one whose output was wrong has no times.
+json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame& frame) {
+  if (!candidate.lighting) return json::object();
+  Rendered rendered = std::move(candidate.checked.rendered);
+  rendered.passes.clear();
+  candidate.times.fill(rendered, *candidate.lighting);
+  Stats stats = make_stats({.device = info.device.context().row(),
+                            .scene = info.group.scene,
+                            .view = frame.view,
+                            .lights = light_capacity(info.device.scene(info.group.scene), info.group),
+                            .frames = static_cast<std::uint32_t>(candidate.times.frames().size())},
+                           *candidate.lighting, std::move(rendered));
+  stats.findings = candidate.checked.findings;
+  stats.verified = stats.findings.has_value();
+  stats.image_max_abs_diff = candidate.checked.difference;
+  json made = to_json(stats);
+  if (!candidate.timed())
+    for (const char* key : {"cull_ms", "shade_ms", "frame_ms"}) made[key] = nullptr;
+  return made;
+}
+
+json result_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame& frame) {
+  json result{{"series", info.group.series},
+              {"key", key_of(info.group, *candidate.entry)},
+              {"label", candidate.entry->label},
+              {"parameters", parameters_json(info.group, *candidate.entry)},
+              {"verified", words_of(info.group.verify)},
+              {"verdict", candidate.checked.verdict},
+              {"reason", candidate.checked.reason},
+              {"times", times_json(candidate)},
+              {"stats", stats_json(info, candidate, frame)}};
+  if (info.group.flight && candidate.timed()) result["samples"] = samples_json(candidate);
+  return result;
+}
+
+/// Lightings of all entries; one that the device or its own options refuse stays empty, with the reason.
+std::list<Candidate> make_candidates(const MeasureInfo& info, const BenchScene& scene) {
+  std::list<Candidate> candidates;
+  for (const GroupEntry& entry : info.group.entries) {
+    Candidate& candidate = candidates.emplace_back();
+    candidate.entry = &entry;
+    try {
+      candidate.lighting.emplace(info.device.context().device(), info.device.shaders(),
+                                 lighting_info(scene, info.group, entry));
+    } catch (const Error& error) {
+      candidate.checked = {.verdict = "impossible", .reason = error.what()};
+    }
+  }
+  return candidates;
+}
+
+/// What is left to say about a group whose frame does not fit the device.
+std::list<Candidate> all_impossible(const Group& group, const std::string& reason) {
+  std::list<Candidate> candidates;
+  for (const GroupEntry& entry : group.entries) {
+    Candidate& candidate = candidates.emplace_back();
+    candidate.entry = &entry;
+    candidate.checked = {.verdict = "impossible", .reason = reason};
+  }
+  return candidates;
+}
+
+json pictures_of(const MeasureInfo& info, Renderer& renderer, std::list<Candidate>& candidates) {
+  std::vector<LabelledLighting> shown;
+  for (Candidate& candidate : candidates)
+    if (candidate.lighting) shown.push_back({full_label(*candidate.entry), &*candidate.lighting});
+  return shown.empty() ? json::object() : write_pictures(info.folder, info.group, renderer, shown);
+}
+
+void say(const MeasureInfo& info, const std::string& what, double share) {
+  if (info.stop()) throw Interrupted{};
+  info.progress(what, share);
+}
+
+/// Checks every candidate that can run; one whose check finds no room on the device no longer can.
+void check_all(const MeasureInfo& info, std::list<Candidate>& candidates, std::optional<Checker>& checker) {
+  std::size_t done = 0;
+  for (Candidate& candidate : candidates) {
+    say(info, "checks " + full_label(*candidate.entry),
+        0.5 * static_cast<double>(done++) / static_cast<double>(candidates.size()));
+    if (!candidate.lighting) continue;
+    try {
+      candidate.checked = checker->check(*candidate.lighting);
+    } catch (const Error& error) {
+      candidate.lighting.reset();
+      candidate.checked = {.verdict = "impossible", .reason = error.what()};
+    }
+  }
+}
+
+void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
+  const std::uint32_t rounds = info.group.warm_up + info.group.frames;
+  for (std::uint32_t round = 0; round < rounds; ++round) {
+    const bool warm = round >= info.group.warm_up;
+    const std::uint32_t number = warm ? round - info.group.warm_up : 0;
+    const BenchFrame frame = bench_frame(scene, info.group, number);
+    renderer.set_frame(frame.view, frame.lights);
+    for (Candidate& candidate : candidates) {
+      say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
+      if (!candidate.timed()) continue;
+      const std::vector<vulkan::Timestamps::Time> times = renderer.time(*candidate.lighting);
+      if (!warm) continue;
+      candidate.times.add(times, *candidate.lighting);
+      candidate.frames.emplace_back(number, frame.lights.size());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<json> measure(const MeasureInfo& info) {
+  say(info, "loads " + info.group.scene, 0.0);
+  BenchScene& scene = info.device.scene(info.group.scene);
+  const BenchFrame frame = bench_frame(scene, info.group, checked_frame(info.group));
+  std::optional<Renderer> renderer;
+  std::optional<Checker> checker;
+  std::list<Candidate> candidates;
+  try {
+    renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view.width(), frame.view.height(),
+                     light_capacity(scene, info.group));
+    checker.emplace(info.device, info.group, *renderer, frame);
+    candidates = make_candidates(info, scene);
+  } catch (const Error& error) {
+    candidates = all_impossible(info.group, error.what());
+  }
+  check_all(info, candidates, checker);
+  const json pictures = info.group.pictures ? pictures_of(info, *renderer, candidates) : json::object();
+  if (renderer) time_rounds(info, *renderer, scene, candidates);
+
+  std::vector<json> results;
+  for (Candidate& candidate : candidates) {
+    results.push_back(result_json(info, candidate, frame));
+    const std::string label = full_label(*candidate.entry);
+    if (pictures.contains(label)) results.back()["pictures"] = pictures[label];
+  }
+  return results;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,30 @@
+// Measures a group: checks every entry's output, then times those that were right in interleaved rounds.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "commands/bench_device.h"
+
+namespace lamp::app {
+
+/// Thrown between two frames when the user wants to stop.
+struct Interrupted {};
+
+/// What a group needs from outside.
+struct MeasureInfo {
+  BenchDevice& device;
+  const Group& group;
+  std::filesystem::path folder;                                         ///< pictures go into its subfolder `pictures`
+  std::function<void(const std::string& what, double share)> progress;  ///< share: of the group, 0 .. 1
+  std::function<bool()> stop;                                           ///< asked between frames
+};
+
+/// The results of the group's entries, as results.json holds them. Throws Interrupted.
+[[nodiscard]] std::vector<nlohmann::json> measure(const MeasureInfo& info);
+
+}  // namespace lamp::app

@@ -1,0 +1,104 @@
+// Renders, shrinks, writes.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/bench_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+
+#include "commands/pictures.h"
+#include "render/heatmap.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t MAX_WIDTH = 640;
+
+/// Letters and digits stay, everything else becomes one hyphen.
+std::string file_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      name += c;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  }
+  return name;
+}
+
+/// Each pixel is the mean of `factor` x `factor` of the picture's.
+LdrImage shrunk(const LdrImage& image, std::uint32_t factor) {
+  LdrImage small{image.width / factor, image.height / factor, {}};
+  for (std::uint32_t y = 0; y < small.height; ++y)
+    for (std::uint32_t x = 0; x < small.width; ++x) {
+      glm::uvec4 sum(0);
+      for (std::uint32_t j = 0; j < factor; ++j)
+        for (std::uint32_t i = 0; i < factor; ++i)
+          sum += glm::uvec4(image.pixels[std::size_t{y * factor + j} * image.width + x * factor + i]);
+      small.pixels.emplace_back(sum / (factor * factor));
+    }
+  return small;
+}
+
+std::vector<std::uint32_t> shrunk(std::span<const std::uint32_t> counts, std::uint32_t width, std::uint32_t height,
+                                  std::uint32_t factor) {
+  std::vector<std::uint32_t> small;
+  for (std::uint32_t y = 0; y < height / factor; ++y)
+    for (std::uint32_t x = 0; x < width / factor; ++x)
+      small.push_back(counts[std::size_t{y * factor} * width + x * factor]);
+  return small;
+}
+
+struct Shown {
+  LdrImage picture;
+  std::vector<std::uint32_t> counts;  ///< empty: there is no look-up
+};
+
+Shown show(Renderer& renderer, Lighting& lighting, std::uint32_t factor) {
+  const Targets& targets = renderer.targets();
+  const HdrImage image = renderer.render(lighting).image;
+  Shown shown{.picture = shrunk(tone_map(image, automatic_exposure(image)), factor)};
+  if (lighting.info().path == ShadingPath::standard_deferred) return shown;
+  const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
+  const std::vector<gpu::Visit> visits = renderer.visit(lighting, empty_truth(targets.width, targets.height), which);
+  shown.counts = shrunk(walked_lights(visits), targets.width, targets.height, factor);
+  return shown;
+}
+
+std::uint32_t longest(std::span<const Shown> all) {
+  std::uint32_t most = 1;
+  for (const Shown& shown : all)
+    for (const std::uint32_t count : shown.counts)
+      if (count != NO_CELL) most = std::max(most, count);
+  return most;
+}
+
+}  // namespace
+
+nlohmann::json write_pictures(const std::filesystem::path& folder, const Group& group, Renderer& renderer,
+                              std::span<const LabelledLighting> shown) {
+  const std::uint32_t factor = (renderer.targets().width + MAX_WIDTH - 1) / MAX_WIDTH;
+  std::vector<Shown> all;
+  for (const LabelledLighting& one : shown) all.push_back(show(renderer, *one.lighting, factor));
+  const std::uint32_t scale = std::bit_ceil(longest(all));
+  nlohmann::json files = nlohmann::json::object();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string base =
+        "pictures/" + file_name(fmt::format("{} {} {}", group.series, group.scene, shown[i].label));
+    make_folder_of(folder / base);
+    write_png(folder / (base + ".png"), all[i].picture);
+    files[shown[i].label] = {{"picture", base + ".png"}};
+    if (all[i].counts.empty()) continue;
+    write_png(folder / (base + "-heat.png"), draw_heatmap({.width = all[i].picture.width,
+                                                           .height = all[i].picture.height,
+                                                           .counts = all[i].counts,
+                                                           .scale_max = scale,
+                                                           .title = shown[i].label}));
+    files[shown[i].label]["heatmap"] = base + "-heat.png";
+  }
+  return files;
+}
+
+}  // namespace lamp::app

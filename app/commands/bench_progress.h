@@ -1,0 +1,38 @@
+// Progress of long work: one line on a terminal, with the time left; nothing in a pipe. And Ctrl-C, asked for politely.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace lamp::app {
+
+class Progress {
+ public:
+  Progress();
+  /// `done` of all work, 0 .. 1. Cheap to call often: draws at most ten times a second.
+  void show(const std::string& text, double done);
+  void clear() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool terminal_;
+  Clock::time_point start_;
+  Clock::time_point drawn_;
+};
+
+/// "about 40 s", "about 3 min", "about 2 h".
+[[nodiscard]] std::string about(double seconds);
+
+/// While one exists, the first SIGINT or SIGTERM is remembered instead of ending the program; one a second or two later
+/// ends it.
+class StopSignal {
+ public:
+  StopSignal();
+  ~StopSignal();
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+  [[nodiscard]] static bool raised();
+};
+
+}  // namespace lamp::app

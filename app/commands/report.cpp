@@ -1,0 +1,48 @@
+// lamp report: the page of a run again, or of two runs beside each other.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/report.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/results.h"
+#include "commands/commands.h"
+#include "commands/pictures.h"
+#include "image/write_file.h"
+
+namespace lamp::app {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> files;
+  std::string out = "report.html";
+};
+
+Exit report(const ReportOptions& o) {
+  constexpr std::string_view EXTENSIONS[] = {".html"};
+  check_output("--out", o.out, EXTENSIONS);
+  std::vector<ReportRun> runs;
+  for (const std::string& file : o.files) runs.push_back({.results = load_results(file), .file = file});
+  const std::string page = report_html(runs);
+  make_folder_of(o.out);
+  write_file(o.out, page);
+  fmt::print("report: {}\n", o.out);
+  return Exit::done;
+}
+
+}  // namespace
+
+Run add_report(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("report", "The page of a bench's results, or of two runs with their ratios");
+  auto o = std::make_shared<ReportOptions>();
+  command->add_option("results", o->files, "results.json; a second one to compare with")->required()->expected(1, 2);
+  command->add_option("--out", o->out, "the page, .html")->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  lamp report out/quick/results.json --out quick.html\n"
+      "  lamp report before/results.json after/results.json --out compared.html");
+  return [o] { return report(*o); };
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,210 @@
+// lamp bench and lamp report, as their users run them: what they write, how they stop and go on, what they refuse.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdlib>
+
+#include "cli/cli_test.h"
+
+namespace lamp::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int CHECK_FAILED = 1;
+constexpr int BAD_INPUT = 2;
+
+class Bench : public CliTest {
+ protected:
+  /// A suite that takes a second: pictures of 32 x 18 pixels.
+  void write_suite(const std::string& lights, const std::string& more = "") const {
+    write("mine.json", R"({"version": 1, "name": "mine", "series": [{"name": "small", "methods": ["tiled", "clustered"],
+      "scenes": ["plane"], "sizes": ["32x18"], "frames": 3, "lights": )" +
+                           lights + more + "}]}");
+  }
+  [[nodiscard]] json results() const { return json::parse(read("out/results.json")); }
+
+  /// Runs a script of sh in the test's folder, with `lamp` as $LAMP; its exit code.
+  [[nodiscard]] int script(const std::string& text) const {
+    write("script.sh", "cd '" + path("").string() + "'\nLAMP='" + LAMP_EXECUTABLE + "'\n" + text + "\n");
+    return std::system(("sh '" + path("script.sh").string() + "' >/dev/null 2>&1").c_str()) >> 8;
+  }
+};
+
+const Arguments MINE{"bench", "mine.json", "--out", "out"};
+
+TEST_F(Bench, ASuiteGivesResultsTableAndReport) {
+  write_suite("[4, 8]", R"(, "pictures": true)");
+  const std::string text = output_of(MINE);
+  EXPECT_NE(text.find("4 configurations measured, 0 wrong"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\r'), std::string::npos) << "progress in a pipe";
+  const json all = results();
+  EXPECT_EQ(all.at("format"), "lamplight-results");
+  EXPECT_EQ(all.at("version"), 1);
+  EXPECT_TRUE(all.at("run").at("complete"));
+  EXPECT_NE(all.at("run").at("command").get<std::string>().find("bench mine.json --out out"), std::string::npos);
+  ASSERT_EQ(all.at("results").size(), 4U);
+  for (const json& result : all.at("results")) {
+    SCOPED_TRACE(result.at("key").get<std::string>());
+    EXPECT_EQ(result.at("verdict"), "exact");
+    EXPECT_EQ(result.at("stats").at("missed"), 0);
+    const json& cull = result.at("times").at("cull");
+    EXPECT_LE(cull.at("p5"), cull.at("median"));
+    EXPECT_LE(cull.at("median"), cull.at("p95"));
+    for (const json& pass : result.at("stats").at("passes")) {
+      if (pass.at("part") != "cull") continue;
+      EXPECT_GE(cull.at("p95"), pass.at("ms_p5")) << "the cull holds its passes";
+    }
+    if (result.at("parameters").at("lights") != 8) continue;
+    for (const char* kind : {"picture", "heatmap"})
+      EXPECT_TRUE(fs::exists(path("out") / result.at("pictures").at(kind).get<std::string>()));
+  }
+  const std::string csv = read("out/results.csv");
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+  EXPECT_NE(read("out/report.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(Bench, ItGoesOnInTheSameFolder) {
+  write_suite("[4]");
+  (void)output_of(MINE);
+  const json first = results();
+  (void)output_of(MINE);
+  EXPECT_EQ(results().at("results"), first.at("results")) << "measured again";
+  write_suite("[4, 8]");
+  (void)output_of(MINE);
+  const json more = results();
+  ASSERT_EQ(more.at("results").size(), 4U);
+  EXPECT_EQ(more.at("results")[0], first.at("results")[0]);
+}
+
+TEST_F(Bench, InterruptedItKeepsWhatItHasAndGoesOn) {
+  std::string lights = "[1";
+  for (int i = 2; i <= 60; ++i) lights += ", " + std::to_string(i);
+  write_suite(lights + "]");
+  const int code = script(
+      "$LAMP bench mine.json --out out & pid=$!\n"
+      "while [ ! -e out/results.json ] && kill -0 $pid; do sleep 0.05; done\n"
+      "kill -INT $pid; kill -INT $pid; wait $pid");
+  EXPECT_EQ(code, CHECK_FAILED);
+  const json some = results();
+  EXPECT_FALSE(some.at("run").at("complete"));
+  ASSERT_FALSE(some.at("results").empty());
+  EXPECT_LT(some.at("results").size(), 120U);
+  EXPECT_TRUE(fs::exists(path("out/report.html")));
+  (void)output_of({"bench", "mine.json", "--out", "out", "--max-lights", "10"});
+  EXPECT_EQ(results().at("results")[0], some.at("results")[0]);
+}
+
+// A look-up that finds nothing: the method's times would be the best of all.
+TEST_F(Bench, AMethodWhoseOutputIsWrongGetsNoTime) {
+  for (const char* folder : {"lib/shaders", "lib/include", "app/render/shaders"}) {
+    fs::create_directories(path("tree") / folder);
+    fs::copy(fs::path(LAMPLIGHT_SOURCE_DIR) / folder, path("tree") / folder, fs::copy_options::recursive);
+  }
+  const std::string lookup = "tree/lib/shaders/lookup/cluster_lists.glsl";
+  std::string text = read(lookup);
+  const std::string whole = "Walk(range.x, range.x + range.y, false)";
+  const std::size_t at = text.find(whole);
+  ASSERT_NE(at, std::string::npos);
+  write(lookup, text.replace(at, whole.size(), "Walk(range.x, range.x, false)"));
+  write_suite("[8]");
+  Arguments broken = MINE;
+  broken.insert(broken.end(), {"--shader-dir", "tree"});
+  const Outcome outcome = lamp(broken);
+  EXPECT_EQ(outcome.exit_code, CHECK_FAILED) << outcome.err;
+  EXPECT_NE(outcome.out.find("misses"), std::string::npos) << outcome.out;
+  const json all = results();
+  EXPECT_EQ(all.at("results")[0].at("verdict"), "exact");
+  EXPECT_FALSE(all.at("results")[0].at("times").is_null());
+  const json& wrong = all.at("results")[1];
+  EXPECT_EQ(wrong.at("verdict"), "wrong");
+  EXPECT_NE(wrong.at("reason").get<std::string>().find("misses"), std::string::npos);
+  EXPECT_TRUE(wrong.at("times").is_null());
+  EXPECT_TRUE(wrong.at("stats").at("cull_ms").is_null());
+  EXPECT_TRUE(wrong.at("stats").at("passes").empty());
+}
+
+TEST_F(Bench, ASceneWithOptionsOfTheCommandLine) {
+  (void)output_of({"bench", "plane", "--size", "32x18", "--lights", "8", "--method", "tiled", "--option", "tile=8",
+                   "--frames", "2", "--out", "out"});
+  const json all = results();
+  ASSERT_EQ(all.at("results").size(), 1U);
+  EXPECT_EQ(all.at("results")[0].at("stats").at("options").at("tile"), "8");
+  EXPECT_EQ(all.at("results")[0].at("stats").at("frames"), 2);
+}
+
+TEST_F(Bench, AFlightHasASampleAFrame) {
+  write("mine.json",
+        R"({"version": 1, "name": "mine", "series": [{"name": "flight", "methods": ["tiled"], "scenes": ["posts"],
+    "sizes": ["32x18"], "ranges": ["1:2"], "flight": {"from": 1, "to": 9}}]})");
+  (void)output_of({"bench", "mine.json", "--frames", "6", "--out", "out"});
+  const json samples = results().at("results")[0].at("samples");
+  ASSERT_EQ(samples.size(), 6U);
+  EXPECT_EQ(samples[0].at("lights"), 1);
+  EXPECT_EQ(samples[3].at("lights"), 9);
+}
+
+TEST_F(Bench, ReportsAreMadeAgainAndCompared) {
+  write_suite("[4]");
+  (void)output_of(MINE);
+  (void)output_of({"report", "out/results.json", "--out", "again.html"});
+  EXPECT_EQ(read("again.html").find("\"comparison\":"), std::string::npos);
+  (void)output_of({"report", "out/results.json", "out/results.json", "--out", "pages/two.html"});
+  EXPECT_NE(read("pages/two.html").find("\"comparison\":"), std::string::npos);
+}
+
+TEST_F(Bench, SuitesAreListed) {
+  const json suites = json_of({"list", "suites", "--json"});
+  EXPECT_TRUE(std::ranges::any_of(suites, [](const json& suite) { return suite.at("name") == "quick"; }));
+  EXPECT_NE(output_of({"list", "suites"}).find("stewart-flight"), std::string::npos);
+}
+
+TEST_F(Bench, BadInput) {
+  expect_error(BAD_INPUT, {"bench", "quik"}, {"'quik'", "nearest are quick"});
+  expect_error(BAD_INPUT, {"bench", "nowhere.json"}, {"nowhere.json: cannot be read"});
+  expect_error(BAD_INPUT, {"bench", "quick", "--size", "8x8"}, {"--size", "quick is a suite", "--max-size"});
+  expect_error(BAD_INPUT, {"bench", "plane", "--method", "tild"}, {"method 'tild'", "tiled"});
+  expect_error(BAD_INPUT, {"bench", "plane", "--option", "tile=8"}, {"--option", "--method"});
+  expect_error(BAD_INPUT, {"bench", "plane", "--frames", "0"}, {"--frames", "from 1"});
+  expect_error(BAD_INPUT, {"bench", "quick", "--max-size", "big"}, {"--max-size 'big'"});
+  write_suite("[4]", R"(, "lihgts": [5])");
+  expect_error(BAD_INPUT, MINE, {"mine.json: series 'small': key 'lihgts'", "lights"});
+  write_suite("[4]", R"(, "cameras": ["nowhere"])");
+  expect_error(BAD_INPUT, MINE, {"camera 'nowhere'", "front"});
+  write_suite("[4]", R"(, "options": {"tile": ["9"]})");
+  expect_error(BAD_INPUT, MINE, {"mine.json: series 'small'", "tile", "'9'"});
+  write("out", "a file");
+  write_suite("[4]");
+  expect_error(BAD_INPUT, MINE, {"--out 'out'", "folder"});
+}
+
+TEST_F(Bench, EarlierResultsAreKept) {
+  write_suite("[4]");
+  (void)output_of(MINE);
+  json earlier = results();
+  earlier["version"] = 9;
+  write("out/results.json", earlier.dump());
+  expect_error(BAD_INPUT, MINE, {"results.json: version: expected 1, got 9"});
+  EXPECT_EQ(results(), earlier);
+  earlier["version"] = 1;
+  earlier["run"]["device"] = "another";
+  write("out/results.json", earlier.dump());
+  expect_error(BAD_INPUT, MINE, {"results.json", "device \"another\"", "another --out"});
+  EXPECT_EQ(results(), earlier);
+  write("out/results.json", "torn {");
+  expect_error(BAD_INPUT, MINE, {"results.json: is no results file"});
+  EXPECT_EQ(read("out/results.json"), "torn {");
+}
+
+TEST_F(Bench, ReportOfWhatIsNone) {
+  expect_error(BAD_INPUT, {"report"}, {"lamp report --help"});
+  expect_error(BAD_INPUT, {"report", "nowhere.json"}, {"nowhere.json: cannot be read"});
+  write("old.json", R"({"format": "lamplight-results", "version": 0})");
+  expect_error(BAD_INPUT, {"report", "old.json"}, {"old.json: version: expected 1, got 0"});
+  write("odd.json", R"({"format": "lamplight-results", "version": 1, "run": {}, "suite": {}, "results": []})");
+  expect_error(BAD_INPUT, {"report", "odd.json"}, {"odd.json: is damaged"});
+  expect_error(BAD_INPUT, {"report", "old.json", "--out", "page.txt"}, {"--out 'page.txt'", ".html"});
+}
+
+}  // namespace
+}  // namespace lamp::cli

@@ -1,0 +1,218 @@
+// Results: files of other versions, going on with an earlier run, the table, two runs compared, and the page.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/results.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+
+#include "bench/comparison.h"
+#include "bench/report.h"
+#include "bench/summary.h"
+#include "error.h"
+
+namespace lamp::app {
+namespace {
+
+using nlohmann::json;
+
+const RunInfo RUN{.command = "lamp bench mine.json",
+                  .device = "Device <1>",
+                  .device_kind = "discrete GPU",
+                  .driver = "driver 2",
+                  .commit = "abc",
+                  .date = "today"};
+
+Suite suite_of(const std::string& members) {
+  return parse_suite(R"({"version": 1, "name": "mine", "series": [{"name": "one", )" + members + "}]}", "mine.json");
+}
+
+const Suite SWEEP = suite_of(R"("methods": ["tiled", "tight"], "lights": [16, 64])");
+
+/// A result with these times of the cull, 2 ms of shading besides.
+json result_of(const Group& group, const GroupEntry& entry, double cull_ms) {
+  const json cull = to_json(Spread{cull_ms, cull_ms, cull_ms, cull_ms, 0.0});
+  const json shade = to_json(Spread{2.0, 2.0, 2.0, 2.0, 0.0});
+  const json both = to_json(Spread{cull_ms + 2.0, cull_ms + 2.0, cull_ms + 2.0, cull_ms + 2.0, 0.0});
+  return {{"series", group.series},
+          {"key", key_of(group, entry)},
+          {"label", entry.label},
+          {"parameters",
+           {{"scene", group.scene},
+            {"size", group.size},
+            {"lights", group.lights},
+            {"spots", group.spots},
+            {"range", "automatic"},
+            {"camera", "first"},
+            {"projection", group.projection},
+            {"path", entry.path},
+            {"method", entry.method}}},
+          {"verdict", "exact"},
+          {"reason", ""},
+          {"times", {{"cull", cull}, {"shade", shade}, {"cull+shade", both}, {"frame", both}}},
+          {"stats",
+           {{"passes", json::array()},
+            {"bytes", {{"total", 100}}},
+            {"missed", 0},
+            {"useful", 5},
+            {"options", {{"tile", "16"}}}}}};
+}
+
+/// A whole run; the cull of `tight` takes as many milliseconds as there are lights / 8, that of `tiled` 4.
+json run_of(const Suite& suite, const RunInfo& run = RUN, double factor = 1.0) {
+  json results = new_results(run, suite);
+  for (const Group& group : expand(suite, {}).groups) {
+    std::vector<json> entries;
+    for (const GroupEntry& entry : group.entries)
+      entries.push_back(result_of(group, entry, factor * (entry.method == "tight" ? group.lights / 8.0 : 4.0)));
+    add_group(results, entries);
+  }
+  results["run"]["complete"] = true;
+  return results;
+}
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class BenchResults : public ::testing::Test {
+ protected:
+  BenchResults() { std::filesystem::create_directories(folder_); }
+  ~BenchResults() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  std::string load_error(const std::string& text) const {
+    const std::filesystem::path file = folder_ / "results.json";
+    std::ofstream(file) << text;
+    return error_of([&] { static_cast<void>(load_results(file)); });
+  }
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
+                                  ("lamp-results-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(BenchResults, FilesThatAreNoneOrOfAnotherVersion) {
+  EXPECT_NE(load_error("not json").find("is no results file"), std::string::npos);
+  EXPECT_NE(load_error("{}").find("is no results file"), std::string::npos);
+  json old = run_of(SWEEP);
+  old["version"] = RESULTS_VERSION + 1;
+  const std::string line = load_error(old.dump());
+  EXPECT_NE(line.find("results.json: version: expected 1, got 2"), std::string::npos) << line;
+  json damaged = run_of(SWEEP);
+  damaged.erase("results");
+  EXPECT_NE(load_error(damaged.dump()).find("results: is missing"), std::string::npos);
+  EXPECT_EQ(load_error(run_of(SWEEP).dump()), "no error");
+  EXPECT_THROW(static_cast<void>(load_results(folder_ / "nowhere.json")), Error);
+}
+
+TEST_F(BenchResults, ARunGoesOnWhereItStopped) {
+  const std::vector<Group> groups = expand(SWEEP, {}).groups;
+  json earlier = run_of(SWEEP);
+  earlier["results"].erase(3);  // of the second group, one entry
+  json results = new_results(RUN, SWEEP);
+  take_over(results, earlier, "results.json", groups);
+  EXPECT_TRUE(has_group(results, groups[0]));
+  EXPECT_FALSE(has_group(results, groups[1])) << "entries of a group were timed in the same rounds, or not at all";
+  EXPECT_EQ(results["results"].size(), 2U);
+}
+
+TEST_F(BenchResults, ResultsOfOtherSettingsAreNotTakenOver) {
+  const std::vector<Group> longer = expand(SWEEP, {.frames = 500}).groups;
+  json results = new_results(RUN, SWEEP);
+  take_over(results, run_of(SWEEP), "results.json", longer);
+  EXPECT_TRUE(results["results"].empty());
+}
+
+TEST_F(BenchResults, AnotherSuiteDeviceOrCommitIsRefused) {
+  const std::vector<Group> groups = expand(SWEEP, {}).groups;
+  const auto line = [&](const RunInfo& then, const std::string& suite) {
+    json earlier = run_of(SWEEP, then);
+    earlier["suite"]["name"] = suite;
+    json results = new_results(RUN, SWEEP);
+    return error_of([&] { take_over(results, earlier, "out/results.json", groups); });
+  };
+  EXPECT_EQ(line(RUN, "mine"), "no error");
+  EXPECT_NE(line(RUN, "other").find("out/results.json: holds the suite \"other\""), std::string::npos);
+  RunInfo other = RUN;
+  other.device = "Device 3";
+  EXPECT_NE(line(other, "mine").find("device \"Device 3\""), std::string::npos);
+  other = RUN;
+  other.commit = "def";
+  EXPECT_NE(line(other, "mine").find("another --out"), std::string::npos);
+}
+
+TEST_F(BenchResults, TheTableHasARowAResult) {
+  json results = run_of(SWEEP);
+  results["results"][0]["label"] = "a \"label\", quoted";
+  const std::string csv = results_csv(results);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4);
+  EXPECT_NE(csv.find("\"a \"\"label\"\", quoted\""), std::string::npos);
+  EXPECT_NE(csv.substr(0, csv.find('\n')).find("cull_ms_median"), std::string::npos);
+}
+
+TEST_F(BenchResults, WordsComeFromTheNumbers) {
+  const json results = run_of(SWEEP);
+  const std::vector<ChartPanel> panels = chart_panels(results, "results.json");
+  ASSERT_EQ(panels.size(), 1U);
+  ASSERT_EQ(panels[0].lines.size(), 2U);
+  EXPECT_EQ(panels[0].lines[0].points.size(), 2U);
+  const std::vector<std::string> words = panel_summary(results, panels[0]);
+  ASSERT_EQ(words.size(), 2U);
+  EXPECT_EQ(words[0], "cull and shade, with 64 lights: tiled is ahead with 6 ms; next is tight (1.67×).");
+  EXPECT_EQ(words[1], "The lead changes: tight up to 16 lights, then tiled.");
+  EXPECT_NE(run_summary(results).at(0).find("4 missed no light"), std::string::npos);
+}
+
+TEST_F(BenchResults, NumbersInWords) {
+  EXPECT_EQ(short_number(0.0), "0");
+  EXPECT_EQ(short_number(1234.5), "1234");
+  EXPECT_EQ(short_number(12.34), "12.3");
+  EXPECT_EQ(short_number(0.01), "0.01");
+  EXPECT_EQ(short_number(0.0045678), "0.00457");
+}
+
+TEST_F(BenchResults, TwoRunsGiveRatios) {
+  const json a = run_of(SWEEP);
+  json b = run_of(suite_of(R"("methods": ["tiled", "tight"], "lights": [16, 64], "frames": 500)"), RUN, 0.5);
+  b["results"].erase(3);
+  const Comparison compared = compare_runs(a, b);
+  EXPECT_EQ(compared.rows.size(), 3U) << "the number of frames may differ";
+  EXPECT_EQ(compared.only_a, 1U);
+  EXPECT_EQ(compared.only_b, 0U);
+  ASSERT_EQ(compared.lines.size(), 2U);
+  EXPECT_EQ(compared.lines[0].label, "tiled");
+  EXPECT_DOUBLE_EQ(compared.lines[0].cull_ratio, 0.5);
+  EXPECT_DOUBLE_EQ(compared.lines[0].cull_shade_ratio, 4.0 / 6.0);
+}
+
+TEST_F(BenchResults, ThePageIsWholeAndNothingInTheDataEndsItsScript) {
+  json results = run_of(SWEEP);
+  results["suite"]["title"] = "a </script> & more";
+  const ReportRun run{.results = results, .file = folder_ / "results.json"};
+  const std::string page = report_html({&run, 1});
+  EXPECT_NE(page.find("<title>a &lt;/script> &amp; more - Lamplight</title>"), std::string::npos);
+  EXPECT_EQ(page.find("a </script>"), std::string::npos);
+  EXPECT_NE(page.find("Chart.js v3.9.1"), std::string::npos) << "the chart library is inlined";
+  for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  for (const char* left : {"@TITLE@", "@DATA@", "@SCRIPT@"}) EXPECT_EQ(page.find(left), std::string::npos) << left;
+}
+
+TEST_F(BenchResults, ADamagedRunIsNamed) {
+  json results = run_of(SWEEP);
+  results["results"][1].erase("parameters");
+  const ReportRun run{.results = results, .file = "far/results.json"};
+  const std::string line = error_of([&] { static_cast<void>(report_html({&run, 1})); });
+  EXPECT_NE(line.find("far/results.json: is damaged"), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace lamp::app

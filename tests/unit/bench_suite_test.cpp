@@ -1,0 +1,156 @@
+// Suites as data: the built-in ones, what a file may say, what it may not, and what it multiplies out to.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bench/groups.h"
+#include "error.h"
+
+namespace lamp::app {
+namespace {
+
+/// A suite of one series with these members besides its name.
+std::string suite_with(const std::string& members, const std::string& more = "") {
+  return R"({"version": 1, "name": "mine", )" + more + R"("series": [{"name": "one")" +
+         (members.empty() ? "" : ", " + members) + "}]}";
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    static_cast<void>(parse_suite(text, "mine.json"));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_error(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string line = error_of(text);
+  EXPECT_TRUE(line.starts_with("mine.json: ")) << line;
+  for (const std::string& part : parts)
+    EXPECT_NE(line.find(part), std::string::npos) << "\"" << part << "\" is not in: " << line;
+}
+
+TEST(BenchSuite, EveryBuiltInSuiteIsOneAndNamesItself) {
+  const std::vector<std::string> names = suite_names();
+  for (const char* name :
+       {"quick", "stewart-1.3", "stewart-1.6", "stewart-flight", "article", "primal", "tests", "tile-size", "lights"})
+    EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    const Suite suite = load_suite(name);
+    EXPECT_EQ(suite.name, name);
+    EXPECT_FALSE(suite.title.empty());
+    EXPECT_FALSE(suite.about.empty());
+    const Expansion expansion = expand(suite, {});
+    EXPECT_FALSE(expansion.groups.empty());
+    std::set<std::string> keys;
+    for (const Group& group : expansion.groups)
+      for (const GroupEntry& entry : group.entries)
+        EXPECT_TRUE(keys.insert(key_of(group, entry)).second) << "measured twice: " << key_of(group, entry);
+  }
+}
+
+TEST(BenchSuite, KeysThatAreUnknown) {
+  expect_error(suite_with("", R"("titel": "x", )"), {"key 'titel'", "nearest are title"});
+  expect_error(suite_with(R"("lihgts": [1])"), {"series 'one'", "key 'lihgts'", "lights"});
+  expect_error(suite_with(R"("chart": {"z": "lights"})"), {"series 'one': chart", "key 'z'"});
+  expect_error(suite_with(R"("verify": {"row": 3})"), {"series 'one': verify", "key 'row'", "rows"});
+  expect_error(suite_with(R"("flight": {"form": 3})"), {"series 'one': flight", "key 'form'"});
+  expect_error(suite_with(R"("methods": [{"name": "tiled", "label": "x", "option": ["tile=8"]}])"),
+               {"key 'option'", "options"});
+}
+
+TEST(BenchSuite, ValuesThatAreWrong) {
+  expect_error("{", {"is no JSON"});
+  expect_error("[]", {"expected an object"});
+  expect_error(R"({"version": 2, "name": "mine", "series": []})", {"version: expected 1, got 2"});
+  expect_error(R"({"name": "mine", "series": []})", {"version: expected 1, got none"});
+  expect_error(R"({"version": 1, "name": "mine"})", {"series: is missing"});
+  expect_error(R"({"version": 1, "series": [{"name": "a"}]})", {"name: is missing"});
+  expect_error(R"({"version": 1, "name": "mine", "series": [{"name": "a"}, {"name": "a"}]})",
+               {"'a'", "name of another"});
+  expect_error(suite_with(R"("lights": 5)"), {"lights", "list of whole numbers", "got 5"});
+  expect_error(suite_with(R"("lights": [-1])"), {"lights"});
+  expect_error(suite_with(R"("lights": [99999999])"), {"lights", "16777216"});
+  expect_error(suite_with(R"("lights": [])"), {"lights"});
+  expect_error(suite_with(R"("spots": [1.5])"), {"spots", "from 0 to 1"});
+  expect_error(suite_with(R"("frames": 0)"), {"frames", "from 1"});
+  expect_error(suite_with(R"("methods": ["tield"])"), {"method 'tield'", "tiled"});
+  expect_error(suite_with(R"("methods": [{"name": "tiled", "options": ["tile=9"]}])"), {"tiled", "tile", "9"});
+  expect_error(suite_with(R"("methods": [])"), {"methods"});
+  expect_error(suite_with(R"("chart": {"y": "speed"})"), {"chart", "y", "cull+shade", "speed"});
+  expect_error(suite_with(R"("chart": {"x": "weather"})"), {"chart", "x", "option:KEY"});
+  expect_error(suite_with(R"("flight": {"from": 9, "to": 3})"), {"flight", "from <= to"});
+  expect_error(suite_with(R"("verify": 3)"), {"verify", "true, false or"});
+  EXPECT_THROW(static_cast<void>(load_suite("nowhere.json")), Error);
+}
+
+TEST(BenchSuite, SweepsMultiply) {
+  const Suite suite = parse_suite(suite_with(R"("methods": ["tiled", {"name": "all", "path": "standard-deferred"}],
+      "options": {}, "scenes": ["plane", "posts"], "lights": [1, 2, 3], "sizes": ["8x8", "16x8"], "spots": [0, 1],
+      "paths": ["forward", "deferred"])"),
+                                  "mine.json");
+  const Expansion all = expand(suite, {});
+  EXPECT_EQ(all.groups.size(), 2U * 3U * 2U * 2U);
+  EXPECT_EQ(all.groups.front().entries.size(), 3U) << "tiled on two paths, all on its own";
+  const Expansion fewer = expand(suite, {.max_lights = 2, .max_pixels = 64});
+  EXPECT_EQ(fewer.groups.size(), 2U * 2U * 1U * 2U);
+  EXPECT_EQ(fewer.left_out, (24U - 8U) * 3U);
+}
+
+TEST(BenchSuite, SweptOptionsBelongToEveryMethod) {
+  const Suite suite =
+      parse_suite(suite_with(R"("methods": ["tiled", "stewart"], "options": {"tile": ["8", "16"], "test": ["aabb"]})"),
+                  "mine.json");
+  const Group group = expand(suite, {}).groups.at(0);
+  ASSERT_EQ(group.entries.size(), 4U);
+  for (const GroupEntry& entry : group.entries) EXPECT_EQ(entry.swept.size(), 2U);
+  EXPECT_EQ(group.entries[0].options, (std::vector<std::string>{"test=aabb", "tile=8"}));
+}
+
+TEST(BenchSuite, LimitsOfADevice) {
+  const Suite suite =
+      parse_suite(suite_with(R"("lights": [100, 1000], "sizes": ["100x10"], "frames": 50, "warm_up": 9)"), "mine.json");
+  const Expansion slow = expand(suite, {.most_frames = 5, .most_pairs = 500'000});
+  EXPECT_EQ(slow.groups[0].frames, 5U);
+  EXPECT_EQ(slow.groups[0].warm_up, 1U);
+  EXPECT_EQ(slow.groups[0].verify.what, Verify::What::picture);
+  EXPECT_EQ(slow.groups[0].unchecked, "");
+  EXPECT_EQ(words_of(slow.groups[0].verify), "picture");
+  EXPECT_EQ(words_of(slow.groups[1].verify), "picture, lists alone");
+  EXPECT_NE(slow.groups[1].unchecked.find("too many lights for brute force"), std::string::npos);
+  const Expansion slower = expand(suite, {.most_pairs = 100});
+  EXPECT_EQ(words_of(slower.groups[1].verify), "nothing");
+  EXPECT_EQ(slower.groups[1].unchecked, "not verified: too many lights for the oracle");
+  const Expansion asked = expand(suite, {.frames = 70, .most_frames = 5});
+  EXPECT_EQ(asked.groups[0].frames, 70U) << "the command line has the last word";
+  EXPECT_EQ(asked.groups[0].warm_up, 9U);
+}
+
+TEST(BenchSuite, AFlightGoesUpAndDown) {
+  const LightWave wave{.from = 7, .to = 980, .waves = 2};
+  EXPECT_EQ(lights_at(wave, 0, 400), 7U);
+  EXPECT_EQ(lights_at(wave, 100, 400), 980U);
+  EXPECT_EQ(lights_at(wave, 200, 400), 7U);
+  EXPECT_EQ(lights_at(wave, 300, 400), 980U);
+  EXPECT_EQ(lights_at(wave, 50, 400), lights_at(wave, 150, 400));
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    EXPECT_GE(lights_at(wave, i, 400), 7U);
+    EXPECT_LE(lights_at(wave, i, 400), 980U);
+  }
+  EXPECT_EQ(lights_at(wave, 0, 1), 980U) << "one frame is the one with the most lights";
+}
+
+TEST(BenchSuite, PicturesAreOfTheMostLightsOfEachScene) {
+  const Suite suite =
+      parse_suite(suite_with(R"("scenes": ["plane", "posts"], "lights": [1, 9, 3], "pictures": true)"), "mine.json");
+  for (const Group& group : expand(suite, {}).groups) EXPECT_EQ(group.pictures, group.lights == 9) << group.scene;
+}
+
+}  // namespace
+}  // namespace lamp::app
