@@ -42,8 +42,11 @@ struct BenchOptions {
 };
 
 /// All methods, or those named, on one scene as the options say.
-Suite suite_of_scene(const BenchOptions& o) {
-  const Request& r = o.request;
+Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
+  Request r = o.request;
+  if (scene.captured && !r.size_given)
+    r.size = fmt::format("{}x{}", scene.captured->view.width(), scene.captured->view.height());
+  if (scene.captured && !r.lights_given) r.lights = 0;
   Series series{.name = "scene",
                 .title = fmt::format("{}, {} lights, {}", r.scene, r.lights, r.size),
                 .chart = {.x = "method"},
@@ -155,7 +158,7 @@ void check_name(const std::string& name) {
 Exit bench(const BenchOptions& o) {
   check_name(o.request.scene);
   const bool from_suite = is_suite(o.request.scene);
-  const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o);
+  const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o, load_scene(o.request.scene));
   const fs::path folder = o.out;
   BenchDevice device(o.request.device, o.request.shader_dir);
   const Expansion expansion = expand(suite, {.frames = o.frames,

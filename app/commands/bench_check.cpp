@@ -63,7 +63,8 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
           .light_capacity = light_capacity(scene, group),
           .path = parse_path(entry.path),
           .brdf = parse_brdf(group.brdf),
-          .transparency = !scene.gpu->blended().empty()};
+          .transparency = !scene.gpu->blended().empty(),
+          .captured = scene.scene.captured.has_value()};
 }
 
 Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, const BenchFrame& frame)

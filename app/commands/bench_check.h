@@ -12,9 +12,6 @@
 
 namespace lamp::app {
 
-/// How far, relative to the brightest value, pictures may differ where lights are added in another order.
-inline constexpr float UNORDERED_TOLERANCE = 1e-4F;
-
 /// What was found about one entry.
 struct Checked {
   std::string verdict;  ///< exact, approximate, wrong, unverified, impossible

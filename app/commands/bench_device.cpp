@@ -28,6 +28,15 @@ Camera camera_of(const Scene& scene, const Group& group, std::uint32_t frame) {
 
 View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
   const glm::uvec2 size = parse_size(group.size);
+  if (scene.captured) {
+    const View& view = scene.captured->view;
+    if (size != glm::uvec2(view.width(), view.height()) || group.projection != "camera" || group.frame >= 0 ||
+        group.flight)
+      throw Error(fmt::format("scene '{}': is a captured frame of {}x{} pixels, with one camera of its own; got {}{}",
+                              group.scene, view.width(), view.height(), group.size,
+                              group.projection != "camera" ? ", projection " + group.projection : ""));
+    return view;
+  }
   return view_of(camera_of(scene, group, frame), size.x, size.y, group.projection);
 }
 

@@ -220,6 +220,7 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
   append(bound, lookup.resources);
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
+  limit_rows(recorder.commands(), info_);
   recorder.bind(shade_, bound);
   vkCmdDraw(recorder.commands(), 3, 1, 0, 0);
   vkCmdEndRendering(recorder.commands());

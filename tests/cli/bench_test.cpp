@@ -133,6 +133,20 @@ TEST_F(Bench, ASceneWithOptionsOfTheCommandLine) {
   EXPECT_EQ(all.at("results")[0].at("stats").at("frames"), 2);
 }
 
+TEST_F(Bench, ACapturedFrameIsAScene) {
+  (void)output_of({"capture", "plane", "--size", "48x27", "--lights", "8", "--out", "frame"});
+  (void)output_of({"bench", "frame", "--method", "tiled", "--method", "clustered", "--frames", "2", "--out", "out"});
+  const json all = results();
+  ASSERT_EQ(all.at("results").size(), 2U);
+  for (const json& result : all.at("results")) {
+    EXPECT_EQ(result.at("verdict"), "exact") << result.at("reason");
+    EXPECT_EQ(result.at("stats").at("width"), 48);
+  }
+  write("mine.json",
+        R"({"version": 1, "name": "mine", "series": [{"name": "one", "scenes": ["frame"], "sizes": ["8x8"]}]})");
+  expect_error(BAD_INPUT, MINE, {"'frame'", "48x27", "got 8x8"});
+}
+
 TEST_F(Bench, AFlightHasASampleAFrame) {
   write("mine.json",
         R"({"version": 1, "name": "mine", "series": [{"name": "flight", "methods": ["tiled"], "scenes": ["posts"],
