@@ -13,6 +13,7 @@ std::span<const Method> methods() {
     std::vector<Method> rows{all_method()};
     std::ranges::copy(tiled_methods(), std::back_inserter(rows));
     rows.push_back(clustered_method());
+    rows.push_back(drobot_zbin_method());
     rows.push_back(lamplight_method());
     return rows;
   }();

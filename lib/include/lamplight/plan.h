@@ -74,6 +74,7 @@ struct HostContext {
   std::span<const shared::Light> lights;
   const shared::Frame* frame = nullptr;
   std::span<const std::span<std::byte>> buffers;
+  std::span<const std::uint32_t> constants;  ///< the pass's
 };
 using HostFunction = void (*)(const HostContext&);
 
@@ -82,7 +83,7 @@ struct Pass {
   std::string name;
   PassKind kind = PassKind::compute;
   std::string shader;                    ///< compute or fragment shader; name in the shader table ("methods/tiled")
-  std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ...
+  std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ...; what a host pass is told
   std::vector<Binding> bindings;         ///< set 0, bindings 0, 1, 2, ...
   Extent extent;
   RasterState raster;                 ///< raster passes

@@ -7,15 +7,18 @@ layout(constant_id = 101) const uint LOOKUP_SLICES = 24;
 layout(constant_id = 102) const uint LOOKUP_NEAR_MM = 500;
 layout(constant_id = 103) const uint LOOKUP_FAR_M = 500;
 layout(constant_id = 104) const uint LOOKUP_ENTRIES = 1;
+layout(constant_id = 105) const uint LOOKUP_SLICE_SCALE = 0;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupRanges { uvec2 lookup_ranges[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
 
 #define SLICES LOOKUP_SLICES
+#define SLICE_SCALE LOOKUP_SLICE_SCALE
 #define NEAR_MM LOOKUP_NEAR_MM
 #define FAR_M LOOKUP_FAR_M
 #include "common/slices.glsl"
 #undef SLICES
+#undef SLICE_SCALE
 #undef NEAR_MM
 #undef FAR_M
 

@@ -1,6 +1,6 @@
 // The clusters of one tile, by one work group: batches of lights against the tile's sides, then one thread a slice walks
 // the survivors in order. Count and fill visit exactly the same pairs.
-// Needs: TILE_PX, SLICES, NEAR_MM, FAR_M; `frame`, `bounds`; the macro VISIT(light), used by the thread of a slice.
+// Needs: TILE_PX, SLICES, SLICE_SCALE, NEAR_MM, FAR_M; `frame`, `bounds`; the macro VISIT(light), used by the thread of a slice.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_CLUSTER_CULL
 #define LAMP_METHODS_CLUSTER_CULL

@@ -11,6 +11,7 @@ layout(constant_id = 1) const uint TILE_PX = 64;
 layout(constant_id = 2) const uint SLICES = 24;
 layout(constant_id = 3) const uint NEAR_MM = 500;
 layout(constant_id = 4) const uint FAR_M = 500;
+layout(constant_id = 6) const uint SLICE_SCALE = 0;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer RangeBuffer { uvec2 ranges[]; };

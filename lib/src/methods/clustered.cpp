@@ -13,6 +13,7 @@ Plan plan_clustered(const Problem& problem) {
   const std::uint32_t slices = problem.options.integer("slices");
   const std::uint32_t near_mm = problem.options.integer("near_mm");
   const std::uint32_t far_m = problem.options.integer("far_m");
+  const std::uint32_t scale = parts::slice_scale(problem.options.word("scale"));
   const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
   const std::uint32_t threads = parts::cull_threads(problem);
   const auto clusters = static_cast<std::uint32_t>(tiles.count() * slices);
@@ -26,7 +27,7 @@ Plan plan_clustered(const Problem& problem) {
   const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = std::uint64_t{clusters} * 8});
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
 
-  const std::vector<std::uint32_t> constants{threads, tile_px, slices, near_mm, far_m, entries};
+  const std::vector<std::uint32_t> constants{threads, tile_px, slices, near_mm, far_m, entries, scale};
   const Extent one_group_a_tile{.x = tiles.width, .y = tiles.height};
   plan.passes = {parts::light_bounds_pass(bounds),
                  {.name = "cluster count",
@@ -44,7 +45,7 @@ Plan plan_clustered(const Problem& problem) {
                   .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}},
                   .extent = one_group_a_tile}};
   plan.lookup = {.name = "cluster_lists",
-                 .constants = {tile_px, slices, near_mm, far_m, entries},
+                 .constants = {tile_px, slices, near_mm, far_m, entries, scale},
                  .bindings = {{INPUT_FRAME}, {ranges}, {lists}}};
   return plan;
 }
@@ -61,16 +62,9 @@ Method clustered_method() {
           .any_depth = true,
           .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "64", .choices = {"16", "32", "64"}},
                       {.key = "slices", .help = "slices of depth", .fallback = "24", .min = 1, .max = 32},
-                      {.key = "near_mm",
-                       .help = "far end of the first slice, millimetres",
-                       .fallback = "500",
-                       .min = 1,
-                       .max = 1000},
-                      {.key = "far_m",
-                       .help = "near end of the last slice, metres; it reaches to infinity",
-                       .fallback = "500",
-                       .min = 2,
-                       .max = 1000000},
+                      parts::slice_scale_option("scale", "log"),
+                      parts::slice_near_option(),
+                      parts::slice_far_option(),
                       {.key = "mean_capacity",
                        .help = "lights a cluster, on average, that the shared list has room for",
                        .fallback = "512",

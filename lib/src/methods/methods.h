@@ -10,6 +10,7 @@ namespace lamp {
 /// `tiled`, its containers, and the presets of the sources.
 [[nodiscard]] std::vector<Method> tiled_methods();
 [[nodiscard]] Method clustered_method();
+[[nodiscard]] Method drobot_zbin_method();
 [[nodiscard]] Method lamplight_method();
 
 }  // namespace lamp

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parts.h"
 
+#include "lamplight/shared/slices.h"
+
 namespace lamp::parts {
 
 ResourceId add_light_bounds(Plan& plan, const Problem& problem) {
@@ -18,6 +20,30 @@ Pass light_bounds_pass(ResourceId bounds) {
 ResourceId add_counters(Plan& plan) {
   plan.counters = plan.add({.name = "counters", .bytes = sizeof(shared::Counters), .zeroed = true});
   return plan.counters;
+}
+
+OptionSpec slice_scale_option(std::string_view key, std::string_view fallback) {
+  return {.key = key,
+          .help = "slices of depth grow by a constant factor, or have the same length",
+          .fallback = fallback,
+          .choices = {"log", "linear"}};
+}
+
+OptionSpec slice_near_option() {
+  return {
+      .key = "near_mm", .help = "far end of the first slice, millimetres", .fallback = "500", .min = 1, .max = 1000};
+}
+
+OptionSpec slice_far_option() {
+  return {.key = "far_m",
+          .help = "near end of the last slice, metres; it reaches to infinity",
+          .fallback = "500",
+          .min = 2,
+          .max = 1000000};
+}
+
+std::uint32_t slice_scale(std::string_view word) {
+  return word == "linear" ? shared::SLICES_LINEAR : shared::SLICES_LOG;
 }
 
 }  // namespace lamp::parts

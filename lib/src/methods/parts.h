@@ -39,4 +39,12 @@ struct TileGrid {
 /// Adds shared::Counters, zeroed every frame, and makes it the plan's.
 ResourceId add_counters(Plan& plan);
 
+/// How depth is cut into slices or bins: options and their values. `scale`: "log" or "linear"; the first slice ends at
+/// `near_mm`, the last begins at `far_m` and reaches to infinity.
+[[nodiscard]] OptionSpec slice_scale_option(std::string_view key, std::string_view fallback);
+[[nodiscard]] OptionSpec slice_near_option();
+[[nodiscard]] OptionSpec slice_far_option();
+/// shared::SLICES_LOG or SLICES_LINEAR.
+[[nodiscard]] std::uint32_t slice_scale(std::string_view word);
+
 }  // namespace lamp::parts

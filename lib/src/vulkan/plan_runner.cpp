@@ -162,7 +162,7 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
 void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) const {
   std::vector<std::span<std::byte>> mapped;
   for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
-  pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped});
+  pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
 }
 
 void PlanRunner::record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const {
