@@ -19,6 +19,7 @@ layout(push_constant) uniform Push {
   uint rows;
 };
 #include "lookup.glsl"
+#include "lookup/parts/each.glsl"
 #include "common/frame.glsl"
 
 const uint NONE = ~0u;
@@ -26,9 +27,9 @@ const uint NONE = ~0u;
 // The oracle's lights that an ascending walk passes over are missed. One that is not ascending is searched anew.
 bool walk_brings(uvec2 pixel, float z_view, uint wanted) {
   uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);)
-    if (light == wanted) return true;
-  return false;
+  bool brought = false;
+  LOOKUP_EACH(light, pixel, z_view) brought = brought || light == wanted;
+  return brought;
 }
 
 void main() {
@@ -47,7 +48,7 @@ void main() {
   Visit visit = Visit(0u, lookup_cell(pixel, z_view), 0u, NONE, 0u);
   uint last = 0u;
   uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) {
+  LOOKUP_EACH(light, pixel, z_view) {
     if (visit.visited > 0u && light <= last) visit.unordered = 1u;
     last = light;
     ++visit.visited;

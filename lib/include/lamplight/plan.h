@@ -123,6 +123,7 @@ struct Plan {
   bool approximate = false;           ///< may miss lights, by the paper's design
   std::uint32_t light_capacity = 0;   ///< the problem's
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
+  std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something
 
   /// Adds a buffer and returns its id.
   ResourceId add(BufferDesc buffer);
@@ -138,6 +139,8 @@ struct DeviceTraits {
   std::uint32_t shared_memory_bytes = 16384;
   std::uint32_t max_image_size = 4096;  ///< pixels a side
   std::uint32_t subgroup_size = 32;
+  bool subgroup_ballot = false;      ///< in compute and fragment shaders
+  bool subgroup_arithmetic = false;  ///< in compute and fragment shaders
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond

@@ -9,10 +9,10 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
 layout(constant_id = 2) const uint SLICES = 24;
-layout(constant_id = 3) const uint NEAR_MM = 500;
-layout(constant_id = 4) const uint FAR_M = 500;
-layout(constant_id = 5) const uint ENTRIES = 1;
-layout(constant_id = 6) const uint SLICE_SCALE = 0;
+layout(constant_id = 3) const uint SLICE_SCALE = 0;
+layout(constant_id = 4) const uint NEAR_MM = 500;
+layout(constant_id = 5) const uint FAR_M = 500;
+layout(constant_id = 6) const uint ENTRIES = 1;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
@@ -21,6 +21,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer ListBuffer { uint lists[];
 uint at = 0u;
 uint end = 0u;  // equal to `at` for a cluster that does not fit
 #define VISIT(light) if (at < end) lists[at++] = light
+#define END_OF_WORD(word)
 #include "methods/cluster_cull.glsl"
 
 void main() {

@@ -1,76 +1,153 @@
-// Clustered culling: tiles cut into slices of depth, without reading the depth buffer; one list of any length a
-// cluster. Based on: Olsson, Billeter, Assarsson, Clustered Deferred and Forward Shading, HPG (2012); Drobot, Improved
-// Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017). Promise: right for any depth of a pixel; count,
-// scan, fill, so lists are compact and ascend. SPDX-License-Identifier: Apache-2.0
+// Clustered culling: tiles cut into slices of depth, without reading the depth buffer; a cluster keeps a list of any
+// length, or a bit for each light. Based on: Olsson, Billeter, Assarsson, Clustered Deferred and Forward Shading, HPG
+// (2012); Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017). Promise: right for any
+// depth of a pixel; count, scan, fill, so lists are compact and ascend. SPDX-License-Identifier: Apache-2.0
+#include <cassert>
+#include <initializer_list>
+
 #include "methods.h"
 #include "parts.h"
 
 namespace lamp {
 namespace {
 
-Plan plan_clustered(const Problem& problem) {
-  const std::uint32_t tile_px = problem.options.integer("tile");
-  const std::uint32_t slices = problem.options.integer("slices");
-  const std::uint32_t near_mm = problem.options.integer("near_mm");
-  const std::uint32_t far_m = problem.options.integer("far_m");
-  const std::uint32_t scale = parts::slice_scale(problem.options.word("scale"));
-  const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
-  const std::uint32_t threads = parts::cull_threads(problem);
-  const auto clusters = static_cast<std::uint32_t>(tiles.count() * slices);
-  const std::uint64_t wanted = std::uint64_t{clusters} * problem.options.integer("mean_capacity");
+/// The grid, and what all passes and the look-up are specialised with.
+struct Clusters {
+  parts::TileGrid tiles;
+  std::uint64_t count;
+  std::uint32_t threads;
+  std::vector<std::uint32_t> constants;  ///< of the look-up; passes have the number of threads before them
+  [[nodiscard]] Extent one_group_a_tile() const { return {.x = tiles.width, .y = tiles.height}; }
+  [[nodiscard]] std::vector<std::uint32_t> pass_constants(std::uint32_t last) const {
+    std::vector<std::uint32_t> all{threads};
+    all.insert(all.end(), constants.begin(), constants.end());
+    all.push_back(last);
+    return all;
+  }
+};
+
+Clusters clusters_of(const Problem& problem) {
+  const Options& o = problem.options;
+  const parts::TileGrid tiles = parts::tile_grid(problem, o.integer("tile"));
+  return {.tiles = tiles,
+          .count = tiles.count() * o.integer("slices"),
+          .threads = parts::cull_threads(problem),
+          .constants = {o.integer("tile"), o.integer("slices"), parts::slice_scale(o.word("scale")),
+                        o.integer("near_mm"), o.integer("far_m")}};
+}
+
+/// Each cluster one flat bit array.
+void add_bits(Plan& plan, const Problem& problem, const Clusters& c, ResourceId bounds) {
+  const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
+  const ResourceId bits = plan.add({.name = "cluster bits", .bytes = c.count * words * 4});
+  plan.passes.push_back({.name = "cluster bits",
+                         .shader = "methods/clustered_bits",
+                         .constants = c.pass_constants(words),
+                         .bindings = {{INPUT_FRAME}, {bounds}, {bits, Access::write}},
+                         .extent = c.one_group_a_tile()});
+  plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),
+                 .constants = c.constants,
+                 .bindings = {{INPUT_FRAME}, {bits}}};
+  plan.lookup.constants.push_back(words);
+}
+
+/// Each cluster a range of one shared list.
+void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId bounds) {
+  const std::uint64_t wanted = c.count * problem.options.integer("mean_capacity");
   const auto entries = static_cast<std::uint32_t>(wanted);  // beyond 32 bits, plan_check refuses the buffer
-
-  Plan plan;
-  plan.cells = clusters;
-  const ResourceId bounds = parts::add_light_bounds(plan, problem);
   const ResourceId counters = parts::add_counters(plan);
-  const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = std::uint64_t{clusters} * 8});
+  const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = c.count * 8});
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
-
-  const std::vector<std::uint32_t> constants{threads, tile_px, slices, near_mm, far_m, entries, scale};
-  const Extent one_group_a_tile{.x = tiles.width, .y = tiles.height};
-  plan.passes = {parts::light_bounds_pass(bounds),
-                 {.name = "cluster count",
-                  .shader = "methods/clustered_count",
-                  .constants = constants,
-                  .bindings = {{INPUT_FRAME}, {bounds}, {ranges, Access::write}},
-                  .extent = one_group_a_tile},
-                 {.name = "cluster scan",
-                  .shader = "methods/clustered_scan",
-                  .constants = {threads, clusters, entries},
-                  .bindings = {{ranges, Access::read_write}, {counters, Access::read_write}}},
-                 {.name = "cluster fill",
-                  .shader = "methods/clustered_fill",
-                  .constants = constants,
-                  .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}},
-                  .extent = one_group_a_tile}};
-  plan.lookup = {.name = "cluster_lists",
-                 .constants = {tile_px, slices, near_mm, far_m, entries, scale},
+  plan.passes.push_back({.name = "cluster count",
+                         .shader = "methods/clustered_count",
+                         .constants = c.pass_constants(entries),
+                         .bindings = {{INPUT_FRAME}, {bounds}, {ranges, Access::write}},
+                         .extent = c.one_group_a_tile()});
+  plan.passes.push_back({.name = "cluster scan",
+                         .shader = "methods/clustered_scan",
+                         .constants = {c.threads, static_cast<std::uint32_t>(c.count), entries},
+                         .bindings = {{ranges, Access::read_write}, {counters, Access::read_write}}});
+  plan.passes.push_back({.name = "cluster fill",
+                         .shader = "methods/clustered_fill",
+                         .constants = c.pass_constants(entries),
+                         .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}},
+                         .extent = c.one_group_a_tile()});
+  plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_lists"),
+                 .constants = c.constants,
                  .bindings = {{INPUT_FRAME}, {ranges}, {lists}}};
+  plan.lookup.constants.push_back(entries);
+}
+
+Plan plan_clustered(const Problem& problem) {
+  const Clusters clusters = clusters_of(problem);
+  Plan plan;
+  plan.cells = clusters.count;
+  const ResourceId bounds = parts::add_light_bounds(plan, problem);
+  plan.passes = {parts::light_bounds_pass(bounds)};
+  const bool bits = problem.options.word("container") == "bits";
+  (bits ? add_bits : add_lists)(plan, problem, clusters, bounds);
   return plan;
+}
+
+std::optional<Error> check_clustered(const Problem& problem) {
+  const bool bits = problem.options.word("container") == "bits";
+  return parts::check_walk(problem.options, bits ? parts::Container::bits : parts::Container::list);
+}
+
+std::vector<OptionSpec> clustered_options(
+    std::initializer_list<std::pair<std::string_view, std::string_view>> fallbacks) {
+  std::vector<OptionSpec> specs{
+      {.key = "tile", .help = "tile size, pixels", .fallback = "64", .choices = {"16", "32", "64"}},
+      {.key = "slices", .help = "slices of depth", .fallback = "24", .min = 1, .max = 32},
+      parts::slice_scale_option("scale", "log"),
+      parts::slice_near_option(),
+      parts::slice_far_option(),
+      {.key = "container", .help = "what a cluster keeps", .fallback = "list", .choices = {"list", "bits"}},
+      parts::walk_option(),
+      {.key = "mean_capacity",
+       .help = "container=list: lights a cluster, on average, that the shared list has room for",
+       .fallback = "512",
+       .min = 1,
+       .max = 65536}};
+  for (const auto& [key, value] : fallbacks) {
+    const auto spec = std::ranges::find(specs, key, &OptionSpec::key);
+    assert(spec != specs.end() && "presets set options that exist");
+    spec->fallback = value;
+  }
+  return specs;
+}
+
+Method row(std::string_view name, std::string_view title, std::string_view source, std::string_view summary) {
+  return {.name = name,
+          .title = title,
+          .source = source,
+          .summary = summary,
+          .result = "cluster_lists",
+          .needs_depth = false,
+          .any_depth = true,
+          .options = clustered_options({}),
+          .plan = plan_clustered,
+          .check = check_clustered};
 }
 
 }  // namespace
 
-Method clustered_method() {
-  return {.name = "clustered",
-          .title = "Clustered culling",
-          .source = "Olsson et al., Clustered Deferred and Forward Shading, HPG (2012)",
-          .summary = "Tiles cut into logarithmic slices of depth; every cluster gets a list, covered by pixels or not.",
-          .result = "cluster_lists",
-          .needs_depth = false,
-          .any_depth = true,
-          .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "64", .choices = {"16", "32", "64"}},
-                      {.key = "slices", .help = "slices of depth", .fallback = "24", .min = 1, .max = 32},
-                      parts::slice_scale_option("scale", "log"),
-                      parts::slice_near_option(),
-                      parts::slice_far_option(),
-                      {.key = "mean_capacity",
-                       .help = "lights a cluster, on average, that the shared list has room for",
-                       .fallback = "512",
-                       .min = 1,
-                       .max = 65536}},
-          .plan = plan_clustered};
+std::vector<Method> clustered_methods() {
+  Method clustered =
+      row("clustered", "Clustered culling", "Olsson et al., Clustered Deferred and Forward Shading, HPG (2012)",
+          "Tiles cut into logarithmic slices of depth; every cluster gets a list, covered by pixels or not.");
+  Method olsson = row(
+      "olsson-clustered", "Olsson, clusters with lists",
+      "Olsson et al., Clustered Deferred and Forward Shading, HPG (2012)",
+      "Tiles of 32 pixels and 32 slices; a cluster points to a list, which a subgroup walks one cluster at a time.");
+  olsson.options = clustered_options({{"tile", "32"}, {"slices", "32"}, {"walk", "scalar-cell"}});
+  Method drobot = row("drobot-clustered", "Drobot, clusters with bits",
+                      "Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017)",
+                      "Tiles of 32 pixels and 18 slices keep bits; a subgroup walks one light at a time.");
+  drobot.result = "cluster_bits";
+  drobot.options =
+      clustered_options({{"tile", "32"}, {"slices", "18"}, {"container", "bits"}, {"walk", "scalar-entity"}});
+  return {clustered, olsson, drobot};
 }
 
 }  // namespace lamp

@@ -147,7 +147,7 @@ Plan plan_drobot_zbin(const Problem& problem) {
                          .constants = {s.threads, s.tile_px, s.words},
                          .bindings = {{INPUT_FRAME}, {b.sorted}, {b.bits, Access::write}},
                          .extent = {.x = s.tiles.width, .y = s.tiles.height}});
-  plan.lookup = {.name = "tile_zbins",
+  plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_zbins"),
                  .constants = {s.tile_px, s.words, s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U},
                  .bindings = {{INPUT_FRAME}, {b.bits}, {b.bins}, {b.order}}};
   return plan;
@@ -174,8 +174,10 @@ Method drobot_zbin_method() {
             .choices = {"uniform", "log2"}},
            parts::slice_near_option(),
            parts::slice_far_option(),
+           parts::walk_option("scalar-entity"),
            {.key = "sort", .help = "where lights are sorted and binned", .fallback = "gpu", .choices = {"gpu", "cpu"}}},
-      .plan = plan_drobot_zbin};
+      .plan = plan_drobot_zbin,
+      .check = [](const Problem& problem) { return parts::check_walk(problem.options, parts::Container::bits); }};
 }
 
 }  // namespace lamp

@@ -9,7 +9,8 @@ namespace lamp {
 [[nodiscard]] Method all_method();
 /// `tiled`, its containers, and the presets of the sources.
 [[nodiscard]] std::vector<Method> tiled_methods();
-[[nodiscard]] Method clustered_method();
+/// `clustered`, and the presets of its sources.
+[[nodiscard]] std::vector<Method> clustered_methods();
 [[nodiscard]] Method drobot_zbin_method();
 [[nodiscard]] Method lamplight_method();
 

@@ -22,6 +22,33 @@ ResourceId add_counters(Plan& plan) {
   return plan.counters;
 }
 
+OptionSpec walk_option(std::string_view fallback) {
+  return {.key = "walk",
+          .help = "each thread by itself, or all threads of a subgroup one cell (lists) or one light (bits) at a time",
+          .fallback = fallback,
+          .choices = {"plain", "scalar-cell", "scalar-entity"}};
+}
+
+std::optional<Error> check_walk(const Options& options, Container container) {
+  const std::string& walk = options.word("walk");
+  if (container == Container::bits && walk == "scalar-cell")
+    return Error{"option walk", "scalar-cell walks the list of one cell at a time; bits go with scalar-entity"};
+  if (container == Container::list && walk == "scalar-entity")
+    return Error{"option walk", "scalar-entity walks merged bits one light at a time; lists go with scalar-cell"};
+  return std::nullopt;
+}
+
+std::string walk_lookup(Plan& plan, const Problem& problem, std::string_view plain) {
+  const std::string& walk = problem.options.word("walk");
+  std::string name(plain);
+  if (walk == "plain") return name;
+  const bool by_cell = walk == "scalar-cell";
+  if (by_cell ? problem.traits.subgroup_ballot : problem.traits.subgroup_arithmetic) return name += "_scalar";
+  plan.notes.push_back("walk=plain instead of " + walk + ": the device has no subgroup " +
+                       (by_cell ? "ballot" : "arithmetic") + " in compute and fragment shaders");
+  return name;
+}
+
 OptionSpec slice_scale_option(std::string_view key, std::string_view fallback) {
   return {.key = key,
           .help = "slices of depth grow by a constant factor, or have the same length",
