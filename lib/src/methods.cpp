@@ -14,6 +14,8 @@ std::span<const Method> methods() {
     std::ranges::copy(tiled_methods(), std::back_inserter(rows));
     std::ranges::copy(clustered_methods(), std::back_inserter(rows));
     rows.push_back(drobot_zbin_method());
+    rows.push_back(drobot_raster_tile_method());
+    rows.push_back(drobot_raster_cluster_method());
     rows.push_back(lamplight_method());
     return rows;
   }();

@@ -12,6 +12,8 @@ namespace lamp {
 /// `clustered`, and the presets of its sources.
 [[nodiscard]] std::vector<Method> clustered_methods();
 [[nodiscard]] Method drobot_zbin_method();
+[[nodiscard]] Method drobot_raster_tile_method();
+[[nodiscard]] Method drobot_raster_cluster_method();
 [[nodiscard]] Method lamplight_method();
 
 }  // namespace lamp
