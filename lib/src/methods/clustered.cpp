@@ -133,7 +133,7 @@ Method row(std::string_view name, std::string_view title, std::string_view sourc
 }  // namespace
 
 std::vector<Method> clustered_methods() {
-  Method clustered =
+  const Method clustered =
       row("clustered", "Clustered culling", "Olsson et al., Clustered Deferred and Forward Shading, HPG (2012)",
           "Tiles cut into logarithmic slices of depth; every cluster gets a list, covered by pixels or not.");
   Method olsson = row(

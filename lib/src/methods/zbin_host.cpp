@@ -1,7 +1,7 @@
-// Z-binning on the CPU: radix sort by depth, then a segment tree over the bins, so that long lights cost no more.
-// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), Z-binning; Bentley's
-// segment tree (1977). Promise: the same ranks as the GPU's passes, but for rounding. SPDX-License-Identifier:
-// Apache-2.0
+// Z-binning on the CPU: radix sort by depth, then a light marks two runs of bins, however many it reaches, and long
+// runs are cut in halves. Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances
+// (2017), Z-binning; Bender, Farach-Colton, The LCA Problem Revisited (2000), whose sparse table this turns around.
+// Promise: the same ranks as the GPU's passes, but for rounding. SPDX-License-Identifier: Apache-2.0
 #include "zbin_host.h"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "lamplight/shared/slices.h"
 
@@ -47,10 +48,35 @@ std::uint32_t sort_key(const DepthSpan& span) {
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-/// A node holds the ranks of lights that cover all bins below it.
-void mark(std::vector<BinRanks>& tree, std::uint32_t node, std::uint32_t rank) {
-  tree[node].least = std::min(tree[node].least, rank);
-  tree[node].greatest = std::max(tree[node].greatest, rank);
+/// Ranks of lights by runs of 2^level bins; a level without lights has no rows yet.
+using Runs = std::vector<std::vector<BinRanks>>;
+
+/// Ranks come in ascending order, so the first is the least and the last the greatest.
+void mark(BinRanks& run, std::uint32_t rank) {
+  run.least = std::min(run.least, rank);
+  run.greatest = rank;
+}
+
+/// Two runs that may overlap cover a light's bins, however many they are.
+Runs mark_runs(const BinScale& scale, std::span<const DepthSpan> spans, std::span<const std::uint32_t> order) {
+  Runs runs(std::bit_width(scale.bins));
+  for (std::uint32_t rank = 0; rank < order.size(); ++rank) {
+    const DepthSpan& span = spans[order[rank]];
+    if (span.far < span.near) break;  // the rest reach nothing
+    const std::uint32_t first = bin_of(scale, span.near - shared::SLICE_ROUNDING * std::abs(span.near));
+    const std::uint32_t last = bin_of(scale, span.far + shared::SLICE_ROUNDING * std::abs(span.far));
+    const std::uint32_t level = std::bit_width(last - first + 1) - 1;
+    std::vector<BinRanks>& row = runs[level];
+    if (row.empty()) row.resize(scale.bins);
+    mark(row[first], rank);
+    mark(row[last + 1 - (1U << level)], rank);
+  }
+  return runs;
+}
+
+void merge(BinRanks& into, const BinRanks& ranks) {
+  into.least = std::min(into.least, ranks.least);
+  into.greatest = std::max(into.greatest, ranks.greatest);
 }
 
 }  // namespace
@@ -99,27 +125,19 @@ std::uint32_t bin_of(const BinScale& scale, double z_view) {
 
 std::vector<BinRanks> bin_ranks(const BinScale& scale, std::span<const DepthSpan> spans,
                                 std::span<const std::uint32_t> order) {
-  const std::uint32_t leaves = std::bit_ceil(scale.bins);
-  std::vector<BinRanks> tree(std::size_t{2} * leaves);
-  for (std::uint32_t rank = 0; rank < order.size(); ++rank) {
-    const DepthSpan& span = spans[order[rank]];
-    if (span.far < span.near) break;  // the rest reach nothing
-    const double near = span.near - shared::SLICE_ROUNDING * std::abs(span.near);
-    const double far = span.far + shared::SLICE_ROUNDING * std::abs(span.far);
-    std::uint32_t left = bin_of(scale, near) + leaves;
-    std::uint32_t right = bin_of(scale, far) + leaves + 1;
-    for (; left < right; left /= 2, right /= 2) {
-      if ((left & 1U) != 0) mark(tree, left++, rank);
-      if ((right & 1U) != 0) mark(tree, --right, rank);
+  Runs runs = mark_runs(scale, spans, order);
+  for (std::size_t level = runs.size(); --level > 0;) {
+    if (runs[level].empty()) continue;  // and so are all longer ones
+    std::vector<BinRanks>& shorter = runs[level - 1];
+    shorter.resize(scale.bins);
+    const std::size_t half = std::size_t{1} << (level - 1);
+    for (std::size_t bin = 0; bin + 2 * half <= scale.bins; ++bin) {
+      merge(shorter[bin], runs[level][bin]);
+      merge(shorter[bin + half], runs[level][bin]);
     }
   }
-  for (std::uint32_t node = 2; node < tree.size(); ++node) {
-    const BinRanks& above = tree[node / 2];
-    tree[node] = {std::min(tree[node].least, above.least), std::max(tree[node].greatest, above.greatest)};
-  }
-  tree.erase(tree.begin(), tree.begin() + leaves);
-  tree.resize(scale.bins);
-  return tree;
+  runs[0].resize(scale.bins);
+  return std::move(runs[0]);
 }
 
 void sort_into_bins(const HostContext& context) {
