@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-struct ScalarWalk {
+struct WalkMerged {
   Walk own;
   uint word;      // the next word to read
   uint end;       // of the words that some thread has
@@ -15,15 +15,15 @@ struct ScalarWalk {
   bool mine;      // the light is among the thread's own
 };
 
-ScalarWalk scalar_begin(Walk own) {
+WalkMerged walk_begin_merged(Walk own) {
   const bool any_bit = own.begin < own.end;
   const uint word = subgroupMin(any_bit ? own.begin / 32u : ~0u);
   const uint end = subgroupMax(any_bit ? (own.end + 31u) / 32u : 0u);
-  return ScalarWalk(own, word, end, 0u, 0u, false);
+  return WalkMerged(own, word, end, 0u, 0u, false);
 }
 
 // A thread's own bits are always among the merged ones, so threads that have parted company lose nothing.
-bool scalar_next(inout ScalarWalk walk, out uint light) {
+bool walk_next_merged(inout WalkMerged walk, out uint light) {
   while (walk.bits == 0u) {
     if (walk.word >= walk.end) return false;
     walk.own_bits = lookup_word(walk.own, walk.word);
@@ -38,5 +38,5 @@ bool scalar_next(inout ScalarWalk walk, out uint light) {
 }
 
 #define LOOKUP_EACH(light, pixel, z_view)                                        \
-  for (ScalarWalk lookup_walk = scalar_begin(walk_begin(pixel, z_view)); scalar_next(lookup_walk, light);) \
+  for (WalkMerged lookup_walk = walk_begin_merged(walk_begin(pixel, z_view)); walk_next_merged(lookup_walk, light);) \
     if (lookup_walk.mine)

@@ -6,27 +6,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_ballot : require
 
-struct ScalarTurns {
+struct WalkTurns {
   uint cell;  // the thread's own
   uint turn;  // the one that is walked
   bool done;  // the own one has its turn, or had it
 };
 
-ScalarTurns turns_begin(uint cell) { return ScalarTurns(cell, 0u, false); }
+WalkTurns walk_begin_turns(uint cell) { return WalkTurns(cell, 0u, false); }
 
 // The first thread that is left decides, so every turn ends at least one thread's waiting.
-bool turns_next(inout ScalarTurns turns) {
+bool walk_next_turn(inout WalkTurns turns) {
   if (turns.done) return false;
   turns.turn = subgroupBroadcastFirst(turns.cell);
   turns.done = turns.turn == turns.cell;
   return true;
 }
 
-Walk walk_of_turn(ScalarTurns turns) {
+Walk walk_of_turn(WalkTurns turns) {
   if (turns.done) return walk_of_cell(turns.turn);
   return Walk(0u, 0u, false);  // nothing
 }
 
 #define LOOKUP_EACH(light, pixel, z_view)                                                                    \
-  for (ScalarTurns lookup_turns = turns_begin(lookup_cell(pixel, z_view)); turns_next(lookup_turns);) \
+  for (WalkTurns lookup_turns = walk_begin_turns(lookup_cell(pixel, z_view)); walk_next_turn(lookup_turns);) \
     for (Walk lookup_walk = walk_of_turn(lookup_turns); walk_next(lookup_walk, light);)

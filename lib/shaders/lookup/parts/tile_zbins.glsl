@@ -35,6 +35,7 @@ uint lookup_tile(uvec2 pixel) {
   return tile.x + (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX * tile.y;
 }
 
+// Beyond 2^32 cells, numbers come again; statistics alone ask for them.
 uint lookup_cell(uvec2 pixel, float z_view) {
   const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
   return lookup_tile(pixel) + tiles.x * tiles.y * slice_of(z_view);
