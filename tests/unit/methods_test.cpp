@@ -251,6 +251,28 @@ TEST_P(EveryMethod, WalksPlainlyAndSaysSoWhereTheDeviceLacksAnOperation) {
   EXPECT_EQ(scalar_walks, name == "tile_typed" ? 0 : 1);
 }
 
+TEST(RasterisedCulling, LeavesCoverageToTheDeviceOnlyIfItCan) {
+  DeviceTraits able = SOFTWARE;
+  able.conservative_raster = true;
+  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
+    const Method& method = *lamp::find_method(name).value();
+    const auto options = lamp::resolve_options(method, {"raster=conservative"}).value();
+    const auto plan = [&](const DeviceTraits& traits) {
+      return lamp::make_plan(method,
+                             {.width = 65, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
+          .value();
+    };
+    const lamp::RasterState by_device = plan(able).passes.back().raster;
+    EXPECT_TRUE(by_device.conservative);
+    EXPECT_EQ(glm::uvec2(by_device.width, by_device.height), glm::uvec2(9, 8));
+    EXPECT_TRUE(plan(able).notes.empty());
+    EXPECT_TRUE(lamp::plan_check(plan(able), SOFTWARE)) << "a device that cannot";
+    EXPECT_FALSE(plan(SOFTWARE).passes.back().raster.conservative);
+    ASSERT_EQ(plan(SOFTWARE).notes.size(), 1U);
+    EXPECT_TRUE(plan(SOFTWARE).notes[0].starts_with("raster=half-msaa instead of conservative"));
+  }
+}
+
 TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
   for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
     const Method& method = *lamp::find_method(name).value();

@@ -66,6 +66,7 @@ struct RasterState {
   std::uint32_t width = 0;    ///< viewport, pixels
   std::uint32_t height = 0;   ///< viewport, pixels
   std::uint32_t samples = 1;  ///< 1 or 4: what every device has without attachments
+  bool conservative = false;  ///< every pixel that a triangle touches; only where DeviceTraits has it
   enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
 };
 
@@ -141,6 +142,7 @@ struct DeviceTraits {
   std::uint32_t subgroup_size = 32;
   bool subgroup_ballot = false;      ///< in compute and fragment shaders
   bool subgroup_arithmetic = false;  ///< in compute and fragment shaders
+  bool conservative_raster = false;  ///< VK_EXT_conservative_rasterization is enabled
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond

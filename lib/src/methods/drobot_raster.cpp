@@ -13,15 +13,23 @@ namespace {
 
 /// How tiles are sampled.
 struct Raster {
-  std::uint32_t pixel;    ///< pixels the side of a raster pixel
-  std::uint32_t samples;  ///< of a raster pixel
-  double reach_px;        ///< the nearest sample of the raster pixel is at most that far from a pixel's centre
+  std::uint32_t pixel = 1;    ///< pixels the side of a raster pixel
+  std::uint32_t samples = 1;  ///< of a raster pixel
+  double reach_px = 0.0;      ///< the nearest sample of the raster pixel is at most that far from a pixel's centre
+  bool conservative = false;  ///< the device finds every raster pixel that a triangle touches
   [[nodiscard]] bool exact() const { return pixel == 1 && samples == 1; }  ///< samples are pixels' centres
 };
 
 /// Vulkan's standard places of four samples: within 0.4 of a raster pixel's side from any point of it. Corners of
 /// triangles are snapped to 1 / 256 of a raster pixel or finer; 0.05 covers that.
-Raster raster_of(const std::string& word) {
+Raster raster_of(Plan& plan, const Problem& problem) {
+  std::string word = problem.options.word("raster");
+  if (word == "conservative" && problem.traits.conservative_raster)
+    return {.pixel = 8, .samples = 1, .reach_px = 0.05 * 8, .conservative = true};
+  if (word == "conservative") {
+    word = "half-msaa";
+    plan.notes.emplace_back("raster=half-msaa instead of conservative: the device has no conservative rasterization");
+  }
   if (word == "half-msaa") return {.pixel = 2, .samples = 4, .reach_px = 0.45 * 2};
   if (word == "quarter-msaa") return {.pixel = 4, .samples = 4, .reach_px = 0.45 * 4};
   return {.pixel = 1, .samples = 1, .reach_px = 0.05};
@@ -71,6 +79,7 @@ Pass draw_pass(const Problem& problem, const Raster& raster, const Buffers& b, c
                      .width = parts::divide_up(problem.width, raster.pixel),
                      .height = parts::divide_up(problem.height, raster.pixel),
                      .samples = raster.samples,
+                     .conservative = raster.conservative,
                      .cull = draw.cull}};
 }
 
@@ -97,9 +106,9 @@ Plan plan_raster_tile(const Problem& problem) {
   using Cull = RasterState::Cull;
   const std::uint32_t tile_px = problem.options.integer("tile");
   const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
-  const Raster raster = raster_of(problem.options.word("raster"));
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
   Plan plan;
+  const Raster raster = raster_of(plan, problem);
   plan.cells = tiles.count();
   Buffers b = add_proxies(plan, problem, raster);
   b.bits = plan.add({.name = "tile bits", .bytes = tiles.count() * words * 4, .zeroed = true});
@@ -125,11 +134,11 @@ Plan plan_raster_cluster(const Problem& problem) {
   using Cull = RasterState::Cull;
   const Options& o = problem.options;
   const std::uint64_t clusters = parts::tile_grid(problem, o.integer("tile")).count() * o.integer("slices");
-  const Raster raster = raster_of(o.word("raster"));
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
   const std::vector<std::uint32_t> slices{o.integer("slices"), parts::slice_scale(o.word("scale")),
                                           o.integer("near_mm"), o.integer("far_m")};
   Plan plan;
+  const Raster raster = raster_of(plan, problem);
   plan.cells = clusters;
   Buffers b = add_proxies(plan, problem, raster);
   b.bits = plan.add({.name = "cluster bits", .bytes = clusters * words * 4, .zeroed = true});
@@ -159,9 +168,9 @@ std::optional<Error> check_raster_walk(const Problem& problem) {
 
 OptionSpec raster_option() {
   return {.key = "raster",
-          .help = "full resolution, or four samples a pixel at half or a quarter of it",
+          .help = "full resolution; four samples a pixel at half or a quarter of it; by 8 pixels, found by the device",
           .fallback = "half-msaa",
-          .choices = {"full", "half-msaa", "quarter-msaa"}};
+          .choices = {"full", "half-msaa", "quarter-msaa", "conservative"}};
 }
 
 OptionSpec compact_option() {

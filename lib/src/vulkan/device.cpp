@@ -42,6 +42,11 @@ RequiredFeatures::RequiredFeatures() {
 
 std::span<const char* const> required_extensions() { return EXTENSIONS; }
 
+std::vector<const char*> useful_extensions(VkPhysicalDevice physical) {
+  if (!has_extension(physical, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)) return {};
+  return {VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
+}
+
 std::optional<Error> check_device(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(physical, &properties);

@@ -38,7 +38,9 @@ PipelineInfo pipeline_info(const Pass& pass) {
 
 GraphicsState graphics_state(const RasterState& raster) {
   constexpr VkCullModeFlags CULL[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT};
-  return {.cull = CULL[static_cast<int>(raster.cull)], .samples = static_cast<VkSampleCountFlagBits>(raster.samples)};
+  return {.cull = CULL[static_cast<int>(raster.cull)],
+          .samples = static_cast<VkSampleCountFlagBits>(raster.samples),
+          .conservative = raster.conservative};
 }
 
 Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const ShaderSource& shaders) {
