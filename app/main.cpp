@@ -24,12 +24,14 @@ constexpr const char* WELCOME =
     "  lamp render --heatmap heat.png               and how many lights each part of it sees\n"
     "  lamp verify                                  is any light missed? every method, against the oracle\n"
     "  lamp compare tiled clustered                 two methods side by side: compare.png\n"
+    "  lamp capture --out frame                     one frame as files, a scene for every command\n"
     "  lamp list methods                            what there is\n"
-    "`lamp COMMAND --help` explains each.\n";
+    "`lamp COMMAND --help` explains each; `lamp --version` says which release this is.\n";
 
 int run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
   app.require_subcommand(0, 1);
+  app.set_version_flag("--version", "lamp " LAMP_VERSION, "Print the version and exit");
   app.footer(
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png\n"
@@ -38,6 +40,7 @@ int run(int argc, char** argv) {
   const std::vector<std::pair<const char*, Run>> commands{{"render", lamp::app::add_render(app)},
                                                           {"verify", lamp::app::add_verify(app)},
                                                           {"compare", lamp::app::add_compare(app)},
+                                                          {"capture", lamp::app::add_capture(app)},
                                                           {"list", lamp::app::add_list(app)}};
   try {
     app.parse(argc, argv);

@@ -15,6 +15,7 @@ using Run = std::function<Exit()>;
 [[nodiscard]] Run add_render(CLI::App& app);
 [[nodiscard]] Run add_verify(CLI::App& app);
 [[nodiscard]] Run add_compare(CLI::App& app);
+[[nodiscard]] Run add_capture(CLI::App& app);
 [[nodiscard]] Run add_list(CLI::App& app);
 
 }  // namespace lamp::app

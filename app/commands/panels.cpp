@@ -62,26 +62,38 @@ LdrImage legend(std::uint32_t width, std::uint32_t height, std::uint32_t scale_m
   return image;
 }
 
+/// A test, and what its tiles were found to hold.
 struct Row {
   std::string options;
-  Findings findings;
-  bool approximate;
+  Lighting lighting;
+  Verification verification;
 };
 
-Row measure(Session& session, const Setup& setup, const std::vector<std::string>& options,
-            std::span<const float> depth) {
-  Lighting lighting = session.lighting(parse_method("tiled"), options, ShadingPath::deferred);
-  Verification verification(setup.view.width());
+/// Bits, because a list that overflows would count as every light.
+Row make_row(Session& session, const Setup& setup, std::vector<std::string> options) {
+  const std::string words = fmt::format("{}", fmt::join(options, " "));
+  options.emplace_back("container=bits");
+  return {words, session.lighting(parse_method("tiled"), options, ShadingPath::deferred),
+          Verification(setup.view.width())};
+}
+
+std::vector<Row> measure(Session& session, const Setup& setup) {
+  std::vector<Row> rows;
+  for (const std::vector<std::string>& options : tests()) rows.push_back(make_row(session, setup, options));
+  static_cast<void>(session.renderer().render(rows.front().lighting));  // for its depth
+  const std::vector<float> depth = session.renderer().read_depth();
   for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
-                 [&](const Truth& truth) { verification.add(truth, session.renderer().visit(lighting, truth)); });
-  return {fmt::format("{}", fmt::join(options, " ")), verification.findings(), lighting.runner().plan().approximate};
+                 [&](const Truth& truth) {
+                   for (Row& row : rows) row.verification.add(truth, session.renderer().visit(row.lighting, truth));
+                 });
+  return rows;
 }
 
 void print_rows(std::span<const Row> rows, bool json) {
   nlohmann::json array = nlohmann::json::array();
   if (!json) fmt::print("{:<62} {:>8} {:>8} {:>8} {:>8}\n", "test", "excess", "waste", "mean", "missed");
   for (const Row& row : rows) {
-    const Findings& f = row.findings;
+    const Findings f = row.verification.findings();
     if (json)
       array.push_back({{"options", row.options},
                        {"excess", f.excess()},
@@ -101,11 +113,8 @@ LdrImage stacked(const LdrImage& above, const LdrImage& below) {
   return image;
 }
 
-}  // namespace
-
-Exit draw_panels(const Request& request, const std::filesystem::path& out, bool json) {
-  const Setup setup = make_setup(request);
-  Session session(request, setup);
+/// Picture, legend and heat maps on one scale, six panels.
+LdrImage panels_of(Session& session) {
   std::vector<std::vector<std::uint32_t>> counts;
   LdrImage picture;
   std::uint32_t most = 1;
@@ -124,14 +133,20 @@ Exit draw_panels(const Request& request, const std::filesystem::path& out, bool 
   picture.pixels.resize(std::size_t{picture.width} * picture.height, glm::u8vec4(16, 16, 20, 255));
   const LdrImage top[] = {picture, legend(picture.width, picture.height, scale), maps[0]};
   const LdrImage bottom[] = {maps[1], maps[2], maps[3]};
-  write_png(out, stacked(side_by_side(top), side_by_side(bottom)));
+  return stacked(side_by_side(top), side_by_side(bottom));
+}
 
-  std::vector<Row> rows;
-  const std::vector<float> depth = session.renderer().read_depth();
-  for (const std::vector<std::string>& options : tests()) rows.push_back(measure(session, setup, options, depth));
+}  // namespace
+
+Exit draw_panels(const Request& request, const std::filesystem::path& out, bool json) {
+  const Setup setup = make_setup(request);
+  Session session(request, setup);
+  std::vector<Row> rows = measure(session, setup);
   print_rows(rows, json);
+  write_png(out, panels_of(session));
   if (!json) fmt::print("panels: {}\n", out.string());
-  const bool missed = std::ranges::any_of(rows, [](const Row& r) { return r.findings.missed != 0 && !r.approximate; });
+  const bool missed = std::ranges::any_of(
+      rows, [](Row& r) { return r.verification.findings().missed != 0 && !r.lighting.runner().plan().approximate; });
   return missed ? Exit::check_failed : Exit::done;
 }
 

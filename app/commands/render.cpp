@@ -10,6 +10,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
+#include "render/antialias.h"
 
 namespace lamp::app {
 namespace {
@@ -22,6 +23,7 @@ struct RenderOptions {
   std::string stats;
   std::string exposure = "auto";
   std::uint32_t frames = 0;
+  std::uint32_t samples = 4;
   bool json = false;
 };
 
@@ -98,10 +100,13 @@ Exit render(const RenderOptions& o) {
   const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
   Rendered rendered = session.renderer().render(lighting, frames, software ? 0 : 3);
 
-  const LdrImage toned = tone_map(rendered.image, exposure ? *exposure : automatic_exposure(rendered.image));
-  write_picture(with_folder(o.out), rendered.image, toned);
+  const std::vector<gpu::Visit> visits = visit_all(session, lighting);  // of the frame whose numbers are told
+  const HdrImage image =
+      average_samples(session.renderer(), lighting, setup.lights, std::move(rendered.image), o.samples);
+
+  const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
+  write_picture(with_folder(o.out), image, toned);
   Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
-  const std::vector<gpu::Visit> visits = visit_all(session, lighting);
   stats.findings = walked(visits, setup.view.width(), setup.view.height());
   const std::vector<std::uint32_t> counts = walked_lights(visits);
   const std::string title = fmt::format("{}, {} lights", method.name, stats.lights);
@@ -131,6 +136,9 @@ Run add_render(CLI::App& app) {
   command->add_option("--exposure", o->exposure, "auto or a factor")->capture_default_str();
   command->add_option("--frames", o->frames, "frames to time; default: 20, on a software device 1")
       ->check(whole_number(1, 100000));
+  command->add_option("--samples", o->samples, "of the picture, a pixel; numbers and heat maps are of the first")
+      ->check(whole_number(1, 1024))
+      ->capture_default_str();
   command->add_flag("--json", o->json, "print the numbers as JSON");
   command->footer(
       "Examples:\n"

@@ -11,6 +11,7 @@
 #include "commands/command_line.h"
 #include "gpu/check.h"
 #include "scene/builtin.h"
+#include "scene/capture.h"
 #include "scene/flight.h"
 #include "scene/gltf.h"
 #include "scene/place_lights.h"
@@ -55,14 +56,44 @@ void check_scene_lights(const Scene& scene) {
   if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
 }
 
+/// A capture is one view. What asks for another is an error.
+View captured_view(const Request& request, const Scene& scene) {
+  const View& view = scene.captured->view;
+  const glm::uvec2 size = parse_size(request.size);
+  if (request.size_given && size != glm::uvec2(view.width(), view.height()))
+    throw Error(fmt::format("--size '{}': the capture {} has {}x{} pixels, and no others", request.size, request.scene,
+                            view.width(), view.height()));
+  if (request.projection != "camera")
+    throw Error(fmt::format("--projection '{}': the capture {} has its own, expected none or camera",
+                            request.projection, request.scene));
+  static_cast<void>(find_camera(scene, request.camera));
+  if (request.frame >= 0) throw Error(fmt::format("--frame: the capture {} is one frame", request.scene));
+  return view;
+}
+
+View requested_view(const Request& request, const Scene& scene) {
+  if (scene.captured) return captured_view(request, scene);
+  const glm::uvec2 size = parse_size(request.size);
+  if (request.frame < 0) return view_of(find_camera(scene, request.camera), size.x, size.y, request.projection);
+  if (!scene.flight) throw Error(fmt::format("scene '{}': has no camera flight for --frame", request.scene));
+  return view_of(flight_camera(*scene.flight, static_cast<std::uint32_t>(request.frame)), size.x, size.y,
+                 request.projection);
+}
+
 }  // namespace
 
 void add_common_options(CLI::App& command, Request& r) {
-  command.add_option("scene,--scene", r.scene, "a built-in scene (lamp list scenes), or a .gltf or .glb file")
+  command
+      .add_option("scene,--scene", r.scene,
+                  "a built-in scene (lamp list scenes), a .gltf or .glb file, or the folder of a capture")
       ->capture_default_str();
-  command.add_option("--size", r.size, "picture size, WIDTHxHEIGHT")->capture_default_str();
-  command.add_option("--lights", r.lights, "generated lights, besides the scene's own")
+  command.add_option("--size", r.size, "picture size, WIDTHxHEIGHT; a capture has its own")
+      ->each([&r](const std::string&) { r.size_given = true; })
+      ->capture_default_str();
+  command
+      .add_option("--lights", r.lights, "generated lights, besides the scene's own; to a capture, none unless given")
       ->check(whole_number(0, MAX_LIGHTS))
+      ->each([&r](const std::string&) { r.lights_given = true; })
       ->capture_default_str();
   command.add_option("--spots", r.spots, "fraction of the generated lights that are spots, 0 to 1")
       ->check(CLI::Range(0.0F, 1.0F))
@@ -124,29 +155,29 @@ void check_request(const Request& request, const Method& method) {
 Scene load_scene(const std::string& name) {
   const auto builtin = std::ranges::find(builtin_scenes(), std::string_view(name), &BuiltinScene::name);
   if (builtin != builtin_scenes().end()) return builtin->make();
-  const std::string extension = fs::path(name).extension().string();
-  if (extension == ".gltf" || extension == ".glb") return load_gltf(fs::path(name));
+  const fs::path path(name);
+  std::error_code not_there;
+  if (fs::is_directory(path, not_there)) return load_capture(path);
+  if (path.filename() == CAPTURE_FILE) return load_capture(path.has_parent_path() ? path.parent_path() : ".");
+  const std::string extension = path.extension().string();
+  if (extension == ".gltf" || extension == ".glb") return load_gltf(path);
   std::vector<std::string_view> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
-  throw Error(fmt::format("scene '{}': is neither a built-in scene nor a .gltf or .glb file; the nearest are {}", name,
-                          fmt::join(nearest_names(name, names), ", ")));
+  throw Error(
+      fmt::format("scene '{}': is neither a built-in scene nor a .gltf or .glb file nor the folder of a capture; the "
+                  "nearest are {}",
+                  name, fmt::join(nearest_names(name, names), ", ")));
 }
 
 Setup make_setup(const Request& request) {
-  const glm::uvec2 size = parse_size(request.size);
   const auto [min_range, max_range] = parse_range(request.range);
   Setup setup;
   setup.scene = load_scene(request.scene);
   check_scene_lights(setup.scene);
-  Camera camera = find_camera(setup.scene, request.camera);
-  if (request.frame >= 0) {
-    if (!setup.scene.flight) throw Error(fmt::format("scene '{}': has no camera flight for --frame", request.scene));
-    camera = flight_camera(*setup.scene.flight, static_cast<std::uint32_t>(request.frame));
-  }
-  setup.view = view_of(camera, size.x, size.y, request.projection);
+  setup.view = requested_view(request, setup.scene);
 
-  const std::vector<Light> generated =
-      place_lights(setup.scene, {.count = request.lights,
+  setup.generated =
+      place_lights(setup.scene, {.count = setup.scene.captured && !request.lights_given ? 0 : request.lights,
                                  .spots = request.spots,
                                  .min_range = min_range,
                                  .max_range = max_range,
@@ -154,10 +185,10 @@ Setup make_setup(const Request& request) {
                                  .frame = static_cast<std::uint32_t>(std::max(0, request.frame)),
                                  .frames = setup.scene.flight ? setup.scene.flight->frames : 300});
   setup.lights = pack(setup.scene.lights);
-  const std::vector<shared::Light> packed = pack(generated);
+  const std::vector<shared::Light> packed = pack(setup.generated);
   setup.lights.insert(setup.lights.end(), packed.begin(), packed.end());
-  setup.lights_note = fmt::format("{} generated{} + {} of the scene", generated.size(), range_note(generated),
-                                  setup.scene.lights.size());
+  setup.lights_note = fmt::format("{} generated{} + {} of the scene", setup.generated.size(),
+                                  range_note(setup.generated), setup.scene.lights.size());
   return setup;
 }
 
@@ -180,7 +211,8 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
            .light_capacity = static_cast<std::uint32_t>(setup_.lights.size()),
            .path = path,
            .brdf = brdf_,
-           .transparency = !gpu_scene_->blended().empty()}};
+           .transparency = !gpu_scene_->blended().empty(),
+           .captured = setup_.scene.captured.has_value()}};
 }
 
 }  // namespace lamp::app

@@ -17,7 +17,9 @@ namespace lamp::app {
 struct Request {
   std::string scene = "atrium";
   std::string size = "1280x720";
+  bool size_given = false;  ///< on the command line: a capture has its own
   std::uint32_t lights = 4096;
+  bool lights_given = false;  ///< on the command line: to a capture, lights are added when asked for
   float spots = 0.5F;
   std::string range;  ///< "MIN:MAX", empty: automatic
   std::uint64_t seed = 1;
@@ -45,12 +47,13 @@ void check_request(const Request& request, const Method& method);
 struct Setup {
   Scene scene;
   View view;
-  std::vector<shared::Light> lights;
-  std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
+  std::vector<Light> generated;       ///< besides the scene's own
+  std::vector<shared::Light> lights;  ///< the scene's, then the generated ones
+  std::string lights_note;            ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
 };
 [[nodiscard]] Setup make_setup(const Request& request);
 
-/// The scene of a name or a file. Throws Error with the nearest names.
+/// The scene of a name, a file or a capture's folder. Throws Error with the nearest names.
 [[nodiscard]] Scene load_scene(const std::string& name);
 
 /// "1280x720" to numbers, each 1 or more.

@@ -60,8 +60,10 @@ nlohmann::json to_json(const Stats& s) {
     json["list_max"] = f.list_max;
     if (s.verified)
       json.update({{"missed", f.missed}, {"useful", f.useful}, {"waste", f.waste()}, {"excess", f.excess()}});
+    if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
   if (s.image_max_abs_diff) json["image_max_abs_diff"] = *s.image_max_abs_diff;
+  if (s.image_tolerance) json["image_tolerance"] = *s.image_tolerance;
   return json;
 }
 

@@ -29,6 +29,7 @@ struct Stats {
   bool approximate = false;  ///< the plan may miss lights
   bool verified = false;     ///< the findings were held against a truth
   std::optional<float> image_max_abs_diff;
+  std::optional<float> image_tolerance;  ///< how large it may be
 };
 
 /// Fills what request, session and lighting know.

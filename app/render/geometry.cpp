@@ -30,6 +30,7 @@ Geometry::Geometry(const vulkan::Device& device, const ShaderLibrary& shaders) {
 
 void Geometry::record_depth(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
                             const Targets& targets) const {
+  if (scene.captured() != nullptr) return scene.captured()->record(recorder, targets);
   const Attachments attachments{.depth = &targets.depth};
   recorder.begin_pass("depth pre-pass", with_frame(attachment_uses(attachments), frame));
   begin_rendering(recorder.commands(), attachments, targets);
@@ -44,6 +45,7 @@ void Geometry::record_depth(vulkan::Recorder& recorder, const GpuScene& scene, c
 
 void Geometry::record_gbuffer(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
                               const Targets& targets) const {
+  if (scene.captured() != nullptr) return scene.captured()->record(recorder, targets);
   const Attachments attachments{
       .colors = {{&targets.base_color, Load::clear}, {&targets.surface, Load::clear}, {&targets.emission, Load::clear}},
       .depth = &targets.depth};

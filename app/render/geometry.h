@@ -1,4 +1,4 @@
-// The geometry passes: depth pre-pass, and the G-buffer.
+// The geometry passes: depth pre-pass, and the G-buffer. A captured frame fills both at once, whichever is asked for.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -109,6 +109,7 @@ GpuScene::GpuScene(Context& context, const Scene& scene) : scene_(&scene) {
   surroundings_ = upload_buffer(context, "surroundings", surroundings_bytes(scene), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   upload_textures(context);
   make_draws(context);
+  if (scene.captured) captured_.emplace(context, *scene.captured);
 }
 
 void GpuScene::upload_materials(Context& context) {

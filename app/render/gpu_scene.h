@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "gpu/transfer.h"
+#include "render/captured_surfaces.h"
 #include "render/shaders/scene_data.h"
 #include "scene/scene.h"
 
@@ -26,6 +28,8 @@ class GpuScene {
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] std::span<const Draw> opaque() const { return opaque_; }    ///< opaque and masked, by material
   [[nodiscard]] std::span<const Draw> blended() const { return blended_; }  ///< one instance each
+  /// Of a captured frame, which is drawn instead of meshes; or null.
+  [[nodiscard]] const CapturedSurfaces* captured() const { return captured_ ? &*captured_ : nullptr; }
   [[nodiscard]] const Material& material_of(const Draw& draw) const;
 
   [[nodiscard]] vulkan::Resource instances() const { return vulkan::Resource::storage(instances_.handle()); }
@@ -54,6 +58,7 @@ class GpuScene {
   std::vector<std::array<VkSampler, 5>> material_samplers_;
   std::vector<Draw> opaque_;
   std::vector<Draw> blended_;
+  std::optional<CapturedSurfaces> captured_;
 };
 
 /// The vertex attributes of mesh.vert.

@@ -63,6 +63,19 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
                                          shaders.spirv(variant("forward", lookup.name)), state));
 }
 
+vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
+                                   const vulkan::PlanRunner& runner) {
+  const vulkan::BoundLookUp lookup = runner.lookup({});
+  vulkan::PipelineInfo pipeline{
+      .name = "forward+, captured", .constants = lookup.constants, .bindings = gbuffer_bindings()};
+  pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
+  pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  append(pipeline.bindings, lookup_bindings(runner.plan().lookup));
+  return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("full_screen"),
+                                         shaders.spirv(variant("forward_captured", lookup.name)),
+                                         {.colors = {VK_FORMAT_R32G32B32A32_SFLOAT}}));
+}
+
 }  // namespace
 
 std::span<const std::string_view> path_names() {
@@ -87,6 +100,10 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
 bool Lighting::fused() const { return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value(); }
 
 void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& shaders) {
+  if (info_.path == ShadingPath::forward && info_.captured) {
+    shade_ = captured_pipeline(device, shaders, info_, runner_);
+    return;
+  }
   if (info_.path == ShadingPath::forward) {
     shade_ = forward_pipeline(device, shaders, info_, runner_,
                               mesh_state(VK_COMPARE_OP_EQUAL, {VK_FORMAT_R32G32B32A32_SFLOAT}), "forward+");
@@ -152,7 +169,9 @@ void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
   else if (info_.path != ShadingPath::standard_deferred)
     record_cull(recorder, frame);
 
-  if (info_.path == ShadingPath::forward)
+  if (info_.path == ShadingPath::forward && info_.captured)
+    shade_captured(recorder, frame);
+  else if (info_.path == ShadingPath::forward)
     shade_forward(recorder, frame);
   else
     shade_compute(recorder, frame);
@@ -175,6 +194,23 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
                          .draws = frame.scene.opaque(),
                          .pipeline = &shade_,
                          .more = lookup.resources});
+  vkCmdEndRendering(recorder.commands());
+  recorder.end_pass();
+}
+
+void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame) {
+  const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}}};
+  const vulkan::BoundLookUp lookup = runner_.lookup(frame.data.plan_inputs(frame.targets.depth.sampled()));
+  std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
+  append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
+  std::vector<vulkan::Use> uses = attachment_uses(attachments);
+  for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
+  append(uses, lookup_uses(lookup, GRAPHICS_SHADERS));
+  append(bound, lookup.resources);
+  recorder.begin_pass("forward+ shading", uses);
+  begin_rendering(recorder.commands(), attachments, frame.targets);
+  recorder.bind(shade_, bound);
+  vkCmdDraw(recorder.commands(), 3, 1, 0, 0);
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }

@@ -31,6 +31,7 @@ struct LightingInfo {
   ShadingPath path = ShadingPath::deferred;
   Brdf brdf = Brdf::ggx;
   bool transparency = false;  ///< the scene has blended surfaces
+  bool captured = false;      ///< the scene is a captured frame
 };
 
 /// What a frame is lit with.
@@ -63,6 +64,7 @@ class Lighting {
   void build_shade(const vulkan::Device& device, const ShaderLibrary& shaders);
   void build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders);
   void shade_forward(vulkan::Recorder& recorder, const LightingFrame& frame);
+  void shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame);
   void add_volumes(vulkan::Recorder& recorder, const LightingFrame& frame);
   void add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame);

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "gpu/check.h"
+#include "render/gbuffer_texels.h"
 
 namespace lamp::app {
 namespace {
@@ -160,15 +161,30 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   return rendered;
 }
 
-std::vector<float> Renderer::read_depth() {
+template <class Texel>
+std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
-  const vulkan::Buffer buffer = readback(context_.device(), "depth read-back", pixels * sizeof(float));
+  const vulkan::Buffer buffer = readback(context_.device(), "texel read-back", pixels * sizeof(Texel));
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    record_readback(recorder, targets_->depth, buffer);
+    record_readback(recorder, image, buffer);
   });
   tracker_.forget(buffer.handle());
-  return copy_out<float>(buffer, pixels);
+  return copy_out<Texel>(buffer, pixels);
+}
+
+std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
+
+CapturedFrame Renderer::capture() {
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    data_.record_upload(recorder);
+    geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
+  });
+  return decode(view_, {.depth = read_depth(),
+                        .base_color = read_texels<glm::u8vec4>(targets_->base_color),
+                        .surface = read_texels<glm::uvec2>(targets_->surface),
+                        .emission = read_texels<glm::u16vec4>(targets_->emission)});
 }
 
 vulkan::Pipeline Renderer::visit_pipeline(Lighting& lighting, vulkan::PlanRunner::Passes which) const {

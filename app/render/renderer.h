@@ -46,6 +46,9 @@ class Renderer {
   /// The depth of the last frame, device depth, row by row; 0 is sky.
   [[nodiscard]] std::vector<float> read_depth();
 
+  /// Draws the surfaces of a frame and reads them back. What is blended over them is not among them.
+  [[nodiscard]] CapturedFrame capture();
+
   /// Culls the last frame's depth and walks the look-up of every pixel of the truth's rows. With `Passes::fused`, the
   /// look-up that culls in the shader.
   [[nodiscard]] std::vector<gpu::Visit> visit(Lighting& lighting, const Truth& truth,
@@ -58,6 +61,8 @@ class Renderer {
  private:
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::Pipeline visit_pipeline(Lighting& lighting, vulkan::PlanRunner::Passes which) const;
+  template <class Texel>
+  [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);
   void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) const;
 
   Context& context_;

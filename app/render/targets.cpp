@@ -8,7 +8,9 @@ Targets::Targets(const vulkan::Device& device, std::uint32_t wide, std::uint32_t
   const auto make = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
     return GpuImage(device, {.name = name, .width = wide, .height = high, .format = format, .usage = usage});
   };
-  constexpr VkImageUsageFlags GBUFFER = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  // Copied from and to by captures.
+  constexpr VkImageUsageFlags GBUFFER = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   depth = make("depth", VK_FORMAT_D32_SFLOAT,
                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);

@@ -33,6 +33,14 @@ double Findings::list_mean() const {
   return cells_seen == 0 ? 0.0 : static_cast<double>(list_sum) / static_cast<double>(cells_seen);
 }
 
+Findings of_both(Findings separate, const Findings& fused) {
+  separate.missed_fused = fused.missed;
+  separate.missed = std::max(separate.missed, fused.missed);
+  separate.unordered = separate.unordered || fused.unordered;
+  if (separate.first_miss.empty()) separate.first_miss = fused.first_miss;
+  return separate;
+}
+
 void Verification::add(const Truth& truth, std::span<const gpu::Visit> visits) {
   assert(visits.size() + 1 == truth.offsets.size() && "visit the rows that the truth speaks of");
   std::uint64_t last_cell = ~0ULL;
@@ -87,6 +95,22 @@ void for_each_truth(const View& view, std::span<const float> depth, std::span<co
     use(band);
     row += rows;
   }
+}
+
+float largest_value(const HdrImage& image) {
+  float largest = 0.0F;
+  for (const glm::vec4& pixel : image.pixels) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
+  return largest;
+}
+
+float picture_tolerance(const Plan& plan, const HdrImage& reference) {
+  return plan.ordered ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(reference));
+}
+
+bool keeps_promises(const Plan& plan, const Findings& findings, const PictureDifference& difference) {
+  if (plan.ordered && findings.unordered) return false;
+  if (plan.approximate) return true;
+  return findings.missed == 0 && std::isfinite(difference.max_abs) && difference.max_abs <= difference.tolerance;
 }
 
 float max_abs_difference(const HdrImage& a, const HdrImage& b) {

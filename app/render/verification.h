@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "image/image.h"
+#include "lamplight/plan.h"
 #include "lamplight/reference.h"
 #include "render/shaders/scene_data.h"
 
@@ -23,13 +25,18 @@ struct Findings {
   std::uint64_t truth_sum = 0;    ///< per cell, the lights that reach one of its pixels
   std::uint64_t cells_seen = 0;   ///< cells that hold a pixel
   std::uint32_t list_max = 0;
-  bool unordered = false;  ///< a list did not ascend
-  std::string first_miss;  ///< "pixel (12, 34): light 56", or empty
+  bool unordered = false;                     ///< a list did not ascend
+  std::string first_miss;                     ///< "pixel (12, 34): light 56", or empty
+  std::optional<std::uint64_t> missed_fused;  ///< of the fused look-up alone, where the plan has one
 
   [[nodiscard]] double waste() const;   ///< evaluations / useful; 1 when there is nothing to do and nothing done
   [[nodiscard]] double excess() const;  ///< list_sum / truth_sum, likewise
   [[nodiscard]] double list_mean() const;
 };
+
+/// What the separate and the fused look-up of one plan were found to hold, as one: the separate one's findings, with
+/// the misses of the worse of the two, so that a pair that both miss counts once, and with the disorder of either.
+[[nodiscard]] Findings of_both(Findings separate, const Findings& fused);
 
 /// Collects findings over the bands of a picture.
 class Verification {
@@ -50,6 +57,21 @@ class Verification {
 /// Truths of a whole picture in bands that fit the device's storage buffers; `use` is called for each in order.
 void for_each_truth(const View& view, std::span<const float> depth, std::span<const shared::Light> lights,
                     std::uint64_t max_buffer_bytes, const std::function<void(const Truth&)>& use);
+
+/// How far a picture may be from brute force's: not at all where lists ascend; else, for 4096 additions in any order,
+/// by this share of one more than the largest value.
+inline constexpr float UNORDERED_TOLERANCE = 1e-4F;
+[[nodiscard]] float picture_tolerance(const Plan& plan, const HdrImage& reference);
+[[nodiscard]] float largest_value(const HdrImage& image);
+
+/// A picture against brute force's.
+struct PictureDifference {
+  float max_abs = 0.0F;    ///< of max_abs_difference
+  float tolerance = 0.0F;  ///< of picture_tolerance
+};
+/// Whether a plan does what its row promises: nothing missed, lists in order, the same picture. What an approximate
+/// plan misses is counted, not held against it.
+[[nodiscard]] bool keeps_promises(const Plan& plan, const Findings& findings, const PictureDifference& difference);
 
 /// The largest difference of a channel; 0 if and only if all bits that matter agree, infinity where one is NaN.
 [[nodiscard]] float max_abs_difference(const HdrImage& a, const HdrImage& b);

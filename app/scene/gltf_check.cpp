@@ -178,6 +178,17 @@ std::string shown(const json& value) {
   return text;
 }
 
+/// What is wrong with a value that breaks its rule, and what was expected; of named indices, the first that is none.
+std::string complaint(const Rule& rule, const json& value, std::size_t into_size) {
+  if (rule.want == Want::named_indices && value.is_object()) {
+    const Rule of_one{.want = Want::index, .into = rule.into};
+    for (const auto& [name, index] : value.items())
+      if (!fits(of_one, index, into_size))
+        return fmt::format("{} {} is {}, expected {}", rule.key, name, shown(index), expectation(of_one, into_size));
+  }
+  return fmt::format("{} is {}, expected {}", rule.key, shown(value), expectation(rule, into_size));
+}
+
 /// Checks one rule below `place`, everywhere it applies.
 void check_rule(const json& document, std::string_view place, const Rule& rule, const std::string& file) {
   const std::string path =
@@ -189,8 +200,8 @@ void check_rule(const json& document, std::string_view place, const Rule& rule, 
     const bool there = found != object.end();
     if (there ? fits(rule, *found, into_size) : !rule.required) return;
     gltf_fail(file, element_name(path, where),
-              fmt::format("{} is {}, expected {}", rule.key, there ? shown(*found) : "missing",
-                          expectation(rule, into_size)));
+              there ? complaint(rule, *found, into_size)
+                    : fmt::format("{} is missing, expected {}", rule.key, expectation(rule, into_size)));
   });
 }
 

@@ -33,9 +33,9 @@ struct Rule {
   bool required = false;
   double min = -static_cast<double>(std::numeric_limits<float>::max());
   double max = static_cast<double>(std::numeric_limits<float>::max());
-  std::size_t size = 0;      ///< numbers: exactly so many; objects: at most so many
-  std::string_view words{};  ///< natural, text: the values allowed, between spaces (empty: any)
-  std::string_view into{};   ///< index and its kin: where the array is
+  std::size_t size = 0;    ///< numbers: exactly so many; objects: at most so many
+  std::string_view words;  ///< natural, text: the values allowed, between spaces (empty: any)
+  std::string_view into;   ///< index and its kin: where the array is
 };
 
 /// Containers come before what they contain.

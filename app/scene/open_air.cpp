@@ -158,6 +158,7 @@ std::vector<std::size_t> choose(const Scene& scene, const Occupancy& grid, const
 }  // namespace
 
 OpenAir find_open_air(const Scene& scene) {
+  if (scene.captured) return find_open_air(*scene.captured);
   const Occupancy grid = find_occupancy(scene);
   const SurfaceDistance distance = find_surface_distance(grid);
   const Box box = bounds(scene);

@@ -29,7 +29,10 @@ struct OpenAir {
 
 /// The air that can be reached from the scene's cameras and the keys of its flight without passing through a surface
 /// or behind one, as far as it lies near surfaces. Where that is next to nothing: all such air near surfaces, but no
-/// air outdoors for cameras indoors.
+/// air outdoors for cameras indoors. Of a captured frame: as below.
 [[nodiscard]] OpenAir find_open_air(const Scene& scene);
+
+/// What a captured frame sees close before its surfaces.
+[[nodiscard]] OpenAir find_open_air(const CapturedFrame& frame);
 
 }  // namespace lamp::app

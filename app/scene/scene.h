@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lamplight/light.h"
+#include "scene/captured_frame.h"
 
 namespace lamp::app {
 
@@ -124,9 +125,10 @@ struct Scene {
   std::vector<DirectionalLight> directional_lights;
   std::vector<Camera> cameras;  ///< at least one after loading; the first is the default
   std::optional<Flight> flight;
-  glm::vec3 sky{0.0F};             ///< radiance of pixels that nothing covers
-  glm::vec3 ambient{0.0F};         ///< irradiance from everywhere, so that unlit surfaces are not black
-  std::vector<std::string> notes;  ///< what a loader left out or replaced, one line each
+  glm::vec3 sky{0.0F};                    ///< radiance of pixels that nothing covers
+  glm::vec3 ambient{0.0F};                ///< irradiance from everywhere, so that unlit surfaces are not black
+  std::optional<CapturedFrame> captured;  ///< then there are no meshes, and this is the only camera's view
+  std::vector<std::string> notes;         ///< what a loader left out or replaced, one line each
 };
 
 /// World-space bounds of all instances; an empty scene gives a unit box around the origin.

@@ -49,6 +49,14 @@ std::optional<Error> check_shared(const std::string& source, std::uint32_t bytes
                            std::to_string(traits.shared_memory_bytes)};
 }
 
+std::optional<Error> check_storage_buffers(const std::string& source, const std::vector<Binding>& bindings,
+                                           const DeviceTraits& traits) {
+  const auto buffers = std::ranges::count_if(bindings, [](const Binding& b) { return b.resource != INPUT_DEPTH; });
+  if (buffers <= traits.max_storage_buffers) return std::nullopt;
+  return Error{source, "binds " + std::to_string(buffers) + " storage buffers, a shader on this device sees at most " +
+                           std::to_string(traits.max_storage_buffers)};
+}
+
 /// The stage is the extension of the file that the shader was built from.
 std::optional<Error> check_shader(const std::string& source, const std::string& name, std::string_view extension) {
   const ShaderCode* code = find_shader(library_shaders(), name);
@@ -107,6 +115,7 @@ class PassChecker {
     if (lookup.name.empty()) return Error{"look-up", "has no name"};
     for (const Binding& binding : lookup.bindings)
       if (binding.access != Access::read) return Error{source, "its bindings must be read-only"};
+    if (auto error = check_storage_buffers(source, lookup.bindings, traits_)) return error;
     return check_bindings(source, lookup.bindings);
   }
 
@@ -131,6 +140,7 @@ class PassChecker {
           return Error{source, "is not recorded in every frame, but binds buffer " +
                                    buffer_of(plan_, binding.resource).name + ", which is zeroed in every frame"};
     if (auto error = check_extent(source, pass)) return error;
+    if (auto error = check_storage_buffers(source, pass.bindings, traits_)) return error;
     if (!raster && pass.shared_bytes > traits_.shared_memory_bytes)
       return Error{source, "needs " + std::to_string(pass.shared_bytes) + " bytes of shared memory, the device has " +
                                std::to_string(traits_.shared_memory_bytes)};

@@ -59,6 +59,7 @@ TEST_F(BadInput, Numbers) {
   expect_error(BAD_INPUT, {"render", "--seed=-1"}, {"--seed", "whole number", "'-1'"});
   expect_error(BAD_INPUT, {"render", "--frame=-5"}, {"--frame", "whole number", "'-5'"});
   expect_error(BAD_INPUT, {"render", "--frames", "0"}, {"--frames", "from 1 to ", "'0'"});
+  expect_error(BAD_INPUT, {"render", "--samples", "0"}, {"--samples", "from 1 to ", "'0'"});
   for (const char* spots : {"-0.5", "2", "many"})
     expect_error(BAD_INPUT, {"render", std::string("--spots=") + spots}, {"--spots"});
   expect_error(BAD_INPUT, {"render", "plane", "--spots", "nan"}, {"spots", "nan"});
@@ -116,6 +117,29 @@ TEST_F(BadInput, MissingTextureAndMissingBuffer) {
   gltf["buffers"][0]["uri"] = "nowhere.bin";
   write("scene.gltf", gltf.dump());
   expect_error(BAD_INPUT, {"render", "scene.gltf"}, {"scene.gltf", "nowhere.bin"});
+}
+
+TEST_F(BadInput, IndicesThatPointToNothing) {
+  nlohmann::json gltf = textured_triangle();
+  gltf["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99;
+  write("scene.gltf", gltf.dump());
+  expect_error(BAD_INPUT, {"render", "scene.gltf"},
+               {"scene.gltf: mesh 0 primitive 0: attributes POSITION is 99", "index into accessors (1 there)"});
+}
+
+TEST_F(BadInput, LightsWhoseRangeIsNone) {
+  nlohmann::json gltf = textured_triangle();
+  gltf["extensionsUsed"] = {"KHR_lights_punctual"};
+  gltf["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  for (const char* range : {"-1", "0", "NaN", "1e999", "\"far\""}) {
+    nlohmann::json light{{"type", "point"}, {"range", "RANGE"}};
+    gltf["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+    std::string text = gltf.dump();
+    text.replace(text.find("\"RANGE\""), 7, range);
+    write("scene.gltf", text);
+    const bool number = std::string_view(range).find_first_of("Ne") == std::string_view::npos;  // JSON knows no others
+    expect_error(BAD_INPUT, {"verify", "scene.gltf"}, {number ? "light 0: range is " : "JSON: "});
+  }
 }
 
 TEST_F(BadInput, OutputsThatCannotBeWritten) {

@@ -1,4 +1,4 @@
-// What `lamp` says of itself: the welcome, the help, the lists.
+// What `lamp` says of itself: the welcome, the help, the version, the lists.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <set>
@@ -28,6 +28,12 @@ TEST_F(List, EveryHelpHasExamples) {
     const std::string name = command.empty() ? "lamp render" : "lamp " + command[0];
     EXPECT_NE(text.find(name, examples), std::string::npos) << "no example of " << name;
   }
+}
+
+TEST_F(List, VersionIsTheProjects) {
+  EXPECT_EQ(output_of({"--version"}), "lamp " LAMP_VERSION "\n");
+  EXPECT_NE(output_of({"--help"}).find("--version"), std::string::npos);
+  EXPECT_NE(output_of({}).find("lamp --version"), std::string::npos);
 }
 
 void expect_keys(const nlohmann::json& object, const std::vector<const char*>& keys) {

@@ -67,11 +67,13 @@ class StrictDevice {
         if (pass.kind == PassKind::raster) draw(pass);
       }
       const bool host = pass.kind == PassKind::host;
+      if (!host) count_buffers(pass.bindings);
       for (const Binding& binding : pass.bindings) bind(binding, host, pass.on_projection_change);
       for (const Binding& binding : pass.bindings)
         if (binding.access != Access::read) filled_.at(binding.resource - PLAN_BUFFER) = true;
     }
     require(!lookup.name.empty());
+    count_buffers(lookup.bindings);
     for (const Binding& binding : lookup.bindings) {
       require(binding.access == Access::read);
       bind(binding, /* by_host= */ false, /* in_kept_pass= */ false);
@@ -85,6 +87,13 @@ class StrictDevice {
     if (binding.access != Access::write) require(filled_.at(binding.resource - PLAN_BUFFER));
     require(!in_kept_pass || !buffer.zeroed);
     if (by_host || binding.access != Access::read) require(by_host == (buffer.memory == BufferMemory::upload));
+  }
+
+  void count_buffers(const std::vector<Binding>& bindings) const {
+    std::uint32_t buffers = 0;
+    for (const Binding& binding : bindings)
+      if (binding.resource != INPUT_DEPTH) ++buffers;
+    require(buffers <= traits_.max_storage_buffers);
   }
 
   void run_host(const Pass& pass) const {

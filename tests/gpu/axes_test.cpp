@@ -64,7 +64,7 @@ class Axes : public GpuTest {
 TEST_F(Axes, EveryValueOfEveryOption) {
   for (const Method& method : methods()) {
     const auto is = [&](std::string_view name) { return method.name == name; };
-    if (std::ranges::none_of(std::array{"tiled", "tiled-bits", "clustered", "tight", "drobot-zbin",
+    if (std::ranges::none_of(std::array{"tiled", "tiled-bits", "clustered", "tight", "drobot-zbin", "lamplight",
                                         "drobot-raster-tile", "drobot-raster-cluster"},
                              is))
       continue;  // the other rows differ from these in their options only; the matrix covers them as they are
@@ -86,6 +86,19 @@ TEST_F(Axes, RandomCombinationsOfTiledCulling) {
     accepted += check(tiled, settings) ? 1 : 0;
   }
   EXPECT_GT(accepted, 3U);
+}
+
+TEST_F(Axes, WithoutDepthBoundsWhateverNeedsNone) {
+  const Method& tiled = *take(find_method("tiled"));
+  std::uint32_t accepted = 0;
+  for (const char* test : {"planes", "aabb", "planes+aabb", "cone-approximate", "cone", "exact"})
+    for (const char* spot : {"sphere", "cone-planes", "cone-sphere"})
+      for (const char* prune : {"none", "pixel"})
+        accepted += check(tiled, {"bounds=none", fmt::format("test={}", test), fmt::format("spot={}", spot),
+                                  fmt::format("prune={}", prune)})
+                        ? 1
+                        : 0;
+  EXPECT_EQ(accepted, 3U * 2U * 2U);  // planes and both cones; spheres of spots and their cones against planes
 }
 
 TEST_F(Axes, KeptFrustaAreMadeAnewOnlyWhenTheProjectionChanges) {

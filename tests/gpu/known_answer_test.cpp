@@ -2,11 +2,14 @@
 // blending. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "gpu/method_check.h"
 #include "gpu/test_scenes.h"
 #include "gpu/test_surfaces.h"
+#include "render/antialias.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -185,6 +188,30 @@ TEST_F(KnownAnswer, MaskCutsItsHoles) {
     expect_near(pictures.at(path, {30, 24}), glm::dvec3(1.0), 1e-6);
     EXPECT_EQ(pictures.at(path, {34, 24}), glm::dvec3(scene.sky));
   });
+}
+
+TEST_F(KnownAnswer, SeveralSamplesShowHowMuchOfAPixelIsCovered) {
+  const Scene scene = wall_scene({.base_color = glm::vec4(0, 0, 0, 1), .emissive = glm::vec3(1.0F)}, 1.03F);
+  const GpuScene gpu(test_context(), scene);
+  Renderer renderer(test_context(), shader_library(), gpu, WIDTH, HEIGHT, 0);
+  const View view = view_of(find_camera(scene, ""), WIDTH, HEIGHT, "camera");
+  renderer.set_frame(view, {});
+  Lighting lighting = make_lighting(renderer, {.method = &brute_force()});
+  const HdrImage image = average_samples(renderer, lighting, {}, renderer.render(lighting).image, 32);
+  // The wall is a square around the axis: how far it reaches from the picture's middle, in pixels.
+  const double half_px = 1.03 / glm::length(view.view_position({1.0, 0.0}, 4.0) - view.view_position({0.0, 0.0}, 4.0));
+  std::uint32_t partly = 0;
+  const auto covered = [half_px](std::uint32_t i, std::uint32_t size) {
+    const double from_middle = std::abs(i + 0.5 - 0.5 * size);
+    return std::clamp(half_px - from_middle + 0.5, 0.0, 1.0);
+  };
+  for (std::uint32_t y = 0; y < HEIGHT; ++y)
+    for (std::uint32_t x = 0; x < WIDTH; ++x) {
+      const double expected = covered(x, WIDTH) * covered(y, HEIGHT);
+      EXPECT_NEAR(image.pixels[std::size_t{y} * WIDTH + x].r, expected, 0.08) << x << ", " << y;
+      partly += expected > 0.1 && expected < 0.9 ? 1 : 0;
+    }
+  EXPECT_GT(partly, 20U);
 }
 
 TEST_F(KnownAnswer, BlendsOverSkyAndOverGeometryFarToNear) {

@@ -117,14 +117,4 @@ Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& c
   return findings;
 }
 
-float picture_tolerance(const Plan& plan, const HdrImage& reference) {
-  return plan.ordered ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(reference));
-}
-
-float largest_value(const HdrImage& image) {
-  float largest = 0.0F;
-  for (const glm::vec4& pixel : image.pixels) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
-  return largest;
-}
-
 }  // namespace lamp::app

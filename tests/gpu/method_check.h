@@ -46,10 +46,4 @@ Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& c
 /// Brute force's row of the table.
 [[nodiscard]] const Method& brute_force();
 
-/// How far a picture may be from brute force's: not at all where lists ascend; else, for 4096 additions in any order,
-/// by this share of one more than the largest value.
-inline constexpr float UNORDERED_TOLERANCE = 1e-4F;
-[[nodiscard]] float picture_tolerance(const Plan& plan, const HdrImage& reference);
-[[nodiscard]] float largest_value(const HdrImage& image);
-
 }  // namespace lamp::app

@@ -1,10 +1,12 @@
 // The documents say what the code says: a block marked with "from FILE" stands in that file, word for word.
+// Pages of methods are complete.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string>
 
 namespace {
@@ -34,6 +36,42 @@ TEST(Docs, QuotesStandInTheFilesTheyName) {
     }
   }
   EXPECT_GE(quotes, 10);
+}
+
+// Index pages aside, every page of docs/methods shows its idea in a picture and says what it costs, where it wins and
+// loses, how to try it and whose idea it is; and the index leads to it.
+TEST(Docs, PagesOfMethodsAreComplete) {
+  const fs::path folder = fs::path(LAMPLIGHT_SOURCE_DIR) / "docs" / "methods";
+  const std::string index = read(folder / "README.md");
+  int pages = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "README.md") continue;
+    SCOPED_TRACE(name);
+    const std::string text = read(entry.path());
+    EXPECT_NE(index.find("(" + name + ")"), std::string::npos) << "docs/methods/README.md has no link to it";
+    EXPECT_NE(text.find("](../images/"), std::string::npos) << "has no picture";
+    for (const char* heading : {"## How it works", "## Cost", "## Where (it|each) wins", "## Where (it|each) loses",
+                                "## Try it", "## (Papers?|Source)"})
+      EXPECT_TRUE(std::regex_search(text, std::regex("(^|\n)" + std::string(heading)))) << "has no heading " << heading;
+    ++pages;
+  }
+  EXPECT_GE(pages, 15);
+}
+
+// Pictures that pages show are in the repository, and tools/pictures knows how to make them.
+TEST(Docs, PicturesAreThereAndCanBeMadeAnew) {
+  const fs::path docs = fs::path(LAMPLIGHT_SOURCE_DIR) / "docs";
+  const std::string maker = read(fs::path(LAMPLIGHT_SOURCE_DIR) / "tools" / "pictures");
+  const std::regex picture("\\]\\(\\.\\./images/([a-z0-9_]+)\\.png\\)");
+  for (const auto& entry : fs::directory_iterator(docs / "methods")) {
+    const std::string text = read(entry.path());
+    for (std::sregex_iterator at(text.begin(), text.end(), picture), end; at != end; ++at) {
+      const std::string name = (*at)[1];
+      EXPECT_TRUE(fs::exists(docs / "images" / (name + ".png"))) << entry.path() << ": " << name;
+      EXPECT_TRUE(std::regex_search(maker, std::regex("\\b" + name + "\\b"))) << "tools/pictures: no " << name;
+    }
+  }
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ const std::vector<Fault>& faults() {
       {"/meshes/0/primitives", "", "mesh 0: primitives is missing, expected an array"},
       {"/meshes/0/primitives/0/attributes", "{}", "mesh 0 primitive 0: POSITION is missing, expected an attribute"},
       {"/meshes/0/primitives/0/attributes/POSITION", "9",
-       "attributes is an object, expected an object of indices into"},
+       "mesh 0 primitive 0: attributes POSITION is 9, expected an index into accessors (3"},
       {"/meshes/0/primitives/0/indices", "9", "mesh 0 primitive 0: indices is 9, expected an index into accessors (3"},
       {"/meshes/0/primitives/0/material", "1",
        "mesh 0 primitive 0: material is 1, expected an index into materials (1"},

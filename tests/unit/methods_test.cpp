@@ -290,6 +290,31 @@ TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
     ASSERT_EQ(without.notes.size(), 1U);
     EXPECT_TRUE(without.notes[0].starts_with("compact=off instead of on")) << without.notes[0];
     EXPECT_TRUE(plan("off", LEAST).notes.empty());
+}
+
+TEST(Methods, CombinationsThatMakeNoSenseAreRefusedWithTheReason) {
+  struct Refusal {
+    std::vector<std::string> settings;
+    std::string source, reason;
+  };
+  const std::vector<Refusal> refusals{
+      {{"container=bits", "order=append"}, "option order", "container=bits goes with order=index"},
+      {{"spot=cone-segments"}, "option spot", "goes with bounds=mask"},
+      {{"frusta=cached", "test=aabb"}, "option frusta", "frusta=cached goes with"},
+      {{"frusta=cached", "test=exact"}, "option frusta", "frusta=cached goes with"},
+      {{"bounds=none", "test=aabb"}, "option test", "bounds=none goes with"},
+      {{"bounds=none", "test=exact"}, "option test", "bounds=none goes with"},
+      {{"bounds=none", "spot=cone-sphere"}, "option spot", "bounds=none goes with"},
+      {{"bounds=none", "reduce=parallel"}, "option reduce", "bounds=none reduces nothing"}};
+  const Method& tiled = *lamp::find_method("tiled").value();
+  for (const auto& [settings, source, reason] : refusals) {
+    const auto options = lamp::resolve_options(tiled, settings);
+    ASSERT_TRUE(options);
+    const auto plan = lamp::make_plan(
+        tiled, {.width = 640, .height = 360, .light_capacity = 100, .options = options.value(), .traits = LARGE});
+    ASSERT_FALSE(plan) << settings.front() << " " << settings.back();
+    EXPECT_NE(plan.error().text().find(source), std::string::npos) << plan.error().text();
+    EXPECT_NE(plan.error().text().find(reason), std::string::npos) << plan.error().text();
   }
 }
 

@@ -91,6 +91,19 @@ TEST(PlanCheck, WhatFitsExactlyPasses) {
   EXPECT_FALSE(error.has_value()) << error->text();
 }
 
+TEST(PlanCheck, StorageBuffersOfAStageAreCounted) {
+  const Plan plan = sound_plan();  // its pass `count` binds five, and the depth image; its look-ups bind two each
+  const auto error_at = [&](std::uint32_t limit) { return lamp::plan_check(plan, {.max_storage_buffers = limit}); };
+  EXPECT_FALSE(error_at(5).has_value());
+  ASSERT_TRUE(error_at(4).has_value());
+  EXPECT_EQ(error_at(4)->text(), "pass count: binds 5 storage buffers, a shader on this device sees at most 4");
+  Plan lookup_alone = plan;
+  lookup_alone.lookup.bindings.assign(6, {INPUT_FRAME});
+  const auto error = lamp::plan_check(lookup_alone, {.max_storage_buffers = 5});
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->text(), "look-up lists: binds 6 storage buffers, a shader on this device sees at most 5");
+}
+
 TEST(PlanCheck, APassMayDispatchNoGroupForNoLight) {
   Plan plan = sound_plan();
   plan.light_capacity = 0;

@@ -9,8 +9,9 @@
 // Which of the mask's parts the sphere may reach.
 uint parts_near(LightBounds sphere, TileRanges ranges) {
   const float z = -sphere.center.z;
-  const uint first = mask_part(z - sphere.radius, ranges.z_near[0], ranges.z_far[0]);
-  const uint last = mask_part(z + sphere.radius, ranges.z_near[0], ranges.z_far[0]);
+  const float scale = mask_scale(ranges.z_near[0], ranges.z_far[0]);
+  const uint first = mask_part(z - sphere.radius, ranges.z_near[0], scale);
+  const uint last = mask_part(z + sphere.radius, ranges.z_near[0], scale);
   return ranges.mask & (~0u << first) & (~0u >> (31u - last));
 }
 

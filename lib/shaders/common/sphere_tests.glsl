@@ -78,13 +78,12 @@ bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges,
   const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
   while (parts != 0u) {
     const uint first = uint(findLSB(parts));
-    const uint filled = parts >> first;
-    const uint length = filled == ~0u ? 32u : uint(findLSB(~filled));
+    const uint end = first + bits_in_a_row(parts >> first);
     const float z_first = ranges.z_near[0] + step * (float(first) - 0.001);
-    const float z_last = ranges.z_near[0] + step * (float(first + length) + 0.001);
+    const float z_last = ranges.z_near[0] + step * (float(end) + 0.001);
     const TileBox box = tile_box(sides, z_first, z_last);
     if (sphere_touches_tile_depths(sphere, sides, box, z_first, z_last)) return true;
-    parts &= first + length >= 32u ? 0u : ~0u << (first + length);
+    parts &= bits_from(end);
   }
   return false;
 }

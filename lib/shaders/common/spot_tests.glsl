@@ -57,12 +57,17 @@ bool cone_touches_planes(SpotCone cone, TileSides sides, float z_near, float z_f
   return true;
 }
 
-// Against the spheres around each occupied part of the mask.
+// Against the spheres around the occupied parts of the mask, of which neighbours are taken together while they are not
+// longer than the tile is wide: a sphere around fewer of them would hardly be smaller.
 bool cone_touches_parts(SpotCone cone, TileSides sides, float z_near, float z_far, uint parts) {
   const float step = (z_far - z_near) / float(MASK_BITS);
-  for (uint bits = parts; bits != 0u; bits &= bits - 1u) {
-    const float first = z_near + step * float(findLSB(bits));
-    if (cone_touches_sphere(cone, tile_sphere(sides, first - 0.001 * step, first + 1.001 * step))) return true;
+  while (parts != 0u) {
+    const uint first = uint(findLSB(parts));
+    const float z_first = z_near + step * (float(first) - 0.001);
+    const float most = clamp(tile_width(sides, z_first) / max(step, 1e-30), 1.0, float(MASK_BITS));
+    const uint end = first + min(uint(most), bits_in_a_row(parts >> first));
+    if (cone_touches_sphere(cone, tile_sphere(sides, z_first, z_near + step * (float(end) + 0.001)))) return true;
+    parts &= bits_from(end);
   }
   return false;
 }

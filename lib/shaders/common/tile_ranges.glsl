@@ -1,4 +1,4 @@
-// A tile's depth ranges: one, or two halves of it, or one with a mask of its occupied parts.
+// A tile's depth ranges: one, or two halves of it, or one with a mask of its occupied parts; or every depth there is.
 // Based on: Stewart, Compute-Based Tiled Culling, GPU Pro 7 (2016), 1.4.2 (Half Z, Modified Half Z); Harada, A 2.5D
 // Culling for Forward+, SIGGRAPH Asia (2012).
 // Needs: TILE_PX, BOUNDS.
@@ -11,16 +11,16 @@
 const uint MASK_BITS = 32u;
 const float EMPTY_NEAR = 1.0;
 const float EMPTY_FAR = -1.0;
+const float ANY_DEPTH = 1e30;  // m: beyond every light, and far enough from infinity to be added to
 
-TileRanges one_range(float z_near, float z_far) {
-  return TileRanges(float[2](z_near, EMPTY_NEAR), float[2](z_far, EMPTY_FAR), z_far, ~0u);
+
+TileRanges masked_range(float z_near, float z_far, uint mask) {
+  return TileRanges(float[2](z_near, EMPTY_NEAR), float[2](z_far, EMPTY_FAR), z_far, mask);
 }
 
-TileRanges empty_ranges() {
-  TileRanges ranges = one_range(EMPTY_NEAR, EMPTY_FAR);
-  ranges.mask = 0u;
-  return ranges;
-}
+TileRanges one_range(float z_near, float z_far) { return masked_range(z_near, z_far, ~0u); }
+
+TileRanges empty_ranges() { return masked_range(EMPTY_NEAR, EMPTY_FAR, 0u); }
 
 bool is_empty(TileRanges ranges) { return ranges.z_near[0] > ranges.z_far[0]; }
 
@@ -29,11 +29,17 @@ TileRanges half_ranges(float z_near, float z_far) {
   return TileRanges(float[2](z_near, split), float[2](split, z_far), split, ~0u);
 }
 
-// Which of 32 equal parts of the range a depth lies in; exactly representable steps are not needed, see mask_interval.
-uint mask_part(float z_view, float z_near, float z_far) {
-  const float share = (z_view - z_near) / max(z_far - z_near, 1e-30);
-  return min(uint(max(share, 0.0) * float(MASK_BITS)), MASK_BITS - 1u);
+// Which of 32 equal parts of the range a depth lies in; the slack of light bounds covers what rounding moves.
+float mask_scale(float z_near, float z_far) { return float(MASK_BITS) / max(z_far - z_near, 1e-30); }
+
+uint mask_part(float z_view, float z_near, float scale) {
+  return uint(clamp((z_view - z_near) * scale, 0.0, float(MASK_BITS - 1u)));
 }
+
+// How many bits are set without a gap, from the lowest.
+uint bits_in_a_row(uint bits) { return bits == ~0u ? 32u : uint(findLSB(~bits)); }
+
+uint bits_from(uint first) { return first >= 32u ? 0u : ~0u << first; }
 
 // Halves tightened to the pixels in them; and the mask. A second look at the tile's pixels, for all threads together.
 TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float z_near, float z_far) {
@@ -49,7 +55,7 @@ TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float 
     const float depth = tile_pixel_depth(frame, depth_image, tile, i);
     const float z = z_view_of(frame, depth);
     if (BOUNDS == BOUNDS_MASK)
-      reduce_mask(depth > 0.0 ? 1u << mask_part(z, z_near, z_far) : 0u);
+      reduce_mask(depth > 0.0 ? 1u << mask_part(z, z_near, mask_scale(z_near, z_far)) : 0u);
     else  // device depths reversed: the half's farthest pixel has its least depth, so both extremes are kept as 1 - bits
       reduce_halves(depth > 0.0, z <= ranges.split, ~floatBitsToUint(depth));
   }
@@ -67,6 +73,7 @@ TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float 
 
 // For all threads of the group together.
 TileRanges tile_ranges(Frame frame, texture2D depth_image, uvec2 tile) {
+  if (BOUNDS == BOUNDS_NONE) return one_range(-ANY_DEPTH, ANY_DEPTH);  // the depth buffer is not looked at
   const TileDepth depth = tile_depth(frame, depth_image, tile);
   if (is_empty(depth)) return empty_ranges();
   const float z_near = z_view_of(frame, depth.nearest);

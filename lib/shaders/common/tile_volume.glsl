@@ -31,6 +31,13 @@ void tile_edges(Frame frame, vec2 min_px, vec2 max_px, out vec4 x_edges, out vec
   if (m[1][1] < 0.0) y_edges = y_edges.zwxy;
 }
 
+// The larger of width and height at a depth.
+float tile_width(TileSides sides, float z_view) {
+  const vec2 size = vec2(sides.x_edges.z - sides.x_edges.x, sides.y_edges.z - sides.y_edges.x) +
+                    vec2(sides.x_edges.w - sides.x_edges.y, sides.y_edges.w - sides.y_edges.y) * z_view;
+  return max(size.x, size.y);
+}
+
 TilePlanes tile_planes(Frame frame, vec2 min_px, vec2 max_px) {
   TilePlanes planes;
   side_planes(frame, min_px, max_px, planes.planes);
@@ -81,18 +88,19 @@ TileBox tile_box(TileSides sides, float z_near, float z_far) {
 
 // A sphere around that part: through the farthest of its corners, from the middle of its axis.
 vec4 tile_sphere(TileSides sides, float z_near, float z_far) {
+  const vec4 low = vec4(sides.x_edges.xy, sides.y_edges.xy);
+  const vec4 high = vec4(sides.x_edges.zw, sides.y_edges.zw);
+  const vec4 axis = 0.5 * (low + high);
+  const vec4 half_size = 0.5 * (high - low);
   const float z = 0.5 * (z_near + z_far);
-  const vec3 middle = vec3(0.5 * (dot(sides.x_edges.xy, vec2(1.0, z)) + dot(sides.x_edges.zw, vec2(1.0, z))),
-                           0.5 * (dot(sides.y_edges.xy, vec2(1.0, z)) + dot(sides.y_edges.zw, vec2(1.0, z))), -z);
-  float radius2 = 0.0;
-  for (uint i = 0u; i < 8u; ++i) {
-    const vec2 at = vec2(1.0, (i & 4u) == 0u ? z_near : z_far);
-    const vec2 corner = vec2(dot((i & 1u) == 0u ? sides.x_edges.xy : sides.x_edges.zw, at),
-                             dot((i & 2u) == 0u ? sides.y_edges.xy : sides.y_edges.zw, at));
-    const vec3 offset = vec3(corner, -at.y) - middle;
-    radius2 = max(radius2, dot(offset, offset));
-  }
-  return vec4(middle, sqrt(radius2) * 1.00001);
+  const vec2 middle = axis.xz + axis.yw * z;
+  const float half_length = z_far - z;
+  // The axis leans: at either end its own way from the middle adds to half the size there.
+  const vec2 lean = abs(axis.yw) * half_length;
+  const vec2 at_near = lean + abs(half_size.xz + half_size.yw * z_near);
+  const vec2 at_far = lean + abs(half_size.xz + half_size.yw * z_far);
+  const float radius2 = max(dot(at_near, at_near), dot(at_far, at_far)) + half_length * half_length;
+  return vec4(middle, -z, sqrt(radius2) * 1.00001);
 }
 
 #endif

@@ -10,14 +10,14 @@ layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup
 layout(set = 0, binding = 17, scalar) readonly buffer LookupCells { LightCell lookup_cells[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer LookupSpans { LightSpan lookup_spans[]; };
 layout(set = 0, binding = 19, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
-layout(set = 0, binding = 20, scalar) readonly buffer LookupEntries { uint lookup_entries[]; };
+layout(set = 0, binding = 20, scalar) readonly buffer LookupPieceLists { uint lookup_piece_lists[]; };
 
 struct Walk {
   uint at;
   uint end;
   uint span;    // the next
   uint spans;   // end of the cell's
-  bool coarse;  // `at` is in the entries
+  bool coarse;  // `at` is in the lists of pieces
   bool all;     // `at` is a light
 };
 
@@ -48,7 +48,7 @@ bool walk_next(inout Walk walk, out uint light) {
     walk.at = span.first & ~COARSE;
     walk.end = walk.at + span.count;
   }
-  light = walk.all ? walk.at : walk.coarse ? lookup_entries[walk.at] : lookup_lists[walk.at];
+  light = walk.all ? walk.at : walk.coarse ? lookup_piece_lists[walk.at] : lookup_lists[walk.at];
   ++walk.at;
   return true;
 }

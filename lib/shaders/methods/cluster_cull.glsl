@@ -1,7 +1,8 @@
 // The clusters of one tile, by one work group: batches of lights against the tile's sides, then one thread a slice walks
 // the survivors in order. Count and fill visit exactly the same pairs.
 // Needs: TILE_PX, SLICES, SLICE_SCALE, NEAR_MM, FAR_M; `frame`, `bounds`; the macros VISIT(light) and, after each 32
-// lights, END_OF_WORD(word), used by the thread of a slice.
+// lights, END_OF_WORD(word), used by the thread of a slice; and SURVIVORS(word, bits): lights 32 word + i that are between
+// the tile's sides, by the thread that has them.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_CLUSTER_CULL
 #define LAMP_METHODS_CLUSTER_CULL
@@ -52,6 +53,7 @@ void visit_clusters(uvec2 tile) {
       if (sphere_touches_sides(sphere, planes)) atomicOr(s_survivors[thread / 32u], 1u << (thread % 32u));
     }
     barrier();  // bits and bounds before the slices read them
+    if (thread < threads / 32u) SURVIVORS(first / 32u + thread, s_survivors[thread]);
     if (thread < SLICES) {
       for (uint word = 0u; word < threads / 32u; ++word) {
         for (uint bits = s_survivors[word]; bits != 0u; bits &= bits - 1u) {

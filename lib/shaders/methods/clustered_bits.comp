@@ -26,6 +26,7 @@ void write_word(uint word) {
 }
 #define VISIT(light) found |= 1u << ((light) % 32u)
 #define END_OF_WORD(word) write_word(word)
+#define SURVIVORS(word, bits)
 #include "methods/cluster_cull.glsl"
 
 void main() {

@@ -19,6 +19,7 @@ layout(set = 0, binding = 2, scalar) writeonly buffer RangeBuffer { uvec2 ranges
 uint found = 0u;
 #define VISIT(light) ++found
 #define END_OF_WORD(word)
+#define SURVIVORS(word, bits)
 #include "methods/cluster_cull.glsl"
 
 void main() {

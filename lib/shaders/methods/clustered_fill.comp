@@ -1,4 +1,5 @@
-// Writes each cluster's lights, ascending, at the place that the scan gave it.
+// Writes each cluster's lights, ascending, at the place that the scan gave it; and for a tile with a cluster that does
+// not fit, one bit a light that is between the tile's sides.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,24 +14,38 @@ layout(constant_id = 3) const uint SLICE_SCALE = 0;
 layout(constant_id = 4) const uint NEAR_MM = 500;
 layout(constant_id = 5) const uint FAR_M = 500;
 layout(constant_id = 6) const uint ENTRIES = 1;
+layout(constant_id = 7) const uint WORDS = 0;  // of a tile's bits; 0: there are none
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer ListBuffer { uint lists[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer BitBuffer { uint tile_bits[]; };
+
+shared bool s_overflowed;
 
 uint at = 0u;
 uint end = 0u;  // equal to `at` for a cluster that does not fit
 #define VISIT(light) if (at < end) lists[at++] = light
 #define END_OF_WORD(word)
+#define SURVIVORS(word, bits) keep(word, bits)
+
+void keep(uint word, uint bits) {
+  const uint tile = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+  if (s_overflowed && word < WORDS) tile_bits[tile * WORDS + word] = bits;
+}
 #include "methods/cluster_cull.glsl"
 
 void main() {
   const uint slice = gl_LocalInvocationIndex;
+  if (slice == 0u) s_overflowed = false;
+  barrier();  // cleared before it is set
   if (slice < SLICES) {
     const uvec2 range = ranges[cluster_index(gl_WorkGroupID.xy, slice)];
     at = range.x;
     const bool fits = range.x <= ENTRIES && range.y <= ENTRIES - range.x;
     end = fits ? range.x + range.y : range.x;
+    if (!fits) s_overflowed = true;
   }
+  barrier();  // set before survivors are kept
   visit_clusters(gl_WorkGroupID.xy);
 }

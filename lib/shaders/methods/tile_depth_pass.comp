@@ -65,7 +65,7 @@ TileRanges masked(float depths[4], float z_near, float z_far) {
   barrier();  // cleared before bits are set
   uint bits = 0u;
   for (uint i = 0u; i < 4u; ++i)
-    if (depths[i] > 0.0) bits |= 1u << mask_part(z_view_of(frame, depths[i]), z_near, z_far);
+    if (depths[i] > 0.0) bits |= 1u << mask_part(z_view_of(frame, depths[i]), z_near, mask_scale(z_near, z_far));
   reduce_mask(bits);
   barrier();  // all bits before they are read
   TileRanges result = one_range(z_near, z_far);

@@ -1,7 +1,9 @@
 // Clustered culling: tiles cut into slices of depth, without reading the depth buffer; a cluster keeps a list of any
-// length, or a bit for each light. Based on: Olsson, Billeter, Assarsson, Clustered Deferred and Forward Shading, HPG
-// (2012); Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017). Promise: right for any
-// depth of a pixel; count, scan, fill, so lists are compact and ascend. SPDX-License-Identifier: Apache-2.0
+// length, or a bit for each light.
+// Based on: Olsson, Billeter, Assarsson, Clustered Deferred and Forward Shading, HPG (2012); Drobot, Improved Culling
+// for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
+// Promise: right for any depth of a pixel; count, scan, fill, so lists are compact and ascend.
+// SPDX-License-Identifier: Apache-2.0
 #include <cassert>
 #include <initializer_list>
 
@@ -18,10 +20,10 @@ struct Clusters {
   std::uint32_t threads;
   std::vector<std::uint32_t> constants;  ///< of the look-up; passes have the number of threads before them
   [[nodiscard]] Extent one_group_a_tile() const { return {.x = tiles.width, .y = tiles.height}; }
-  [[nodiscard]] std::vector<std::uint32_t> pass_constants(std::uint32_t last) const {
+  [[nodiscard]] std::vector<std::uint32_t> pass_constants(std::initializer_list<std::uint32_t> last) const {
     std::vector<std::uint32_t> all{threads};
     all.insert(all.end(), constants.begin(), constants.end());
-    all.push_back(last);
+    all.insert(all.end(), last);
     return all;
   }
 };
@@ -42,13 +44,23 @@ void add_bits(Plan& plan, const Problem& problem, const Clusters& c, ResourceId 
   const ResourceId bits = plan.add({.name = "cluster bits", .bytes = c.count * words * 4});
   plan.passes.push_back({.name = "cluster bits",
                          .shader = "methods/clustered_bits",
-                         .constants = c.pass_constants(words),
+                         .constants = c.pass_constants({words}),
                          .bindings = {{INPUT_FRAME}, {bounds}, {bits, Access::write}},
                          .extent = c.one_group_a_tile()});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),
                  .constants = c.constants,
                  .bindings = {{INPUT_FRAME}, {bits}}};
   plan.lookup.constants.push_back(words);
+}
+
+/// A tile's bits serve where lists do not fit; beyond this size of them all, every light serves.
+constexpr std::uint64_t MOST_BIT_BYTES = 1U << 26;  // a million lights at 1920x1080
+
+/// Words of a tile's bits, 0 if there shall be none.
+std::uint32_t words_of_a_tile(const Problem& problem, const parts::TileGrid& tiles) {
+  const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
+  const std::uint64_t bytes = tiles.count() * words * 4;
+  return bytes <= std::min(MOST_BIT_BYTES, problem.traits.max_storage_buffer_bytes) ? words : 0;
 }
 
 /// Each cluster a range of one shared list.
@@ -58,9 +70,12 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   const ResourceId counters = parts::add_counters(plan);
   const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = c.count * 8});
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
+  const std::uint32_t words = words_of_a_tile(problem, c.tiles);
+  // Bound to the list, and not used, where there are none.
+  const ResourceId bits = words == 0 ? lists : plan.add({.name = "tile bits", .bytes = c.tiles.count() * words * 4});
   plan.passes.push_back({.name = "cluster count",
                          .shader = "methods/clustered_count",
-                         .constants = c.pass_constants(entries),
+                         .constants = c.pass_constants({entries}),
                          .bindings = {{INPUT_FRAME}, {bounds}, {ranges, Access::write}},
                          .extent = c.one_group_a_tile()});
   plan.passes.push_back({.name = "cluster scan",
@@ -69,13 +84,13 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
                          .bindings = {{ranges, Access::read_write}, {counters, Access::read_write}}});
   plan.passes.push_back({.name = "cluster fill",
                          .shader = "methods/clustered_fill",
-                         .constants = c.pass_constants(entries),
-                         .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}},
+                         .constants = c.pass_constants({entries, words}),
+                         .bindings = {{INPUT_FRAME}, {bounds}, {ranges}, {lists, Access::write}, {bits, Access::write}},
                          .extent = c.one_group_a_tile()});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_lists"),
                  .constants = c.constants,
-                 .bindings = {{INPUT_FRAME}, {ranges}, {lists}}};
-  plan.lookup.constants.push_back(entries);
+                 .bindings = {{INPUT_FRAME}, {ranges}, {lists}, {bits}}};
+  plan.lookup.constants.insert(plan.lookup.constants.end(), {entries, words});
 }
 
 Plan plan_clustered(const Problem& problem) {

@@ -7,7 +7,6 @@
 #include <bit>
 
 #include "lamplight/shared/lamplight.h"
-#include "lamplight/shared/tile.h"
 #include "methods.h"
 #include "parts.h"
 
@@ -15,11 +14,17 @@ namespace lamp {
 namespace {
 
 constexpr std::uint32_t SCAN_COLUMNS = 16;
-constexpr std::uint32_t MOST_CELLS = 2304;        // counters of a work group: 9 KiB of shared memory; 4K has 2040 cells
-constexpr std::uint32_t WANTED_BLOCKS = 512;      // enough work groups for large GPUs, few enough rows in the matrix
-constexpr std::uint32_t LARGEST_BLOCK = 2048;     // lights
-constexpr std::uint32_t SMALLEST_BLOCK = 256;     // lights
-constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // an entry's place has 31 bits
+constexpr std::uint32_t SCAN_THREADS = 1024;
+constexpr std::uint32_t PIECE = 128;           // entries that a work group culls
+constexpr std::uint32_t MARGIN = 32;           // around them, where runs of a block begin and end
+constexpr std::uint32_t MOST_CELLS = 2304;     // counters of a work group: 9 KiB of shared memory; 4K has 2040 cells
+constexpr std::uint32_t WANTED_BLOCKS = 384;   // work groups that a large GPU runs at once, rows of the matrix
+constexpr std::uint32_t LARGEST_BLOCK = 8192;  // lights
+constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
+constexpr std::uint32_t BLOCK_THREADS = 256;
+constexpr std::uint32_t LIST_THREADS = 128;
+constexpr std::uint32_t QUEUE_BYTES = 64 * 24 + 8;  // lights of many cells, in shared memory
+constexpr std::uint64_t MOST_ENTRIES = 1U << 30;    // an entry's place has 31 bits
 
 /// Every size of the plan.
 struct Sizes {
@@ -28,20 +33,14 @@ struct Sizes {
   std::uint32_t cell_count;
   std::uint32_t block;    ///< lights
   std::uint32_t blocks;   ///< rows of the count matrix
-  std::uint32_t piece;    ///< entries, about
-  std::uint32_t longest;  ///< entries of a piece, at most
   std::uint32_t entries;  ///< lights in cells, capacity
   std::uint32_t listed;   ///< lights in tiles, capacity
   std::uint32_t pieces;   ///< at most
 };
 
-std::uint32_t shared_bytes_of_lists(std::uint32_t block) { return (block + block / 2) * 8 + 32 * 52 + 16; }
-
-std::uint32_t block_size(const Problem& problem) {
-  std::uint32_t block = std::bit_ceil(parts::divide_up(parts::capacity(problem), WANTED_BLOCKS));
-  block = std::clamp(block, SMALLEST_BLOCK, LARGEST_BLOCK);
-  while (block > SMALLEST_BLOCK && shared_bytes_of_lists(block) > problem.traits.shared_memory_bytes) block /= 2;
-  return block;
+std::uint32_t block_size(std::uint32_t lights) {
+  const std::uint32_t wanted = parts::divide_up(parts::divide_up(lights, WANTED_BLOCKS), SMALLEST_BLOCK);
+  return std::clamp(wanted * SMALLEST_BLOCK, SMALLEST_BLOCK, LARGEST_BLOCK);
 }
 
 Sizes sizes_of(const Problem& problem) {
@@ -55,41 +54,41 @@ Sizes sizes_of(const Problem& problem) {
   } while (s.cells.count() > MOST_CELLS);
   s.cell_count = static_cast<std::uint32_t>(s.cells.count());
   const std::uint64_t lights = parts::capacity(problem);
-  s.block = block_size(problem);
+  s.block = block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);
-  s.piece = s.block / 2;
-  s.longest = s.block + s.piece;
   const std::uint64_t most = std::min(MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 4);
   s.entries = static_cast<std::uint32_t>(std::min(
-      lights * problem.options.integer("mean_cells") + std::min<std::uint64_t>(lights, 64) * s.cell_count, most));
+      lights * problem.options.integer("mean_cells") +
+          (std::min<std::uint64_t>(lights, 64) + shared::ENTRY_UNIT / SCAN_COLUMNS) * s.cell_count + shared::ENTRY_UNIT,
+      most));
   s.listed = static_cast<std::uint32_t>(std::min(
       lights + s.tiles.count() * std::min<std::uint64_t>(lights, problem.options.integer("mean_capacity")), most));
-  s.pieces = s.cell_count + s.entries / s.piece;
+  s.pieces = s.cell_count + s.entries / PIECE;
   return s;
 }
 
 struct Buffers {
-  ResourceId counters, totals, ranges, cell_depths, spheres, rectangles, lights, survivors, matrix, cells, pieces,
-      entries, spans, lists;
+  ResourceId counters, totals, tile_depths, cell_depths, spheres, reaches, survivors, survivor_counts, matrix, cells,
+      pieces, entries, spans, lists, piece_lists;
 };
 
-Buffers add_buffers(Plan& plan, const Sizes& s) {
-  const std::uint64_t slots = std::uint64_t{s.blocks} * s.block;
+Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   Buffers b{};
   b.counters = parts::add_counters(plan);
   b.totals = plan.add({.name = "totals", .bytes = sizeof(shared::LightTotals), .zeroed = true, .indirect = true});
-  b.ranges = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileRanges)});
-  b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 8});
-  b.spheres = plan.add({.name = "light bounds", .bytes = slots * sizeof(shared::LightBounds)});
-  b.rectangles = plan.add({.name = "light rectangles", .bytes = slots * 8});
-  b.lights = plan.add({.name = "light indices", .bytes = slots * 4});
-  b.survivors = plan.add({.name = "lights in view", .bytes = std::uint64_t{s.blocks} * 4});
+  b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
+  b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
+  b.spheres = plan.add({.name = "light bounds", .bytes = lights * sizeof(shared::LightBounds)});
+  b.reaches = plan.add({.name = "light rectangles", .bytes = lights * sizeof(shared::LightReach)});
+  b.survivors = plan.add({.name = "lights in sight", .bytes = std::uint64_t{s.blocks} * s.block * 4});
+  b.survivor_counts = plan.add({.name = "counts of lights in sight", .bytes = std::uint64_t{s.blocks} * 4});
   b.matrix = plan.add({.name = "cell counts", .bytes = std::uint64_t{s.blocks} * s.cell_count * 4});
   b.cells = plan.add({.name = "cells", .bytes = s.cells.count() * sizeof(shared::LightCell)});
   b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::LightPiece)});
   b.entries = plan.add({.name = "cell lists", .bytes = std::uint64_t{s.entries} * 4});
   b.spans = plan.add({.name = "tile spans",
                       .bytes = std::uint64_t{s.pieces} * s.cell_tiles * s.cell_tiles * sizeof(shared::LightSpan)});
+  b.piece_lists = plan.add({.name = "piece lists", .bytes = std::uint64_t{s.entries} * 4});
   b.lists = plan.add({.name = "tile lists", .bytes = std::uint64_t{s.listed} * 4});
   return b;
 }
@@ -99,9 +98,16 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
 }
 
+/// Whether all lists together could have 2^32 entries: then a total is looked at before it is added to.
+std::uint32_t lists_may_wrap(const Sizes& s) {
+  return std::uint64_t{s.entries} * s.cell_tiles * s.cell_tiles >> 32 == 0 ? 0 : 1;
+}
+
 std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t cell_pixels = s.tile_px * s.cell_tiles * s.tile_px * s.cell_tiles;
-  const std::uint32_t block_threads = group_threads(problem, std::min(s.block, 512U));
+  const std::uint32_t block_threads = group_threads(problem, BLOCK_THREADS);
+  const std::uint32_t run_words = parts::divide_up(s.block, 32);
+  const std::uint32_t scan_threads = group_threads(problem, SCAN_THREADS);
   const Extent one_group_a_cell{.x = s.cells.width, .y = s.cells.height};
   const Extent one_group_a_block{.lights_per_group = s.block};
   constexpr Access WRITE = Access::write;
@@ -110,66 +116,74 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
       {.name = "tile depth",
        .shader = "methods/lamplight_depth",
        .constants = {group_threads(problem, std::clamp(cell_pixels / 8, 64U, 512U)), s.tile_px, s.cell_tiles},
-       .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.ranges, WRITE}, {b.cell_depths, WRITE}},
+       .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.tile_depths, WRITE}, {b.cell_depths, WRITE}},
        .extent = one_group_a_cell,
        .shared_bytes = 32},
       {.name = "project lights",
        .shader = "methods/lamplight_project",
-       .constants = {block_threads, s.tile_px, s.cell_tiles, s.cell_count, s.block},
+       .constants = {block_threads, s.tile_px, s.cell_tiles, s.cell_count, s.block, 2 * block_threads},
        .bindings = {{INPUT_FRAME},
                     {INPUT_LIGHTS},
-                    {b.ranges},
+                    {b.tile_depths},
                     {b.cell_depths},
                     {b.spheres, WRITE},
-                    {b.rectangles, WRITE},
-                    {b.lights, WRITE},
+                    {b.reaches, WRITE},
                     {b.survivors, WRITE},
+                    {b.survivor_counts, WRITE},
                     {b.matrix, WRITE}},
        .extent = one_group_a_block,
-       .shared_bytes = s.cell_count * 4 + 160},
+       .shared_bytes = s.cell_count * 8 + 2 * block_threads * 20 + QUEUE_BYTES + 4},
       {.name = "scan cells",
        .shader = "methods/lamplight_scan",
-       .constants = {s.cell_count, s.block, s.piece, s.entries, s.cell_tiles * s.cell_tiles},
+       .constants = {scan_threads / SCAN_COLUMNS, s.cell_count, s.block, PIECE, s.entries, s.cell_tiles * s.cell_tiles},
        .bindings =
            {{INPUT_FRAME}, {b.matrix, BOTH}, {b.cells, WRITE}, {b.pieces, WRITE}, {b.totals, BOTH}, {b.counters, BOTH}},
        .extent = {.x = parts::divide_up(s.cell_count, SCAN_COLUMNS)},
-       .shared_bytes = 16 * 16 * 4 + 3 * 64},
+       .shared_bytes = scan_threads * 4 + 4 * SCAN_COLUMNS * 4},
       {.name = "scatter lights",
        .shader = "methods/lamplight_scatter",
        .constants = {block_threads, s.tile_px, s.cell_tiles, s.cell_count, s.block, s.entries},
-       .bindings =
-           {{INPUT_FRAME}, {b.cell_depths}, {b.spheres}, {b.rectangles}, {b.survivors}, {b.matrix}, {b.entries, WRITE}},
+       .bindings = {{INPUT_FRAME},
+                    {b.cell_depths},
+                    {b.spheres},
+                    {b.reaches},
+                    {b.survivors},
+                    {b.survivor_counts},
+                    {b.matrix},
+                    {b.entries, WRITE}},
        .extent = one_group_a_block,
-       .shared_bytes = s.cell_count * 4},
+       .shared_bytes = s.cell_count * 8 + QUEUE_BYTES},
       {.name = "tile lists",
        .shader = "methods/lamplight_lists",
-       .constants = {group_threads(problem, 256), s.tile_px, s.cell_tiles, s.longest, s.listed},
+       .constants = {group_threads(problem, LIST_THREADS), s.tile_px, s.cell_tiles, s.block, s.cell_count, PIECE,
+                     s.listed, PIECE + 2 * MARGIN, run_words, lists_may_wrap(s)},
        .bindings = {{INPUT_FRAME},
                     {INPUT_LIGHTS},
-                    {b.ranges},
+                    {b.tile_depths},
                     {b.spheres},
-                    {b.rectangles},
-                    {b.lights},
+                    {b.reaches},
                     {b.cells},
                     {b.pieces},
-                    {b.entries, BOTH},
+                    {b.entries},
+                    {b.matrix},
                     {b.totals, BOTH},
                     {b.counters, BOTH},
                     {b.spans, WRITE},
-                    {b.lists, WRITE}},
+                    {b.lists, WRITE},
+                    {b.piece_lists, WRITE}},
        .extent = {.indirect = b.totals},
-       .shared_bytes = shared_bytes_of_lists(s.block)}};
+       .shared_bytes = (3 * PIECE + 2 * MARGIN + run_words) * 4 + 32 * 56 + 80}};
 }
 
 Plan plan_lamplight(const Problem& problem) {
   const Sizes sizes = sizes_of(problem);
   Plan plan;
   plan.cells = sizes.tiles.count();
-  const Buffers buffers = add_buffers(plan, sizes);
+  const Buffers buffers = add_buffers(plan, sizes, parts::capacity(problem));
   plan.passes = passes_of(problem, sizes, buffers);
   plan.lookup = {.name = "cell_lists",
                  .constants = {sizes.tile_px, sizes.cell_tiles},
-                 .bindings = {{INPUT_FRAME}, {buffers.cells}, {buffers.spans}, {buffers.lists}, {buffers.entries}}};
+                 .bindings = {{INPUT_FRAME}, {buffers.cells}, {buffers.spans}, {buffers.lists}, {buffers.piece_lists}}};
   return plan;
 }
 

@@ -13,7 +13,7 @@ using Words = std::vector<std::string_view>;
 
 // In the order of the numbers in shared/tile.h.
 const Words& bounds_words() {
-  static const Words words{"minmax", "half", "modified-half", "mask"};
+  static const Words words{"minmax", "half", "modified-half", "mask", "none"};
   return words;
 }
 const Words& test_words() {
@@ -58,7 +58,7 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
   std::vector<OptionSpec> specs{
       {.key = "tile", .help = "tile size, pixels", .fallback = "16", .choices = {"8", "16", "32"}},
       {.key = "bounds",
-       .help = "how a tile's depths are kept: one range, two halves, two tightened halves, a 32-bit mask",
+       .help = "how a tile's depths are kept: one range, two halves, two tightened halves, a 32-bit mask, not at all",
        .fallback = "minmax",
        .choices = bounds_words()},
       {.key = "reduce",
@@ -99,6 +99,25 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
   return specs;
 }
 
+namespace {
+
+/// What cannot be done without depth bounds.
+std::optional<Error> check_no_bounds(const TiledAxes& axes) {
+  if (axes.bounds != shared::BOUNDS_NONE) return std::nullopt;
+  if (!axes.cone() && axes.test != shared::TEST_PLANES)
+    return Error{"option test",
+                 "a box and a truncated frustum end at depth bounds; bounds=none goes with test=planes, cone or "
+                 "cone-approximate"};
+  if (axes.spot == shared::SPOT_CONE_SPHERE)
+    return Error{"option spot",
+                 "a sphere around a tile needs depth bounds; bounds=none goes with sphere or cone-planes"};
+  if (axes.reduce != TiledAxes::Reduce::atomic)
+    return Error{"option reduce", "bounds=none reduces nothing; leave it at atomic"};
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Error> check_tiled(const Problem& problem) {
   const TiledAxes axes = tiled_axes(problem.options);
   if (axes.bits && axes.order != shared::ORDER_INDEX)
@@ -110,6 +129,7 @@ std::optional<Error> check_tiled(const Problem& problem) {
     return Error{"option frusta",
                  "only planes and cones are kept; frusta=cached goes with test=planes, planes+aabb, "
                  "cone or cone-approximate"};
+  if (std::optional<Error> error = check_no_bounds(axes)) return error;
   if (auto error = parts::check_walk(problem.options, axes.bits ? parts::Container::bits : parts::Container::list))
     return error;
   if (axes.order == shared::ORDER_TYPE && problem.options.word("walk") != "plain")

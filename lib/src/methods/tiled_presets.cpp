@@ -77,8 +77,9 @@ std::vector<Method> tiled_methods() {
            {"reduce", "parallel"}}),
       row({"article-deferred", "Tiled deferred of the compute article",
            "Adventures in Deferred Rendering: Tiled Deferred Shading and Compute Shaders",
-           "Planes straight from the projection matrix, appended lists; 2560x1440, 4096 lights, Blinn-Phong there."},
-          {{"order", "append"}, {"capacity", "1024"}, {"frusta", "cached"}}),
+           "Four planes straight from the projection matrix, no depth bounds, appended lists; 2560x1440, 4096 lights, "
+           "Blinn-Phong there."},
+          {{"order", "append"}, {"capacity", "1024"}, {"bounds", "none"}, {"frusta", "cached"}}),
       row({"primal-base", "Primal, base",
            "Primal engine, Light Culling with Approximate Sphere-Cone Intersection, base implementation",
            "Cached planes, light records, spots as cones against planes, appended lists, 32 px."},

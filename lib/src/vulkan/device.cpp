@@ -83,6 +83,7 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
           .max_group_invocations = limits.maxComputeWorkGroupInvocations,
           .shared_memory_bytes = limits.maxComputeSharedMemorySize,
           .max_image_size = limits.maxImageDimension2D,
+          .max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers,
           .subgroup_size = v11.subgroupSize,
           .subgroup_ballot = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0,
           .subgroup_arithmetic = (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0};

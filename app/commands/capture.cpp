@@ -1,0 +1,74 @@
+// lamp capture: one frame as files, which every command takes as a scene.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/capture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/request.h"
+
+namespace lamp::app {
+namespace {
+
+struct CaptureOptions {
+  Request request;
+  std::string out;
+  std::string lights_as = "npy";
+};
+
+LightsFormat parse_lights_as(const std::string& text) {
+  if (text == "npy") return LightsFormat::npy;
+  if (text == "json") return LightsFormat::json;
+  throw Error(fmt::format("--lights-as '{}': expected npy or json", text));
+}
+
+/// What the files hold: surfaces instead of meshes, and all lights.
+Scene frame_of(const Setup& setup, CapturedFrame captured) {
+  Scene frame{.lights = setup.scene.lights,
+              .directional_lights = setup.scene.directional_lights,
+              .sky = setup.scene.sky,
+              .ambient = setup.scene.ambient,
+              .captured = std::move(captured)};
+  frame.lights.insert(frame.lights.end(), setup.generated.begin(), setup.generated.end());
+  return frame;
+}
+
+bool has_glass(const Scene& scene) {
+  return std::ranges::any_of(scene.materials, [](const Material& m) { return m.alpha_mode == AlphaMode::blend; });
+}
+
+Exit capture(const CaptureOptions& o) {
+  const LightsFormat lights = parse_lights_as(o.lights_as);
+  check_request(o.request, parse_method(o.request.method));
+  check_capture_folder(o.out);
+  const Setup setup = make_setup(o.request);
+  for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
+  Session session(o.request, setup);
+  const Scene frame = frame_of(setup, session.renderer().capture());
+  write_capture(o.out, frame, lights);
+  fmt::print("capture   {}, {}x{}\nlights    {}: {}\n", o.out, setup.view.width(), setup.view.height(),
+             setup.lights.size(), setup.lights_note);
+  if (has_glass(setup.scene)) fmt::print("left out  transparent surfaces\n");
+  return Exit::done;
+}
+
+}  // namespace
+
+Run add_capture(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("capture", "Write one frame as files that every command takes as a scene");
+  auto o = std::make_shared<CaptureOptions>();
+  add_common_options(*command, o->request);
+  command->add_option("--out", o->out, "folder: a new one, an empty one, or a capture to replace")->required();
+  command->add_option("--lights-as", o->lights_as, "npy (NumPy, compact) or json (readable)")->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  lamp capture atrium --frame 40 --out frame\n"
+      "  lamp verify frame\n"
+      "docs/capture.md describes the files, for captures from other engines.");
+  return [o] { return capture(*o); };
+}
+
+}  // namespace lamp::app

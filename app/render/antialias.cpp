@@ -1,0 +1,47 @@
+// Shifts projections and averages pictures.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/antialias.h"
+
+#include "gpu/check.h"
+
+namespace lamp::app {
+namespace {
+
+/// The digits of i in a base, mirrored behind the point: 0 <= result < 1.
+double radical_inverse(std::uint32_t i, std::uint32_t base) {
+  double inverse = 0.0;
+  for (double place = 1.0 / base; i != 0; i /= base, place /= base) inverse += place * (i % base);
+  return inverse;
+}
+
+}  // namespace
+
+glm::dvec2 sample_offset(std::uint32_t i) {
+  if (i == 0) return glm::dvec2(0.0);
+  // Halton's first point has x = 1/2, the centre's column; the points from the second on lie beside it.
+  return {radical_inverse(i + 1, 2) - 0.5, radical_inverse(i + 1, 3) - 0.5};
+}
+
+View shifted(const View& view, glm::dvec2 offset_px) {
+  glm::dmat4 clip_from_view = view.clip_from_view();
+  const glm::dvec2 offset_ndc = 2.0 * offset_px / glm::dvec2(view.width(), view.height());
+  for (int column = 0; column < 4; ++column) {
+    clip_from_view[column].x -= offset_ndc.x * clip_from_view[column].w;
+    clip_from_view[column].y -= offset_ndc.y * clip_from_view[column].w;
+  }
+  return take(View::create(view.width(), view.height(), clip_from_view, view.view_from_world()));
+}
+
+HdrImage average_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights, HdrImage first,
+                         std::uint32_t samples) {
+  const View view = renderer.view();
+  for (std::uint32_t i = 1; i < samples; ++i) {
+    renderer.set_frame(shifted(view, sample_offset(i)), lights);
+    const HdrImage image = renderer.render(lighting).image;
+    for (std::size_t p = 0; p < first.pixels.size(); ++p) first.pixels[p] += image.pixels[p];
+  }
+  for (glm::vec4& pixel : first.pixels) pixel /= static_cast<float>(samples);
+  return first;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,32 @@
+// Forward+ over a captured frame, which has no meshes: every fragment of the picture walks the lights of its cell for the
+// surface that is stored at its pixel.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+#include "scene_data.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
+  Surroundings surroundings;
+  DirectionalData directional_lights[];
+};
+#include "lookup.glsl"
+#include "common/deferred_surface.glsl"
+#include "common/shade_cell.glsl"
+#include "common/surroundings.glsl"
+
+layout(location = 0) out vec4 out_color;
+
+void main() {
+  const ivec2 pixel = ivec2(gl_FragCoord.xy);
+  const float depth = texelFetch(depth_image, pixel, 0).x;
+  if (depth <= 0.0) discard;
+  const float z_view = z_view_of(frame, depth);
+  const Surface s = read_surface(pixel, z_view);
+  const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
+  out_color = vec4(shade_surroundings(s, emission) + shade_cell(s, uvec2(pixel), z_view), 1.0);
+}

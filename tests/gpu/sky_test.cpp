@@ -1,0 +1,185 @@
+// Tiles that the depth buffer leaves empty list nothing, whatever the preset; and a transparent surface there is lit
+// nevertheless.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "gpu/dispatch.h"
+#include "gpu/method_check.h"
+#include "gpu/test_surfaces.h"
+#include "render/frame_data.h"
+#include "render/pass_uses.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+using Passes = vulkan::PlanRunner::Passes;
+
+constexpr std::uint32_t WIDTH = 160;
+constexpr std::uint32_t HEIGHT = 96;
+constexpr std::uint32_t COUNT = 40;
+constexpr std::uint32_t LARGEST_TILE_PX = 32;
+
+/// Every row that culls tiles.
+std::vector<const Method*> tiled_rows() {
+  std::vector<const Method*> rows;
+  for (const Method& method : methods())
+    if (method.result.starts_with("tile_")) rows.push_back(&method);
+  return rows;
+}
+
+/// A row without depth bounds cannot know where the sky is.
+bool looks_at_depth(const Method& method) { return take(resolve_options(method, {})).word("bounds") != "none"; }
+
+/// Points and spots whose spheres cover the whole picture, all around the plane z = 0 before the camera.
+std::vector<shared::Light> covering_lights() {
+  std::vector<Light> lights(COUNT);
+  for (std::uint32_t i = 0; i < COUNT; ++i) {
+    const float share = static_cast<float>(i) / COUNT;
+    lights[i].position = {2.0F * share - 1.0F, 1.0F - share, 1.0F + share};
+    lights[i].range = 40.0F;
+    if (i % 3 != 0) continue;
+    lights[i].type = LightType::spot;
+    lights[i].direction = {0.0F, 0.0F, -1.0F};
+    lights[i].outer_angle = 1.5F;
+  }
+  return pack(lights);
+}
+
+View camera_view(const Scene& scene) { return view_of(scene.cameras.front(), WIDTH, HEIGHT, "camera"); }
+
+float device_depth(const View& view, double z_view) {
+  const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(0.0, 0.0, -z_view, 1.0);
+  return static_cast<float>(clip.z / clip.w);
+}
+
+/// The left part of the picture is sky, to a column that no tile size divides; the rest lies 1 m to 9 m ahead.
+constexpr std::uint32_t FIRST_COVERED = 3 * LARGEST_TILE_PX + 5;
+std::vector<float> half_a_sky(const View& view) {
+  std::vector<float> depth(std::size_t{WIDTH} * HEIGHT, 0.0F);
+  for (std::uint32_t y = 0; y < HEIGHT; ++y)
+    for (std::uint32_t x = FIRST_COVERED; x < WIDTH; ++x)
+      depth[std::size_t{y} * WIDTH + x] = device_depth(view, 1.0 + 8.0 * (x + y) / (WIDTH + HEIGHT));
+  return depth;
+}
+
+/// A plan, run over a depth buffer that nothing has drawn.
+class OverDepth {
+ public:
+  OverDepth(const View& view, const std::vector<float>& depth)
+      : view_(view), depth_(depth_image(WIDTH, HEIGHT, depth)), data_(test_context().device(), COUNT) {
+    data_.set(view, covering_lights());
+  }
+
+  /// Lights named at every pixel by count_everywhere.
+  std::vector<std::uint32_t> counts(vulkan::PlanRunner& runner, Passes which) {
+    const bool fused = which == Passes::fused;
+    const vulkan::PlanInputs inputs = data_.plan_inputs(depth_.sampled());
+    const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
+    vulkan::PipelineInfo info{.name = "count everywhere", .constants = lookup.constants, .bindings = {{0}, {1}}};
+    info.constants.push_back({0, fused ? runner.plan().fused->group_width : 8});
+    info.constants.push_back({1, fused ? runner.plan().fused->group_height : 8});
+    for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
+    const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(
+        test_context().device(), info, test_shader("count_everywhere@" + std::string(lookup.name))));
+    const vulkan::Buffer found = host_buffer("counts", std::size_t{WIDTH} * HEIGHT * sizeof(std::uint32_t));
+    std::vector<vulkan::Bound> bound = lookup.resources;
+    bound.push_back({0, data_.frame()});
+    bound.push_back({1, vulkan::Resource::storage(found.handle())});
+    test_context().submit([&](VkCommandBuffer commands) {
+      vulkan::AccessTracker tracker;
+      tracker.assume(depth_.sampled());
+      vulkan::Recorder recorder(test_context().device(), commands, tracker);
+      data_.record_upload(recorder);
+      runner.record(recorder, inputs, which);
+      std::vector<vulkan::Use> uses{{.resource = vulkan::Resource::storage(found.handle()),
+                                     .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                     .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
+      for (const vulkan::Bound& b : lookup.resources)
+        uses.push_back(reads(b.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
+      recorder.begin_pass("count everywhere", uses);
+      recorder.bind(pipeline, bound);
+      const std::uint32_t side_x = fused ? runner.plan().fused->group_width : 8;
+      const std::uint32_t side_y = fused ? runner.plan().fused->group_height : 8;
+      vkCmdDispatch(commands, (WIDTH + side_x - 1) / side_x, (HEIGHT + side_y - 1) / side_y, 1);
+      recorder.end_pass();
+      recorder.barrier({host_reads(vulkan::Resource::storage(found.handle()))});
+    });
+    return contents<std::uint32_t>(found);
+  }
+
+ private:
+  View view_;
+  GpuImage depth_;
+  FrameData data_;
+};
+
+Plan plan_of(const Method& method) {
+  return take(make_plan(method, {.width = WIDTH,
+                                 .height = HEIGHT,
+                                 .light_capacity = COUNT,
+                                 .options = take(resolve_options(method, {})),
+                                 .traits = test_context().device().traits}));
+}
+
+class Sky : public GpuTest {};
+
+TEST_F(Sky, EmptyTilesListNothing) {
+  const Scene scene = wall_scene({});
+  const View view = camera_view(scene);
+  OverDepth over(view, half_a_sky(view));
+  for (const Method* method : tiled_rows()) {
+    vulkan::PlanRunner runner =
+        take(vulkan::PlanRunner::create(test_context().device(), plan_of(*method), shader_library().source()));
+    for (const Passes which : {Passes::separate, Passes::fused}) {
+      if (which == Passes::fused && !runner.plan().fused) continue;
+      SCOPED_TRACE(std::string(method->name) + (which == Passes::fused ? ", fused" : ""));
+      const std::vector<std::uint32_t> counts = over.counts(runner, which);
+      std::uint64_t in_sky = 0;
+      std::uint64_t elsewhere = 0;
+      for (std::uint32_t y = 0; y < HEIGHT; ++y)
+        for (std::uint32_t x = 0; x < WIDTH; ++x) {
+          const std::uint32_t count = counts[std::size_t{y} * WIDTH + x];
+          if (x < FIRST_COVERED / LARGEST_TILE_PX * LARGEST_TILE_PX) in_sky += count;
+          if (x >= FIRST_COVERED) elsewhere += count;
+        }
+      if (looks_at_depth(*method))
+        EXPECT_EQ(in_sky, 0U);
+      else
+        EXPECT_GT(in_sky, 0U);
+      EXPECT_GT(elsewhere, 0U);
+    }
+  }
+}
+
+TEST_F(Sky, ATransparentSurfaceBeforeItIsLit) {
+  Scene scene = wall_scene({.base_color = glm::vec4(0.8F, 0.7F, 0.6F, 0.5F), .alpha_mode = AlphaMode::blend});
+  const GpuScene gpu(test_context(), scene);
+  Renderer renderer(test_context(), shader_library(), gpu, WIDTH, HEIGHT, COUNT);
+  renderer.set_frame(camera_view(scene), covering_lights());
+  const auto picture = [&](const Method& method, ShadingPath path) {
+    Lighting lighting(renderer.device(), shader_library(),
+                      {.method = &method,
+                       .options = take(resolve_options(method, {})),
+                       .width = WIDTH,
+                       .height = HEIGHT,
+                       .light_capacity = COUNT,
+                       .path = path,
+                       .transparency = true});
+    return renderer.render(lighting).image;
+  };
+  const HdrImage reference = picture(brute_force(), ShadingPath::deferred);
+  const std::vector<float> depth = renderer.read_depth();
+  ASSERT_TRUE(std::ranges::all_of(depth, [](float d) { return d == 0.0F; })) << "the picture should be all sky";
+  const glm::vec4 middle = reference.pixels[std::size_t{HEIGHT / 2} * WIDTH + WIDTH / 2];
+  ASSERT_GT(middle.r, 0.01F);
+  for (const Method* method : tiled_rows()) {
+    for (const ShadingPath path : {ShadingPath::forward, ShadingPath::deferred, ShadingPath::tiled_deferred}) {
+      SCOPED_TRACE(std::string(method->name) + " " + std::string(path_names()[static_cast<std::size_t>(path)]));
+      EXPECT_EQ(max_abs_difference(picture(*method, path), reference), 0.0F);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lamp::app
