@@ -290,6 +290,7 @@ TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
     ASSERT_EQ(without.notes.size(), 1U);
     EXPECT_TRUE(without.notes[0].starts_with("compact=off instead of on")) << without.notes[0];
     EXPECT_TRUE(plan("off", LEAST).notes.empty());
+  }
 }
 
 TEST(Methods, CombinationsThatMakeNoSenseAreRefusedWithTheReason) {

@@ -16,6 +16,8 @@ struct Walk {
 };
 const uint NO_WORD = ~0u;
 
+Walk walk_nothing() { return Walk(0u, 0u, NO_WORD); }
+
 Walk walk_of_cell(uint cell) {
   const uvec2 range = lookup_ranges[cell];
   const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;

@@ -2,7 +2,7 @@
 // wait. What is loaded of a list, and for a light, is then the same for all threads that walk.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
 // Promise: each thread walks its own cell once, whichever threads are active with it.
-// Needs: walk_of_cell.
+// Needs: walk_of_cell, walk_nothing.
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -24,7 +24,7 @@ bool walk_next_turn(inout WalkTurns turns) {
 
 Walk walk_of_turn(WalkTurns turns) {
   if (turns.done) return walk_of_cell(turns.turn);
-  return Walk(0u, 0u, false);  // nothing
+  return walk_nothing();
 }
 
 #define LOOKUP_EACH(light, pixel, z_view)                                                                    \

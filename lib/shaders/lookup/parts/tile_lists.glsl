@@ -19,6 +19,8 @@ struct Walk {
 
 void lookup_prepare() {}
 
+Walk walk_nothing() { return Walk(0u, 0u, false); }
+
 Walk walk_of_cell(uint cell) {
   const uint base = cell * (1u + LOOKUP_CAPACITY);
   const uint count = lookup_lists[base];
