@@ -62,6 +62,7 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", stats.method, stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
+  for (const std::string& note : stats.notes) line("note", note);
   if (stats.findings)
     line("pairs", fmt::format("{} of pixel and light walked, {:.1f} lights a pixel's list, longest {}",
                               stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));

@@ -18,6 +18,7 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
               .frames = info.frames,
               .rendered = std::move(rendered),
               .cells = plan.cells,
+              .notes = plan.notes,
               .ordered = plan.ordered,
               .approximate = plan.approximate};
   stats.rendered.image.pixels = {};
@@ -53,6 +54,7 @@ nlohmann::json to_json(const Stats& s) {
                       {"frame_ms", s.rendered.frame_ms},
                       {"bytes", nlohmann::json::object()},
                       {"cells", s.cells},
+                      {"notes", s.notes},
                       {"overflowed_cells", s.rendered.counters.overflowed_cells}};
   for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
   for (const PassTime& pass : s.rendered.passes)

@@ -74,6 +74,7 @@ void print_table(std::span<const Row> rows) {
     fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9.2f} {:>9.1f} {:>9} {:>10} {:>11.3g} {:>10.3f}  {}\n", s.method,
                f.missed, f.evaluations, f.waste(), f.excess(), f.list_mean(), f.list_max,
                s.rendered.counters.overflowed_cells, *s.image_max_abs_diff, s.rendered.cull_ms, verdict);
+    for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
     if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
     if (s.ordered && f.unordered) fmt::print("  a list does not ascend\n");
     if (!s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))

@@ -129,7 +129,10 @@ void Context::create_device() {
                                       .queueFamilyIndex = queue_family_,
                                       .queueCount = 1,
                                       .pQueuePriorities = &priority};
-  const auto extensions = vulkan::required_extensions();
+  const auto required = vulkan::required_extensions();
+  const std::vector<const char*> useful = vulkan::useful_extensions(physical_);
+  std::vector<const char*> extensions(required.begin(), required.end());
+  extensions.insert(extensions.end(), useful.begin(), useful.end());
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.base,
                                   .queueCreateInfoCount = 1,
@@ -139,6 +142,7 @@ void Context::create_device() {
   check(vkCreateDevice(physical_, &create, nullptr, &handle_), "creating the device");
   vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
   device_ = take(vulkan::make_device(physical_, handle_), Exit::no_device);
+  device_.traits.conservative_raster = !useful.empty();
   pipelines_ = std::make_unique<vulkan::PipelineStore>();
   device_.pipelines = pipelines_.get();
 

@@ -12,7 +12,10 @@ std::span<const Method> methods() {
   static const std::vector<Method> table = [] {
     std::vector<Method> rows{all_method()};
     std::ranges::copy(tiled_methods(), std::back_inserter(rows));
-    rows.push_back(clustered_method());
+    std::ranges::copy(clustered_methods(), std::back_inserter(rows));
+    rows.push_back(drobot_zbin_method());
+    rows.push_back(drobot_raster_tile_method());
+    rows.push_back(drobot_raster_cluster_method());
     rows.push_back(lamplight_method());
     return rows;
   }();

@@ -70,6 +70,8 @@ std::optional<Error> check_raster(const std::string& source, const RasterState& 
   if (raster.width == 0 || raster.height == 0 || raster.width > limit || raster.height > limit)
     return Error{source, "viewport must be 1 to " + std::to_string(limit) + " pixels a side, got " +
                              std::to_string(raster.width) + "x" + std::to_string(raster.height)};
+  if (raster.conservative && !traits.conservative_raster)
+    return Error{source, "needs conservative rasterization, which the device lacks"};
   if (raster.samples != 1 && raster.samples != 4)
     return Error{source, "samples must be 1 or 4, got " + std::to_string(raster.samples)};
   return std::nullopt;

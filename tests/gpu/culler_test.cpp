@@ -63,6 +63,7 @@ std::vector<glm::uvec2> cull_and_walk(vulkan::Culler& culler, const EngineFrame&
     culler.record(commands, {.view = &frame.view,
                              .lights = frame.light_buffer.handle(),
                              .light_count = static_cast<std::uint32_t>(frame.lights.size()),
+                             .host_lights = frame.lights,
                              .depth_image = frame.depth_image.handle(),
                              .depth_view = frame.depth_image.view(),
                              .depth_layout = frame.depth_image.sampled().layout});
@@ -130,6 +131,15 @@ TEST_F(CullerTest, EveryMethodCullsFrameAfterFrame) {
     }
     EXPECT_EQ(culler.counters().overflowed_cells, 0);
   }
+}
+
+TEST_F(CullerTest, HostPassesGetTheEnginesLights) {
+  const EngineFrame frame = make_frame("infinite", 64);
+  vulkan::Culler gpu = take(make_culler("drobot-zbin"));
+  vulkan::Culler cpu = take(make_culler("drobot-zbin", {"sort=cpu"}));
+  const std::vector<glm::uvec2> masks = cull_and_walk(cpu, frame);
+  expect_no_miss(frame, masks);
+  EXPECT_EQ(masks, cull_and_walk(gpu, frame));
 }
 
 TEST_F(CullerTest, CountsWhatDoesNotFit) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/plan_harness.h"
 
+#include <algorithm>
+
 #include "render/pass_uses.h"
 
 namespace lamp::app {
@@ -23,16 +25,21 @@ Pass words_pass(const char* shader, std::vector<std::uint32_t> constants, std::v
           .extent = {.x = (words + 63) / 64}};
 }
 
-PlanHarness::PlanHarness(Plan plan, const std::vector<Light>& lights)
+PlanHarness::PlanHarness(Plan plan, const std::vector<Light>& lights, const vulkan::ShaderSource& shaders)
     : device(test_context().device()),
-      timestamps_(take(vulkan::Timestamps::create(device, 16))),
+      timestamps_(take(vulkan::Timestamps::create(device, 32))),
       frame_(host_buffer_of("frame", std::vector{shared::Frame{}})) {
   if (plan.light_capacity == 0) plan.light_capacity = 1U << 16;
-  runner_ = take(vulkan::PlanRunner::create(device, std::move(plan), test_shader_source()));
+  runner_ = take(vulkan::PlanRunner::create(device, std::move(plan), shaders));
   set_lights(lights);
 }
 
-void PlanHarness::set_lights(const std::vector<Light>& lights) { lights_ = pack(lights); }
+void PlanHarness::set_lights(const std::vector<Light>& lights) {
+  lights_ = pack(lights);
+  const std::uint64_t bytes = std::max<std::size_t>(1, lights_.size()) * sizeof(shared::Light);
+  if (light_buffer_.bytes() < bytes) light_buffer_ = host_buffer("lights", bytes);
+  if (!lights_.empty()) std::memcpy(light_buffer_.mapped().data(), lights_.data(), bytes);
+}
 
 void PlanHarness::read_back(vulkan::Recorder& recorder, const std::vector<vulkan::Buffer>& copies) const {
   for (std::uint32_t i = 0; i < copies.size(); ++i) {
@@ -46,14 +53,18 @@ void PlanHarness::read_back(vulkan::Recorder& recorder, const std::vector<vulkan
 }
 
 std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
+  const auto light_count = static_cast<std::uint32_t>(lights_.size());
+  shared::Frame frame{};
+  if (view_) frame = view_->frame(light_count);
+  std::memcpy(frame_.mapped().data(), &frame, sizeof(frame));
   std::vector<vulkan::Buffer> copies;
   for (const BufferDesc& buffer : runner_.plan().buffers) copies.push_back(host_buffer(buffer.name, buffer.bytes));
   test_context().submit([&](VkCommandBuffer commands) {
     timestamps_.reset(commands);
     vulkan::Recorder recorder(device, commands, tracker_, &timestamps_);
-    const shared::Frame frame{};
     runner_.record(recorder, {.frame = frame_.handle(),
-                              .light_count = static_cast<std::uint32_t>(lights_.size()),
+                              .lights = light_buffer_.handle(),
+                              .light_count = light_count,
                               .host_lights = lights_,
                               .host_frame = &frame});
     read_back(recorder, copies);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gpu/dispatch.h"
+#include "lamplight/view.h"
 
 namespace lamp::app {
 
@@ -18,12 +20,15 @@ namespace lamp::app {
 /// A plan and what it runs with. Frames share a tracker, as an application's do.
 class PlanHarness {
  public:
-  explicit PlanHarness(Plan plan, const std::vector<Light>& lights = {});
+  explicit PlanHarness(Plan plan, const std::vector<Light>& lights = {},
+                       const vulkan::ShaderSource& shaders = test_shader_source());
 
   /// Records and submits a frame, waits, and returns each buffer's words.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> run();
 
+  /// Before `run`, and with a light buffer large enough for all that follow.
   void set_lights(const std::vector<Light>& lights);
+  void set_view(const View& view) { view_ = view; }
   [[nodiscard]] const std::vector<vulkan::Timestamps::Time>& times() const { return times_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   /// The device that records; tests may take features from it.
@@ -36,6 +41,8 @@ class PlanHarness {
   vulkan::AccessTracker tracker_;
   vulkan::Timestamps timestamps_;
   vulkan::Buffer frame_;
+  vulkan::Buffer light_buffer_;
+  std::optional<View> view_;
   std::vector<shared::Light> lights_;
   std::vector<vulkan::Timestamps::Time> times_;
 };

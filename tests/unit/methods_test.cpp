@@ -28,7 +28,11 @@ const DeviceTraits LARGE{.max_storage_buffer_bytes = 0xFFFFFFFF,
                          .max_group_invocations = 1024,
                          .shared_memory_bytes = 49152,
                          .max_image_size = 32768};
-const DeviceTraits SOFTWARE{.max_group_invocations = 1024, .shared_memory_bytes = 32768, .max_image_size = 16384};
+const DeviceTraits SOFTWARE{.max_group_invocations = 1024,
+                            .shared_memory_bytes = 32768,
+                            .max_image_size = 16384,
+                            .subgroup_ballot = true,
+                            .subgroup_arithmetic = true};
 const DeviceTraits LEAST{};
 
 constexpr glm::uvec2 SIZES[] = {{1, 1},       {1, 4096},    {4096, 1},     {15, 17},    {16, 16},       {17, 15},
@@ -214,6 +218,80 @@ std::string test_name(const ::testing::TestParamInfo<const Method*>& row) {
   return name;
 }
 INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(every_method()), test_name);
+
+// Scalar walks need subgroup operations: with them, a look-up of its own; without, the plain one and a note.
+TEST_P(EveryMethod, WalksPlainlyAndSaysSoWhereTheDeviceLacksAnOperation) {
+  const Method& method = *GetParam();
+  if (std::ranges::find(method.options, "walk", &OptionSpec::key) == method.options.end()) return;
+  const auto plan = [&](const char* walk, const DeviceTraits& traits) {
+    const auto options = lamp::resolve_options(method, {std::string("walk=") + walk}).value();
+    return lamp::make_plan(method,
+                           {.width = 64, .height = 64, .light_capacity = 100, .options = options, .traits = traits});
+  };
+  const auto plain = plan("plain", SOFTWARE);
+  ASSERT_TRUE(plain) << plain.error().text();
+  EXPECT_TRUE(plain.value().notes.empty());
+  const std::string name = plain.value().lookup.name;
+  int scalar_walks = 0;
+  for (const char* walk : {"scalar-cell", "scalar-entity"}) {
+    const auto with = plan(walk, SOFTWARE);
+    if (!with) {
+      EXPECT_EQ(with.error().source, "option walk");
+      continue;
+    }
+    ++scalar_walks;
+    EXPECT_EQ(with.value().lookup.name, name + "_scalar");
+    EXPECT_TRUE(with.value().notes.empty());
+    const auto without = plan(walk, LEAST);
+    ASSERT_TRUE(without) << without.error().text();
+    EXPECT_EQ(without.value().lookup.name, name);
+    const std::string note = std::string("walk=plain instead of ") + walk;
+    EXPECT_TRUE(std::ranges::any_of(without.value().notes, [&](const auto& n) { return n.starts_with(note); })) << note;
+  }
+  EXPECT_EQ(scalar_walks, name == "tile_typed" ? 0 : 1);
+}
+
+TEST(RasterisedCulling, LeavesCoverageToTheDeviceOnlyIfItCan) {
+  DeviceTraits able = SOFTWARE;
+  able.conservative_raster = true;
+  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
+    const Method& method = *lamp::find_method(name).value();
+    const auto options = lamp::resolve_options(method, {"raster=conservative"}).value();
+    const auto plan = [&](const DeviceTraits& traits) {
+      return lamp::make_plan(method,
+                             {.width = 65, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
+          .value();
+    };
+    const lamp::RasterState by_device = plan(able).passes.back().raster;
+    EXPECT_TRUE(by_device.conservative);
+    EXPECT_EQ(glm::uvec2(by_device.width, by_device.height), glm::uvec2(9, 8));
+    EXPECT_TRUE(plan(able).notes.empty());
+    EXPECT_TRUE(lamp::plan_check(plan(able), SOFTWARE)) << "a device that cannot";
+    EXPECT_FALSE(plan(SOFTWARE).passes.back().raster.conservative);
+    ASSERT_EQ(plan(SOFTWARE).notes.size(), 1U);
+    EXPECT_TRUE(plan(SOFTWARE).notes[0].starts_with("raster=half-msaa instead of conservative"));
+  }
+}
+
+TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
+  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
+    const Method& method = *lamp::find_method(name).value();
+    const auto plan = [&](const char* compact, const DeviceTraits& traits) {
+      const auto options = lamp::resolve_options(method, {std::string("compact=") + compact, "walk=plain"}).value();
+      return lamp::make_plan(method,
+                             {.width = 64, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
+          .value();
+    };
+    EXPECT_TRUE(plan("on", SOFTWARE).passes.back().shader.ends_with("_compact"));
+    EXPECT_TRUE(plan("on", SOFTWARE).notes.empty());
+    EXPECT_FALSE(plan("off", SOFTWARE).passes.back().shader.ends_with("_compact"));
+    const Plan without = plan("on", LEAST);
+    EXPECT_FALSE(without.passes.back().shader.ends_with("_compact"));
+    ASSERT_EQ(without.notes.size(), 1U);
+    EXPECT_TRUE(without.notes[0].starts_with("compact=off instead of on")) << without.notes[0];
+    EXPECT_TRUE(plan("off", LEAST).notes.empty());
+  }
+}
 
 TEST(Methods, CombinationsThatMakeNoSenseAreRefusedWithTheReason) {
   struct Refusal {

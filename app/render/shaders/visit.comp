@@ -19,18 +19,26 @@ layout(push_constant) uniform Push {
   uint rows;
 };
 #include "lookup.glsl"
+#include "lookup/parts/each.glsl"
 #include "common/frame.glsl"
 
 const uint NONE = ~0u;
 
-// The oracle's lights that an ascending walk passes over are missed. One that is not ascending is searched anew.
-bool walk_brings(uvec2 pixel, float z_view, uint wanted) {
+// Which of up to 32 of the oracle's lights a walk brings, one bit each. Walks are few, because software devices end a
+// thread's loops after some 65 000 rounds.
+uint walk_brings(uvec2 pixel, float z_view, uint first, uint count) {
+  uint brought = 0u;
   uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);)
-    if (light == wanted) return true;
-  return false;
+  LOOKUP_EACH(light, pixel, z_view) {
+    uint i = 0u;  // the last of them that is not greater, or the first
+    for (uint step = 16u; step > 0u; step /= 2u)
+      if (i + step < count && truth[first + i + step] <= light) i += step;
+    if (truth[first + i] == light) brought |= 1u << i;
+  }
+  return brought;
 }
 
+// The oracle's lights that an ascending walk passes over are missed. One that is not ascending is searched anew.
 void main() {
   lookup_prepare();
   const uvec2 pixel = gl_GlobalInvocationID.xy;
@@ -47,7 +55,7 @@ void main() {
   Visit visit = Visit(0u, lookup_cell(pixel, z_view), 0u, NONE, 0u);
   uint last = 0u;
   uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) {
+  LOOKUP_EACH(light, pixel, z_view) {
     if (visit.visited > 0u && light <= last) visit.unordered = 1u;
     last = light;
     ++visit.visited;
@@ -64,10 +72,11 @@ void main() {
   if (visit.unordered != 0u) {
     visit.missed = 0u;
     visit.first_missed = NONE;
-    for (next = truth_offsets[index]; next < end; ++next) {
-      if (walk_brings(pixel, z_view, truth[next])) continue;
-      ++visit.missed;
-      visit.first_missed = min(visit.first_missed, truth[next]);
+    for (uint first = truth_offsets[index]; first < end; first += 32u) {
+      const uint count = min(32u, end - first);
+      const uint lost = ~walk_brings(pixel, z_view, first, count) & (~0u >> (32u - count));
+      visit.missed += bitCount(lost);
+      if (lost != 0u) visit.first_missed = min(visit.first_missed, truth[first + uint(findLSB(lost))]);
     }
   }
   visits[index] = visit;

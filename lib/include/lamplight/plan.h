@@ -66,6 +66,7 @@ struct RasterState {
   std::uint32_t width = 0;    ///< viewport, pixels
   std::uint32_t height = 0;   ///< viewport, pixels
   std::uint32_t samples = 1;  ///< 1 or 4: what every device has without attachments
+  bool conservative = false;  ///< every pixel that a triangle touches; only where DeviceTraits has it
   enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
 };
 
@@ -74,6 +75,7 @@ struct HostContext {
   std::span<const shared::Light> lights;
   const shared::Frame* frame = nullptr;
   std::span<const std::span<std::byte>> buffers;
+  std::span<const std::uint32_t> constants;  ///< the pass's
 };
 using HostFunction = void (*)(const HostContext&);
 
@@ -82,7 +84,7 @@ struct Pass {
   std::string name;
   PassKind kind = PassKind::compute;
   std::string shader;                    ///< compute or fragment shader; name in the shader table ("methods/tiled")
-  std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ...
+  std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ...; what a host pass is told
   std::vector<Binding> bindings;         ///< set 0, bindings 0, 1, 2, ...
   Extent extent;
   RasterState raster;                 ///< raster passes
@@ -122,6 +124,7 @@ struct Plan {
   bool approximate = false;           ///< may miss lights, by the paper's design
   std::uint32_t light_capacity = 0;   ///< the problem's
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
+  std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something
 
   /// Adds a buffer and returns its id.
   ResourceId add(BufferDesc buffer);
@@ -138,6 +141,9 @@ struct DeviceTraits {
   std::uint32_t max_image_size = 4096;     ///< pixels a side
   std::uint32_t max_storage_buffers = 16;  ///< that a shader stage sees; Vulkan guarantees 4, too few for most methods
   std::uint32_t subgroup_size = 32;
+  bool subgroup_ballot = false;      ///< in compute and fragment shaders
+  bool subgroup_arithmetic = false;  ///< in compute and fragment shaders
+  bool conservative_raster = false;  ///< VK_EXT_conservative_rasterization is enabled
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond

@@ -1,7 +1,8 @@
 // The clusters of one tile, by one work group: batches of lights against the tile's sides, then one thread a slice walks
 // the survivors in order. Count and fill visit exactly the same pairs.
-// Needs: TILE_PX, SLICES, NEAR_MM, FAR_M; `frame`, `bounds`; the macros VISIT(light), used by the thread of a slice, and
-// SURVIVORS(word, bits): lights 32 word + i that are between the tile's sides, by the thread that has them.
+// Needs: TILE_PX, SLICES, SLICE_SCALE, NEAR_MM, FAR_M; `frame`, `bounds`; the macros VISIT(light) and, after each 32
+// lights, END_OF_WORD(word), used by the thread of a slice; and SURVIVORS(word, bits): lights 32 word + i that are between
+// the tile's sides, by the thread that has them.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_CLUSTER_CULL
 #define LAMP_METHODS_CLUSTER_CULL
@@ -60,6 +61,7 @@ void visit_clusters(uvec2 tile) {
           if (sphere_touches_depths(s_bounds[i], z_begin, z_end) && sphere_touches_box(s_bounds[i], box_min, box_max))
             VISIT(first + i);
         }
+        END_OF_WORD(first / 32u + word);
       }
     }
     barrier();  // slices done before the next batch overwrites

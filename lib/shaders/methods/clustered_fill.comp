@@ -10,10 +10,11 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
 layout(constant_id = 2) const uint SLICES = 24;
-layout(constant_id = 3) const uint NEAR_MM = 500;
-layout(constant_id = 4) const uint FAR_M = 500;
-layout(constant_id = 5) const uint ENTRIES = 1;
-layout(constant_id = 6) const uint WORDS = 0;  // of a tile's bits; 0: there are none
+layout(constant_id = 3) const uint SLICE_SCALE = 0;
+layout(constant_id = 4) const uint NEAR_MM = 500;
+layout(constant_id = 5) const uint FAR_M = 500;
+layout(constant_id = 6) const uint ENTRIES = 1;
+layout(constant_id = 7) const uint WORDS = 0;  // of a tile's bits; 0: there are none
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
@@ -25,6 +26,7 @@ shared bool s_overflowed;
 uint at = 0u;
 uint end = 0u;  // equal to `at` for a cluster that does not fit
 #define VISIT(light) if (at < end) lists[at++] = light
+#define END_OF_WORD(word)
 #define SURVIVORS(word, bits) keep(word, bits)
 
 void keep(uint word, uint bits) {

@@ -9,7 +9,11 @@ namespace lamp {
 [[nodiscard]] Method all_method();
 /// `tiled`, its containers, and the presets of the sources.
 [[nodiscard]] std::vector<Method> tiled_methods();
-[[nodiscard]] Method clustered_method();
+/// `clustered`, and the presets of its sources.
+[[nodiscard]] std::vector<Method> clustered_methods();
+[[nodiscard]] Method drobot_zbin_method();
+[[nodiscard]] Method drobot_raster_tile_method();
+[[nodiscard]] Method drobot_raster_cluster_method();
 [[nodiscard]] Method lamplight_method();
 
 }  // namespace lamp

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parts.h"
 
+#include "lamplight/shared/slices.h"
+
 namespace lamp::parts {
 
 ResourceId add_light_bounds(Plan& plan, const Problem& problem) {
@@ -18,6 +20,57 @@ Pass light_bounds_pass(ResourceId bounds) {
 ResourceId add_counters(Plan& plan) {
   plan.counters = plan.add({.name = "counters", .bytes = sizeof(shared::Counters), .zeroed = true});
   return plan.counters;
+}
+
+OptionSpec walk_option(std::string_view fallback) {
+  return {.key = "walk",
+          .help = "each thread by itself, or all threads of a subgroup one cell (lists) or one light (bits) at a time",
+          .fallback = fallback,
+          .choices = {"plain", "scalar-cell", "scalar-entity"}};
+}
+
+std::optional<Error> check_walk(const Options& options, Container container) {
+  const std::string& walk = options.word("walk");
+  if (container == Container::bits && walk == "scalar-cell")
+    return Error{"option walk", "scalar-cell walks the list of one cell at a time; bits go with scalar-entity"};
+  if (container == Container::list && walk == "scalar-entity")
+    return Error{"option walk", "scalar-entity walks merged bits one light at a time; lists go with scalar-cell"};
+  return std::nullopt;
+}
+
+std::string walk_lookup(Plan& plan, const Problem& problem, std::string_view plain) {
+  const std::string& walk = problem.options.word("walk");
+  std::string name(plain);
+  if (walk == "plain") return name;
+  const bool by_cell = walk == "scalar-cell";
+  if (by_cell ? problem.traits.subgroup_ballot : problem.traits.subgroup_arithmetic) return name += "_scalar";
+  plan.notes.push_back("walk=plain instead of " + walk + ": the device has no subgroup " +
+                       (by_cell ? "ballot" : "arithmetic") + " in compute and fragment shaders");
+  return name;
+}
+
+OptionSpec slice_scale_option(std::string_view key, std::string_view fallback) {
+  return {.key = key,
+          .help = "slices of depth grow by a constant factor, or have the same length",
+          .fallback = fallback,
+          .choices = {"log", "linear"}};
+}
+
+OptionSpec slice_near_option() {
+  return {
+      .key = "near_mm", .help = "far end of the first slice, millimetres", .fallback = "500", .min = 1, .max = 1000};
+}
+
+OptionSpec slice_far_option() {
+  return {.key = "far_m",
+          .help = "near end of the last slice, metres; it reaches to infinity",
+          .fallback = "500",
+          .min = 2,
+          .max = 1000000};
+}
+
+std::uint32_t slice_scale(std::string_view word) {
+  return word == "linear" ? shared::SLICES_LINEAR : shared::SLICES_LOG;
 }
 
 }  // namespace lamp::parts

@@ -39,4 +39,24 @@ struct TileGrid {
 /// Adds shared::Counters, zeroed every frame, and makes it the plan's.
 ResourceId add_counters(Plan& plan);
 
+/// What a cell keeps: a list, or a bit for each light.
+enum class Container : std::uint8_t { list, bits };
+
+/// How a look-up walks: each thread by itself (plain), or all threads of a subgroup one cell at a time (lists) or one
+/// light at a time (bits).
+[[nodiscard]] OptionSpec walk_option(std::string_view fallback = "plain");
+/// Why the walk and the container do not go together, or nothing.
+[[nodiscard]] std::optional<Error> check_walk(const Options& options, Container container);
+/// The look-up's name, with "_scalar" for the two last walks. A device that lacks the operation gets the plain walk,
+/// and the plan a note.
+[[nodiscard]] std::string walk_lookup(Plan& plan, const Problem& problem, std::string_view plain);
+
+/// How depth is cut into slices or bins: options and their values. `scale`: "log" or "linear"; the first slice ends at
+/// `near_mm`, the last begins at `far_m` and reaches to infinity.
+[[nodiscard]] OptionSpec slice_scale_option(std::string_view key, std::string_view fallback);
+[[nodiscard]] OptionSpec slice_near_option();
+[[nodiscard]] OptionSpec slice_far_option();
+/// shared::SLICES_LOG or SLICES_LINEAR.
+[[nodiscard]] std::uint32_t slice_scale(std::string_view word);
+
 }  // namespace lamp::parts

@@ -104,14 +104,16 @@ Buffers add_buffers(Plan& plan, const Problem& problem, const TiledAxes& axes, s
   return b;
 }
 
-LookUp look_up(const Problem& problem, const TiledAxes& axes, const Buffers& b) {
+LookUp look_up(Plan& plan, const Problem& problem, const TiledAxes& axes, const Buffers& b) {
   const std::vector<Binding> bindings{{INPUT_FRAME}, {b.lists}, {b.splits}};
   if (axes.bits)
-    return {.name = "tile_bits",
+    return {.name = parts::walk_lookup(plan, problem, "tile_bits"),
             .constants = {axes.tile_px, parts::divide_up(parts::capacity(problem), 32), axes.ranges()},
             .bindings = bindings};
   if (axes.order != shared::ORDER_TYPE)
-    return {.name = "tile_lists", .constants = {axes.tile_px, axes.capacity, axes.ranges()}, .bindings = bindings};
+    return {.name = parts::walk_lookup(plan, problem, "tile_lists"),
+            .constants = {axes.tile_px, axes.capacity, axes.ranges()},
+            .bindings = bindings};
   LookUp typed{.name = "tile_typed", .constants = {axes.tile_px, axes.ranges()}, .bindings = bindings};
   typed.bindings.push_back({b.headers});
   return typed;
@@ -135,7 +137,7 @@ Plan plan_tiled(const Problem& problem) {
     plan.passes.back().constants.push_back(parts::divide_up(parts::capacity(problem), 32));
   else if (axes.order == shared::ORDER_TYPE)
     plan.passes.back().constants.push_back(cells * axes.mean_capacity);
-  plan.lookup = look_up(problem, axes, buffers);
+  plan.lookup = look_up(plan, problem, axes, buffers);
   if (axes.bits || axes.tile_px * axes.tile_px > problem.traits.max_group_invocations) return plan;
   plan.fused =
       FusedLookUp{.lookup = {.name = axes.reduce == TiledAxes::Reduce::subgroup ? "tile_fused_subgroup" : "tile_fused",

@@ -80,6 +80,7 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
        .fallback = "index",
        .choices = order_words()},
       {.key = "container", .help = "what a tile keeps", .fallback = "list", .choices = {"list", "bits"}},
+      parts::walk_option(),
       {.key = "frusta",
        .help = "tile planes or cones: made anew each frame, or kept until size or projection changes",
        .fallback = "per-frame",
@@ -129,6 +130,10 @@ std::optional<Error> check_tiled(const Problem& problem) {
                  "only planes and cones are kept; frusta=cached goes with test=planes, planes+aabb, "
                  "cone or cone-approximate"};
   if (std::optional<Error> error = check_no_bounds(axes)) return error;
+  if (auto error = parts::check_walk(problem.options, axes.bits ? parts::Container::bits : parts::Container::list))
+    return error;
+  if (axes.order == shared::ORDER_TYPE && problem.options.word("walk") != "plain")
+    return Error{"option walk", "lists by type are walked in two loops already; order=type goes with walk=plain"};
   const std::uint64_t cells = parts::tile_grid(problem, axes.tile_px).count() * axes.ranges();
   if (axes.order == shared::ORDER_TYPE && cells * axes.capacity > 0xffffffffULL)
     return Error{"option capacity", "cells x capacity must stay below 2^32 for order=type; take a smaller capacity"};

@@ -51,6 +51,7 @@ void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
                                     .layout = frame.depth_layout},
                           .light_count = frame.light_count,
+                          .host_lights = frame.host_lights,
                           .host_frame = &record};
   Recorder recorder(device_, commands, tracker_);
   tracker_.assume(inputs.depth);

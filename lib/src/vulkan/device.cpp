@@ -42,6 +42,11 @@ RequiredFeatures::RequiredFeatures() {
 
 std::span<const char* const> required_extensions() { return EXTENSIONS; }
 
+std::vector<const char*> useful_extensions(VkPhysicalDevice physical) {
+  if (!has_extension(physical, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)) return {};
+  return {VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
+}
+
 std::optional<Error> check_device(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(physical, &properties);
@@ -69,6 +74,9 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v11};
   vkGetPhysicalDeviceProperties2(physical, &properties);
   const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+  constexpr VkShaderStageFlags STAGES = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+  const bool everywhere = (v11.subgroupSupportedStages & STAGES) == STAGES;
+  const VkSubgroupFeatureFlags operations = everywhere ? v11.subgroupSupportedOperations : 0;
   return {.max_storage_buffer_bytes = limits.maxStorageBufferRange,
           .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                          limits.maxComputeWorkGroupCount[2]},
@@ -76,7 +84,9 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
           .shared_memory_bytes = limits.maxComputeSharedMemorySize,
           .max_image_size = limits.maxImageDimension2D,
           .max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers,
-          .subgroup_size = v11.subgroupSize};
+          .subgroup_size = v11.subgroupSize,
+          .subgroup_ballot = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0,
+          .subgroup_arithmetic = (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0};
 }
 
 void Device::name(VkObjectType type, std::uint64_t object, std::string_view text) const {

@@ -67,6 +67,7 @@ struct GraphicsCreate {
   VkPipelineVertexInputStateCreateInfo vertex{};
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   VkPipelineViewportStateCreateInfo viewport{};
+  VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
   VkPipelineRasterizationStateCreateInfo raster{};
   VkPipelineMultisampleStateCreateInfo multisample{};
   VkPipelineDepthStencilStateCreateInfo depth{};
@@ -87,7 +88,10 @@ struct GraphicsCreate {
     assembly = {.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
                 .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
     viewport = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+    conservative = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT,
+                    .conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT};
     raster = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+              .pNext = state.conservative ? &conservative : nullptr,
               .depthClampEnable = state.depth_clamp ? VK_TRUE : VK_FALSE,
               .polygonMode = VK_POLYGON_MODE_FILL,
               .cullMode = state.cull,

@@ -38,7 +38,9 @@ PipelineInfo pipeline_info(const Pass& pass) {
 
 GraphicsState graphics_state(const RasterState& raster) {
   constexpr VkCullModeFlags CULL[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT};
-  return {.cull = CULL[static_cast<int>(raster.cull)], .samples = static_cast<VkSampleCountFlagBits>(raster.samples)};
+  return {.cull = CULL[static_cast<int>(raster.cull)],
+          .samples = static_cast<VkSampleCountFlagBits>(raster.samples),
+          .conservative = raster.conservative};
 }
 
 Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const ShaderSource& shaders) {
@@ -164,7 +166,7 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
 void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) const {
   std::vector<std::span<std::byte>> mapped;
   for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
-  pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped});
+  pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
 }
 
 void PlanRunner::record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const {

@@ -4,11 +4,12 @@
 #ifndef LAMP_SHADE_CELL
 #define LAMP_SHADE_CELL
 #include "common/punctual.glsl"
+#include "lookup/parts/each.glsl"
 
 vec3 shade_mixed(Surface s, uvec2 pixel, float z_view) {
   precise vec3 sum = vec3(0.0);
   uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) sum += shade_light(s, lights[light]);
+  LOOKUP_EACH(light, pixel, z_view) sum += shade_light(s, lights[light]);
   return sum;
 }
 

@@ -22,11 +22,12 @@ struct CullerInfo {
 
 /// What a frame brings. Lights and depth must be visible to compute shaders when the recorded commands run.
 struct CullerFrame {
-  const View* view = nullptr;               ///< its size must be the Culler's
-  VkBuffer lights = VK_NULL_HANDLE;         ///< storage buffer of shared::Light (`lamp::pack`)
-  std::uint32_t light_count = 0;            ///< at most the capacity
-  VkImage depth_image = VK_NULL_HANDLE;     ///< only for methods that need depth: one sample, device depth
-  VkImageView depth_view = VK_NULL_HANDLE;  ///< of its depth aspect
+  const View* view = nullptr;                  ///< its size must be the Culler's
+  VkBuffer lights = VK_NULL_HANDLE;            ///< storage buffer of shared::Light (`lamp::pack`)
+  std::uint32_t light_count = 0;               ///< at most the capacity
+  std::span<const shared::Light> host_lights;  ///< only for options that work on the CPU: the same lights
+  VkImage depth_image = VK_NULL_HANDLE;        ///< only for methods that need depth: one sample, device depth
+  VkImageView depth_view = VK_NULL_HANDLE;     ///< of its depth aspect
   VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 };
 

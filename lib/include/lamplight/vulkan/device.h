@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "lamplight/error.h"
 #include "lamplight/plan.h"
@@ -27,6 +28,10 @@ struct RequiredFeatures {
 
 /// The device extensions to enable: VK_KHR_push_descriptor.
 [[nodiscard]] std::span<const char* const> required_extensions();
+
+/// Device extensions that methods use where they are enabled: VK_EXT_conservative_rasterization. Those that the device
+/// has. Who enables one says so in Device::traits (`conservative_raster`).
+[[nodiscard]] std::vector<const char*> useful_extensions(VkPhysicalDevice physical);
 
 /// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
 [[nodiscard]] std::optional<Error> check_device(VkPhysicalDevice physical);

@@ -44,6 +44,7 @@ struct GraphicsState {
   VkFormat depth = VK_FORMAT_UNDEFINED;
   bool depth_write = false;
   bool depth_clamp = false;
+  bool conservative = false;  ///< every pixel that a triangle touches
   VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
   enum class Blend : std::uint8_t { none, add, over } blend = Blend::none;  ///< of every colour attachment
 };

@@ -1,0 +1,14 @@
+// Clusters, each one flat bit array; bit N is light N.
+// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
+// SPDX-License-Identifier: Apache-2.0
+#include "lookup/parts/cluster_cell.glsl"
+
+layout(constant_id = 105) const uint LOOKUP_WORDS = 1;
+layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
+
+#define LOOKUP_LIGHT(bit) (bit)
+#include "lookup/parts/walk_bits.glsl"
+
+Walk walk_begin(uvec2 pixel, float z_view) {
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, lookup_frame.light_count);
+}

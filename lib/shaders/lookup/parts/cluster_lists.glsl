@@ -1,0 +1,48 @@
+// Clusters, each a range of one shared list. A range beyond its end means what its tile's bits say, and every light where
+// there are no bits.
+// SPDX-License-Identifier: Apache-2.0
+#include "lookup/parts/cluster_cell.glsl"
+
+layout(constant_id = 105) const uint LOOKUP_ENTRIES = 1;
+layout(constant_id = 106) const uint LOOKUP_WORDS = 0;  // of a tile's bits
+layout(set = 0, binding = 17, scalar) readonly buffer LookupRanges { uvec2 lookup_ranges[]; };
+layout(set = 0, binding = 18, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
+layout(set = 0, binding = 19, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
+
+struct Walk {
+  uint at;
+  uint end;
+  uint first_word;  // of the tile's bits; NO_WORD: `at` is an entry of the list
+};
+const uint NO_WORD = ~0u;
+
+Walk walk_nothing() { return Walk(0u, 0u, NO_WORD); }
+
+Walk walk_of_cell(uint cell) {
+  const uvec2 range = lookup_ranges[cell];
+  const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
+  if (fits) return Walk(range.x, range.x + range.y, NO_WORD);
+  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  return Walk(0u, lookup_frame.light_count, cell % (tiles.x * tiles.y) * LOOKUP_WORDS);
+}
+
+Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
+
+// The first light from `from` on that the tile's bits name, or one past the last.
+uint lookup_next_bit(uint first_word, uint from, uint end) {
+  while (from < end) {
+    const uint bits = lookup_bits[first_word + from / 32u] >> (from % 32u);
+    if (bits != 0u) return from + uint(findLSB(bits));
+    from = (from / 32u + 1u) * 32u;
+  }
+  return end;
+}
+
+bool walk_next(inout Walk walk, out uint light) {
+  if (walk.first_word != NO_WORD && LOOKUP_WORDS != 0u)
+    walk.at = lookup_next_bit(walk.first_word, walk.at, walk.end);
+  if (walk.at >= walk.end) return false;
+  light = walk.first_word == NO_WORD ? lookup_lists[walk.at] : walk.at;
+  ++walk.at;
+  return true;
+}

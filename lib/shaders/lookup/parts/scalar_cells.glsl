@@ -1,0 +1,32 @@
+// Walks lists with one cell at a time for the whole subgroup: threads whose cell has its turn walk it together, the others
+// wait. What is loaded of a list, and for a light, is then the same for all threads that walk.
+// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
+// Promise: each thread walks its own cell once, whichever threads are active with it.
+// Needs: walk_of_cell, walk_nothing.
+// SPDX-License-Identifier: Apache-2.0
+#extension GL_KHR_shader_subgroup_ballot : require
+
+struct WalkTurns {
+  uint cell;  // the thread's own
+  uint turn;  // the one that is walked
+  bool done;  // the own one has its turn, or had it
+};
+
+WalkTurns walk_begin_turns(uint cell) { return WalkTurns(cell, 0u, false); }
+
+// The first thread that is left decides, so every turn ends at least one thread's waiting.
+bool walk_next_turn(inout WalkTurns turns) {
+  if (turns.done) return false;
+  turns.turn = subgroupBroadcastFirst(turns.cell);
+  turns.done = turns.turn == turns.cell;
+  return true;
+}
+
+Walk walk_of_turn(WalkTurns turns) {
+  if (turns.done) return walk_of_cell(turns.turn);
+  return walk_nothing();
+}
+
+#define LOOKUP_EACH(light, pixel, z_view)                                                                    \
+  for (WalkTurns lookup_turns = walk_begin_turns(lookup_cell(pixel, z_view)); walk_next_turn(lookup_turns);) \
+    for (Walk lookup_walk = walk_of_turn(lookup_turns); walk_next(lookup_walk, light);)

@@ -1,0 +1,21 @@
+// One flat bit array a tile and depth range; bit N is light N.
+// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/frame.h"
+
+layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
+layout(constant_id = 101) const uint LOOKUP_WORDS = 1;
+layout(constant_id = 102) const uint LOOKUP_RANGES = 1;
+layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
+layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float lookup_splits[]; };
+
+#include "lookup/parts/tile_cell.glsl"
+#define LOOKUP_LIGHT(bit) (bit)
+#include "lookup/parts/walk_bits.glsl"
+
+void lookup_prepare() {}
+
+Walk walk_begin(uvec2 pixel, float z_view) {
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, lookup_frame.light_count);
+}

@@ -1,0 +1,38 @@
+// One list a tile and depth range, a count and its lights; a count beyond the capacity means every light.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/frame.h"
+
+layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
+layout(constant_id = 101) const uint LOOKUP_CAPACITY = 512;
+layout(constant_id = 102) const uint LOOKUP_RANGES = 1;
+layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+layout(set = 0, binding = 17, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
+layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float lookup_splits[]; };
+
+#include "lookup/parts/tile_cell.glsl"
+
+struct Walk {
+  uint at;
+  uint end;
+  bool overflowed;
+};
+
+void lookup_prepare() {}
+
+Walk walk_nothing() { return Walk(0u, 0u, false); }
+
+Walk walk_of_cell(uint cell) {
+  const uint base = cell * (1u + LOOKUP_CAPACITY);
+  const uint count = lookup_lists[base];
+  if (count > LOOKUP_CAPACITY) return Walk(0u, lookup_frame.light_count, true);
+  return Walk(base + 1u, base + 1u + count, false);
+}
+
+Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
+
+bool walk_next(inout Walk walk, out uint light) {
+  if (walk.at >= walk.end) return false;
+  light = walk.overflowed ? walk.at : lookup_lists[walk.at];
+  ++walk.at;
+  return true;
+}

@@ -1,0 +1,56 @@
+// The bits of a pixel's tile between the least and the greatest light of the pixel's bin. Bits are in the order of depth.
+// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), Z-binning.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/frame.h"
+
+layout(constant_id = 100) const uint LOOKUP_TILE_PX = 8;
+layout(constant_id = 101) const uint LOOKUP_WORDS = 1;
+layout(constant_id = 102) const uint LOOKUP_BINS = 1;
+layout(constant_id = 103) const uint LOOKUP_BIN_SCALE = 0;
+layout(constant_id = 104) const uint LOOKUP_NEAR_MM = 500;
+layout(constant_id = 105) const uint LOOKUP_FAR_M = 500;
+layout(constant_id = 106) const bool LOOKUP_WIDE = false;
+layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
+layout(set = 0, binding = 18, scalar) readonly buffer LookupBins { uint lookup_bins[]; };
+layout(set = 0, binding = 19, scalar) readonly buffer LookupOrder { uint lookup_order[]; };
+
+#define SLICES LOOKUP_BINS
+#define SLICE_SCALE LOOKUP_BIN_SCALE
+#define NEAR_MM LOOKUP_NEAR_MM
+#define FAR_M LOOKUP_FAR_M
+#include "common/slices.glsl"
+#undef SLICES
+#undef SLICE_SCALE
+#undef NEAR_MM
+#undef FAR_M
+
+#define LOOKUP_LIGHT(bit) lookup_order[bit]
+#include "lookup/parts/walk_bits.glsl"
+
+void lookup_prepare() {}
+
+uint lookup_tile(uvec2 pixel) {
+  const uvec2 tile = pixel / LOOKUP_TILE_PX;
+  return tile.x + (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX * tile.y;
+}
+
+// Beyond 2^32 cells, numbers come again; statistics alone ask for them.
+uint lookup_cell(uvec2 pixel, float z_view) {
+  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  return lookup_tile(pixel) + tiles.x * tiles.y * slice_of(z_view);
+}
+
+// Least and greatest rank.
+uvec2 lookup_bin(float z_view) {
+  const uint bin = slice_of(z_view);
+  if (LOOKUP_WIDE) return uvec2(lookup_bins[2u * bin], lookup_bins[2u * bin + 1u]);
+  const uint both = lookup_bins[bin];
+  return uvec2(both & 0xffffu, both >> 16);
+}
+
+Walk walk_begin(uvec2 pixel, float z_view) {
+  const uvec2 ranks = lookup_bin(z_view);
+  if (ranks.x > ranks.y) return walk_bits(0u, 0u, 0u);
+  return walk_bits(lookup_tile(pixel) * LOOKUP_WORDS, ranks.x, ranks.y + 1u);
+}

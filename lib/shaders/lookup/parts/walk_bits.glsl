@@ -1,0 +1,34 @@
+// Walks a flat bit array, lowest bit first, between two bits: bit N is LOOKUP_LIGHT(N).
+// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Data Container: Flat".
+// Needs: `lookup_bits`, the macro LOOKUP_LIGHT.
+// SPDX-License-Identifier: Apache-2.0
+struct Walk {
+  uint base;   // of the cell's words
+  uint begin;  // bits begin .. end - 1 count
+  uint end;
+  uint word;  // the next word to read
+  uint bits;  // of word - 1, not yet walked
+};
+
+Walk walk_bits(uint base, uint begin, uint end) { return Walk(base, begin, end, begin / 32u, 0u); }
+
+// A word of the cell without the bits outside begin .. end - 1; any word may be asked for.
+uint lookup_word(Walk walk, uint word) {
+  const uint first = word * 32u;
+  if (first >= walk.end || first + 32u <= walk.begin) return 0u;
+  uint bits = lookup_bits[walk.base + word];
+  if (first < walk.begin) bits &= ~0u << (walk.begin - first);
+  if (first + 32u > walk.end) bits &= (1u << (walk.end - first)) - 1u;
+  return bits;
+}
+
+bool walk_next(inout Walk walk, out uint light) {
+  while (walk.bits == 0u) {
+    if (walk.word * 32u >= walk.end) return false;
+    walk.bits = lookup_word(walk, walk.word);
+    ++walk.word;
+  }
+  light = LOOKUP_LIGHT((walk.word - 1u) * 32u + uint(findLSB(walk.bits)));
+  walk.bits &= walk.bits - 1u;
+  return true;
+}

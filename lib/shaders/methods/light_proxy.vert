@@ -1,0 +1,50 @@
+// Draws light proxies, an instance a light. Depth is not clipped: fragments compare it by themselves.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/light_proxy.glsl"
+#include "methods/raster_inputs.glsl"
+
+layout(location = 0) flat out uint out_light;
+layout(location = 1) out float out_z_view;
+
+// Of the six triangles of a side: which rows of the profile, and whether at the side's end. Counter-clockwise from outside.
+const uvec3 ROWS[6] = uvec3[](uvec3(0, 1, 1), uvec3(1, 1, 2), uvec3(1, 2, 2), uvec3(2, 2, 3), uvec3(2, 3, 3),
+                              uvec3(3, 3, 4));
+const uvec3 ENDS[6] = uvec3[](uvec3(0, 1, 0), uvec3(0, 1, 1), uvec3(0, 1, 0), uvec3(0, 1, 1), uvec3(0, 1, 0),
+                              uvec3(0, 1, 0));
+
+vec3 proxy_vertex(LightProxy proxy, uint triangle, uint corner) {
+  const uint row = ROWS[triangle % 6u][corner];
+  const uint side = (triangle / 6u + ENDS[triangle % 6u][corner]) % PROXY_SIDES;
+  const float angle = float(side) * (4.0 * HALF_PI / float(PROXY_SIDES));
+  const vec3 u = proxy.axis;
+  const vec3 v = normalize(abs(u.x) < 0.7 ? cross(u, vec3(1.0, 0.0, 0.0)) : cross(u, vec3(0.0, 1.0, 0.0)));
+  const vec3 w = cross(u, v);
+  return proxy.origin + proxy.along[row] * u + proxy.radius[row] * (cos(angle) * v + sin(angle) * w);
+}
+
+// From the picture to raster pixels, of which the last ones may stick out.
+vec4 to_raster(vec4 clip) {
+  const vec2 raster = vec2((frame.size_px + RASTER_PX - 1u) / RASTER_PX * RASTER_PX);
+  const vec2 xy = (clip.xy + clip.w) * (vec2(frame.size_px) / raster) - clip.w;
+  return vec4(xy, 0.5 * clip.w, clip.w);
+}
+
+void main() {
+  const uint light = drawn[INSIDE * CAPACITY + gl_InstanceIndex];
+  const uint triangle = uint(gl_VertexIndex) / 3u;
+  uint corner = uint(gl_VertexIndex) % 3u;
+  out_light = light;
+  if (lights[light].range > EVERYWHERE_M) {  // one triangle over the screen, a back face
+    const vec2 at = vec2(corner == 1u ? 3.0 : -1.0, corner == 2u ? 3.0 : -1.0);
+    gl_Position = triangle == 0u ? vec4(at, 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+    out_z_view = INFINITE_RADIUS;
+    return;
+  }
+  const mat4 m = frame.clip_from_view;
+  if (m[0][0] * m[1][1] > 0.0 && corner != 0u) corner = 3u - corner;  // the picture is mirrored
+  const vec3 position = proxy_vertex(proxies[light], triangle, corner);
+  out_z_view = -position.z;
+  gl_Position = to_raster(m * vec4(position, 1.0));
+}

@@ -1,0 +1,38 @@
+// One thread a light in the order of depth: its rank goes to the nodes of a tree over the bins that together cover the
+// light's bins, at most two a level, so that a light that reaches through all bins costs no more than others.
+// Based on: Bentley's segment tree (1977), with maxima at the nodes; z-bins: Drobot, SIGGRAPH Advances (2017).
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint SLICES = 1;  // bins
+layout(constant_id = 1) const uint SLICE_SCALE = 0;
+layout(constant_id = 2) const uint NEAR_MM = 500;
+layout(constant_id = 3) const uint FAR_M = 500;
+layout(constant_id = 4) const uint LEAVES = 1;  // bins, rounded up to a power of two
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1, scalar) readonly buffer SortedBuffer { LightBounds sorted[]; };
+layout(set = 0, binding = 2, scalar) buffer TreeBuffer { uvec2 tree[]; };  // ~least and greatest + 1; 0: no light
+#include "common/slices.glsl"
+
+void mark(uint node, uint rank) {
+  atomicMax(tree[node].x, ~rank);
+  atomicMax(tree[node].y, rank + 1u);
+}
+
+void main() {
+  const uint rank = gl_GlobalInvocationID.x;
+  if (rank >= frame.light_count || sorted[rank].radius < 0.0) return;
+  const float z_view = -sorted[rank].center.z;
+  const uvec2 bins = slices_of(z_view - sorted[rank].radius, z_view + sorted[rank].radius);
+  uint left = bins.x + LEAVES;
+  uint right = bins.y + LEAVES + 1u;
+  for (; left < right; left /= 2u, right /= 2u) {
+    if ((left & 1u) != 0u) mark(left++, rank);
+    if ((right & 1u) != 0u) mark(--right, rank);
+  }
+}

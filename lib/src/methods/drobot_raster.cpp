@@ -1,0 +1,224 @@
+// Rasterised culling: lights are drawn as meshes, and a fragment sets the light's bit in its tile, or in the clusters
+// from the mesh's front to its back. Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH
+// Advances (2017), "Rasterization based culling". Promise: meshes enclose their lights by what a sample may be off a
+// pixel's centre, so no pixel is lost at any resolution; two indirect draws for all lights; bits do not depend on who
+// comes first. SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/proxy.h"
+#include "lamplight/shared/tile.h"
+#include "methods.h"
+#include "parts.h"
+
+namespace lamp {
+namespace {
+
+/// How tiles are sampled.
+struct Raster {
+  std::uint32_t pixel = 1;    ///< pixels the side of a raster pixel
+  std::uint32_t samples = 1;  ///< of a raster pixel
+  double reach_px = 0.0;      ///< the nearest sample of the raster pixel is at most that far from a pixel's centre
+  bool conservative = false;  ///< the device finds every raster pixel that a triangle touches
+  [[nodiscard]] bool exact() const { return pixel == 1 && samples == 1; }  ///< samples are pixels' centres
+};
+
+/// Vulkan's standard places of four samples: within 0.4 of a raster pixel's side from any point of it. Corners of
+/// triangles are snapped to 1 / 256 of a raster pixel or finer; 0.05 covers that.
+Raster raster_of(Plan& plan, const Problem& problem) {
+  std::string word = problem.options.word("raster");
+  if (word == "conservative" && problem.traits.conservative_raster)
+    return {.pixel = 8, .samples = 1, .reach_px = 0.05 * 8, .conservative = true};
+  if (word == "conservative") {
+    word = "half-msaa";
+    plan.notes.emplace_back("raster=half-msaa instead of conservative: the device has no conservative rasterization");
+  }
+  if (word == "half-msaa") return {.pixel = 2, .samples = 4, .reach_px = 0.45 * 2};
+  if (word == "quarter-msaa") return {.pixel = 4, .samples = 4, .reach_px = 0.45 * 4};
+  return {.pixel = 1, .samples = 1, .reach_px = 0.05};
+}
+
+struct Buffers {
+  ResourceId proxies, drawn, draws, ranges, bits;
+};
+
+Pass proxy_pass(const Problem& problem, const Raster& raster, const Buffers& b) {
+  return {.name = "light proxies",
+          .shader = "methods/light_proxies",
+          .constants = {parts::capacity(problem), static_cast<std::uint32_t>(raster.reach_px * 1024.0)},
+          .bindings = {{INPUT_FRAME},
+                       {INPUT_LIGHTS},
+                       {b.proxies, Access::write},
+                       {b.drawn, Access::write},
+                       {b.draws, Access::read_write}},
+          .extent = {.lights_per_group = 64}};
+}
+
+Pass depth_pass(std::uint32_t tile_px, const parts::TileGrid& tiles, ResourceId ranges) {
+  return {.name = "tile depth",
+          .shader = "methods/tile_depth_pass",
+          .constants = {tile_px / 2, tile_px, shared::BOUNDS_MINMAX},
+          .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {ranges, Access::write}},
+          .extent = {.x = tiles.width, .y = tiles.height}};
+}
+
+/// A draw of the lights outside or inside of which the eye is. Constants: those of raster_inputs.glsl.
+struct Draw {
+  const char* name;
+  const char* shader;
+  std::uint32_t which;
+  RasterState::Cull cull;
+};
+
+Pass draw_pass(const Problem& problem, const Raster& raster, const Buffers& b, const Draw& draw) {
+  return {.name = draw.name,
+          .kind = PassKind::raster,
+          .shader = draw.shader,
+          .constants = {parts::capacity(problem), draw.which, raster.pixel, problem.options.integer("tile"),
+                        parts::divide_up(parts::capacity(problem), 32), raster.exact() ? 1U : 0U},
+          .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {b.proxies}, {b.drawn}},
+          .extent = {.indirect = b.draws, .indirect_offset = draw.which * sizeof(shared::ProxyDraw)},
+          .raster = {.vertex_shader = "methods/light_proxy",
+                     .width = parts::divide_up(problem.width, raster.pixel),
+                     .height = parts::divide_up(problem.height, raster.pixel),
+                     .samples = raster.samples,
+                     .conservative = raster.conservative,
+                     .cull = draw.cull}};
+}
+
+/// Whether atomics are merged: as asked, if the device can.
+bool compacts(Plan& plan, const Problem& problem) {
+  if (problem.options.word("compact") == "off") return false;
+  if (problem.traits.subgroup_ballot && problem.traits.subgroup_arithmetic) return true;
+  plan.notes.emplace_back("compact=off instead of on: the device has no subgroup ballot and arithmetic in fragments");
+  return false;
+}
+
+/// Proxies and their draws, which all rasterised culling begins with.
+Buffers add_proxies(Plan& plan, const Problem& problem, const Raster& raster) {
+  const std::uint64_t lights = parts::capacity(problem);
+  Buffers b{};
+  b.proxies = plan.add({.name = "light proxies", .bytes = lights * sizeof(shared::LightProxy)});
+  b.drawn = plan.add({.name = "drawn lights", .bytes = 2 * lights * 4});
+  b.draws = plan.add({.name = "draws", .bytes = 2 * sizeof(shared::ProxyDraw), .zeroed = true, .indirect = true});
+  plan.passes.push_back(proxy_pass(problem, raster, b));
+  return b;
+}
+
+Plan plan_raster_tile(const Problem& problem) {
+  using Cull = RasterState::Cull;
+  const std::uint32_t tile_px = problem.options.integer("tile");
+  const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
+  const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
+  Plan plan;
+  const Raster raster = raster_of(plan, problem);
+  plan.cells = tiles.count();
+  Buffers b = add_proxies(plan, problem, raster);
+  b.bits = plan.add({.name = "tile bits", .bytes = tiles.count() * words * 4, .zeroed = true});
+  if (!raster.exact()) {
+    b.ranges = plan.add({.name = "tile depth ranges", .bytes = tiles.count() * sizeof(shared::TileRanges)});
+    plan.passes.push_back(depth_pass(tile_px, tiles, b.ranges));
+  }
+  const char* shader = compacts(plan, problem) ? "methods/raster_tile_compact" : "methods/raster_tile";
+  for (const Draw& draw : {Draw{"front faces", shader, shared::PROXIES_OUTSIDE, Cull::back},
+                           Draw{"back faces around the eye", shader, shared::PROXIES_INSIDE, Cull::front}}) {
+    Pass pass = draw_pass(problem, raster, b, draw);
+    pass.bindings.insert(pass.bindings.end(),
+                         {{INPUT_DEPTH}, {raster.exact() ? INPUT_FRAME : b.ranges}, {b.bits, Access::read_write}});
+    plan.passes.push_back(std::move(pass));
+  }
+  plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_bits"),
+                 .constants = {tile_px, words, 1},
+                 .bindings = {{INPUT_FRAME}, {b.bits}, {INPUT_FRAME}}};
+  return plan;
+}
+
+Plan plan_raster_cluster(const Problem& problem) {
+  using Cull = RasterState::Cull;
+  const Options& o = problem.options;
+  const std::uint64_t clusters = parts::tile_grid(problem, o.integer("tile")).count() * o.integer("slices");
+  const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
+  const std::vector<std::uint32_t> slices{o.integer("slices"), parts::slice_scale(o.word("scale")),
+                                          o.integer("near_mm"), o.integer("far_m")};
+  Plan plan;
+  const Raster raster = raster_of(plan, problem);
+  plan.cells = clusters;
+  Buffers b = add_proxies(plan, problem, raster);
+  b.bits = plan.add({.name = "cluster bits", .bytes = clusters * words * 4, .zeroed = true});
+  const char* shader = compacts(plan, problem) ? "methods/raster_cluster_compact" : "methods/raster_cluster";
+  const std::pair<Draw, std::uint32_t> draws[] = {
+      {{"mark back faces", shader, shared::PROXIES_OUTSIDE, Cull::front}, shared::CLUSTERS_MARK},
+      {{"walk from front faces", shader, shared::PROXIES_OUTSIDE, Cull::back}, shared::CLUSTERS_WALK},
+      {{"walk from the eye", shader, shared::PROXIES_INSIDE, Cull::front}, shared::CLUSTERS_FROM_EYE}};
+  for (const auto& [draw, mode] : draws) {
+    Pass pass = draw_pass(problem, raster, b, draw);
+    pass.constants.push_back(mode);
+    pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
+    pass.bindings.push_back({b.bits, Access::read_write});
+    plan.passes.push_back(std::move(pass));
+  }
+  plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),
+                 .constants = {o.integer("tile")},
+                 .bindings = {{INPUT_FRAME}, {b.bits}}};
+  plan.lookup.constants.insert(plan.lookup.constants.end(), slices.begin(), slices.end());
+  plan.lookup.constants.push_back(words);
+  return plan;
+}
+
+std::optional<Error> check_raster_walk(const Problem& problem) {
+  return parts::check_walk(problem.options, parts::Container::bits);
+}
+
+OptionSpec raster_option() {
+  return {.key = "raster",
+          .help = "full resolution; four samples a pixel at half or a quarter of it; by 8 pixels, found by the device",
+          .fallback = "half-msaa",
+          .choices = {"full", "half-msaa", "quarter-msaa", "conservative"}};
+}
+
+OptionSpec compact_option() {
+  return {.key = "compact",
+          .help = "one atomic for all fragments of a subgroup that set bits of one word",
+          .fallback = "on",
+          .choices = {"on", "off"}};
+}
+
+}  // namespace
+
+Method drobot_raster_tile_method() {
+  return {
+      .name = "drobot-raster-tile",
+      .title = "Drobot, rasterised tiles",
+      .source =
+          "Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), rasterised culling",
+      .summary = "Lights are drawn as meshes that enclose them; each fragment sets the light's bit in its tile.",
+      .result = "tile_bits",
+      .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "8", .choices = {"8", "16", "32"}},
+                  raster_option(),
+                  compact_option(),
+                  parts::walk_option("scalar-entity")},
+      .plan = plan_raster_tile,
+      .check = check_raster_walk};
+}
+
+Method drobot_raster_cluster_method() {
+  return {
+      .name = "drobot-raster-cluster",
+      .title = "Drobot, rasterised clusters",
+      .source =
+          "Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), rasterised culling",
+      .summary =
+          "Back faces of light meshes mark clusters; front faces walk to the mark and set the light's bit on the way.",
+      .result = "cluster_bits",
+      .needs_depth = false,
+      .any_depth = true,
+      .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "32", .choices = {"16", "32", "64"}},
+                  {.key = "slices", .help = "slices of depth", .fallback = "32", .min = 1, .max = 256},
+                  parts::slice_scale_option("scale", "log"),
+                  parts::slice_near_option(),
+                  parts::slice_far_option(),
+                  raster_option(),
+                  compact_option(),
+                  parts::walk_option("scalar-entity")},
+      .plan = plan_raster_cluster,
+      .check = check_raster_walk};
+}
+
+}  // namespace lamp

@@ -1,0 +1,103 @@
+// Rasterised culling where sampling is hardest: lights smaller than a pixel, needles, lights across the near plane and
+// around the eye, at every resolution, for every projection. Nothing may be missed.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gpu/method_check.h"
+#include "gpu/test_scenes.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t WIDTH = 101;
+constexpr std::uint32_t HEIGHT = 59;
+constexpr std::uint32_t LIGHTS = 400;
+
+/// The position that a pixel shows, and how large a pixel is there.
+struct Seen {
+  glm::vec3 position;
+  float pixel_m;
+};
+
+std::vector<Seen> seen_points(const View& view, std::span<const float> depth) {
+  std::vector<Seen> seen;
+  for (std::uint32_t y = 0; y < view.height(); ++y) {
+    for (std::uint32_t x = 0; x < view.width(); ++x) {
+      const float d = depth[std::size_t{y} * view.width() + x];
+      if (d <= 0.0F) continue;
+      const glm::dvec2 pixel(x, y);
+      const double z = view.z_view(d);
+      const double size = glm::distance(view.view_position(pixel, z), view.view_position(pixel + 1.0, z));
+      seen.push_back({glm::vec3(view.world_position(x, y, d)), static_cast<float>(size)});
+    }
+  }
+  return seen;
+}
+
+/// Lights that reach a seen point, and little else.
+std::vector<shared::Light> slight_lights(const View& view, const std::vector<Seen>& seen) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+  const glm::vec3 eye(view.world_from_view()[3]);
+  const auto near_m = static_cast<float>(view.z_view(1.0));
+  std::vector<Light> lights;
+  for (std::uint32_t i = 0; i < LIGHTS; ++i) {
+    const Seen& at = seen[random() % seen.size()];
+    const glm::vec3 off = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)) - 0.499F);
+    Light light{.position = at.position, .intensity = 5.0F};
+    if (i % 4 == 0) {  // a share of a pixel
+      light.range = at.pixel_m * (0.01F + unit(random));
+      light.position += off * (light.range * 0.9F * unit(random));
+    } else if (i % 4 == 1) {  // a needle through the point
+      light.type = LightType::spot;
+      light.range = 30.0F * unit(random) + 0.1F;
+      light.position -= off * (light.range * 0.9F * unit(random));
+      light.direction = off;
+      light.outer_angle = 0.001F + 0.03F * unit(random);
+    } else if (i % 4 == 2) {  // across the near plane, wide or narrow
+      light.position = eye + off * (2.0F * near_m * unit(random));
+      light.range = glm::distance(light.position, at.position) * (0.9F + 0.3F * unit(random));
+      if (unit(random) < 0.7F) light.type = LightType::spot;
+      light.direction = at.position - light.position;
+      light.outer_angle = 1.5707963F * unit(random);
+    } else {  // one whose surface passes the point
+      light.range = 20.0F * unit(random);
+      light.position += off * (light.range * (0.999F + 0.002F * unit(random)));
+      if (unit(random) < 0.5F) light.type = LightType::spot;
+      light.direction = -off;
+      light.outer_angle = 1.5707963F;
+    }
+    lights.push_back(light);
+  }
+  return pack(lights);
+}
+
+class Proxies : public GpuTest {};
+
+TEST_F(Proxies, MissNoLightHoweverSlight) {
+  const TestScene& scene = builtin_test_scene("posts");
+  for (const std::string_view projection : tested_projections()) {
+    const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, projection);
+    Renderer renderer(test_context(), shader_library(), scene.gpu, WIDTH, HEIGHT, LIGHTS);
+    const LitCase dark = make_case(renderer, view, {});
+    const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
+    EXPECT_GT(lit.truth.lights.size(), LIGHTS / 2);
+    for (const Method& method : methods()) {
+      const auto raster = std::ranges::find(method.options, "raster", &OptionSpec::key);
+      if (raster == method.options.end()) continue;
+      for (const std::string_view value : raster->choices) {
+        SCOPED_TRACE(fmt::format("{}, {} raster={}", projection, method.name, value));
+        check_method(renderer, lit,
+                     {.method = &method, .settings = {fmt::format("raster={}", value)}, .light_capacity = LIGHTS});
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lamp::app
