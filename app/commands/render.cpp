@@ -23,7 +23,7 @@ struct RenderOptions {
   std::string stats;
   std::string exposure = "auto";
   std::uint32_t frames = 0;
-  std::uint32_t samples = 4;
+  std::uint32_t samples = 0;  ///< 0: as many as the scene allows and are worth the time
   bool json = false;
 };
 
@@ -86,6 +86,14 @@ Findings walked(std::span<const gpu::Visit> visits, std::uint32_t width, std::ui
   return verification.findings();
 }
 
+/// Samples a pixel. A captured frame has what its depth buffer has, one.
+std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
+  if (!scene.captured) return o.samples == 0 ? 4 : o.samples;
+  if (o.samples > 1)
+    throw Error(fmt::format("--samples: got {}, but a captured frame has one sample a pixel", o.samples));
+  return 1;
+}
+
 Exit render(const RenderOptions& o) {
   check_outputs(o);
   const ShadingPath path = parse_path(o.request.path);
@@ -93,6 +101,7 @@ Exit render(const RenderOptions& o) {
   check_request(o.request, method);
   const std::optional<float> exposure = parse_exposure(o.exposure);
   const Setup setup = make_setup(o.request);
+  const std::uint32_t samples = sample_count(o, setup.scene);
   for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
   Session session(o.request, setup);
   Lighting lighting = session.lighting(method, o.request.options, path);
@@ -102,7 +111,7 @@ Exit render(const RenderOptions& o) {
 
   const std::vector<gpu::Visit> visits = visit_all(session, lighting);  // of the frame whose numbers are told
   const HdrImage image =
-      average_samples(session.renderer(), lighting, setup.lights, std::move(rendered.image), o.samples);
+      average_samples(session.renderer(), lighting, setup.lights, std::move(rendered.image), samples);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_picture(with_folder(o.out), image, toned);
@@ -136,9 +145,10 @@ Run add_render(CLI::App& app) {
   command->add_option("--exposure", o->exposure, "auto or a factor")->capture_default_str();
   command->add_option("--frames", o->frames, "frames to time; default: 20, on a software device 1")
       ->check(whole_number(1, 100000));
-  command->add_option("--samples", o->samples, "of the picture, a pixel; numbers and heat maps are of the first")
-      ->check(whole_number(1, 1024))
-      ->capture_default_str();
+  command
+      ->add_option("--samples", o->samples,
+                   "of the picture, a pixel; numbers and heat maps are of the first; default: 4, of a captured frame 1")
+      ->check(whole_number(1, 1024));
   command->add_flag("--json", o->json, "print the numbers as JSON");
   command->footer(
       "Examples:\n"

@@ -101,7 +101,7 @@ TEST_F(Bench, AMethodWhoseOutputIsWrongGetsNoTime) {
     fs::create_directories(path("tree") / folder);
     fs::copy(fs::path(LAMPLIGHT_SOURCE_DIR) / folder, path("tree") / folder, fs::copy_options::recursive);
   }
-  const std::string lookup = "tree/lib/shaders/lookup/cluster_lists.glsl";
+  const std::string lookup = "tree/lib/shaders/lookup/parts/cluster_lists.glsl";
   std::string text = read(lookup);
   const std::string whole = "Walk(range.x, range.x + range.y, NO_WORD)";
   const std::size_t at = text.find(whole);

@@ -1,8 +1,7 @@
 // A fragment of a light's proxy: sets the light's bit in clusters of its tile.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Cluster Rasterizer".
-// Promise: the bits of a tile reach from the nearest front to the farthest back without a gap. Marks of neighbouring
-// fragments overlap, because a face's depths are taken one raster pixel around; so a walk may end at any bit that is set:
-// it is a mark, or another walk has set it and goes on from there.
+// Promise: the bits of a tile reach from the nearest front to the farthest back without a gap. A walk looks for the
+// farthest mark of its tile first, because marks may have gaps where a sliver of the back lies between two pixels.
 // Needs: set_bit(word, bit).
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/raster_face.glsl"
@@ -19,6 +18,14 @@ uint cluster_word(uvec2 tile, uint slice) {
   return (tile.x + tiles.x * (tile.y + tiles.y * slice)) * WORDS + in_light / 32u;
 }
 
+// The farthest slice of the tile, up to `last`, that holds the bit; `last` if none does: then the back was too thin for
+// any pixel. Other walks set bits meanwhile, but none beyond the farthest mark.
+uint farthest_mark(uvec2 tile, uint bit, uint first, uint last) {
+  for (uint slice = last + 1u; slice > first; --slice)
+    if ((bits[cluster_word(tile, slice - 1u)] & bit) != 0u) return slice - 1u;
+  return last;
+}
+
 void main() {
   const vec2 face = face_depths(1.0);
   const uvec2 pixel = uvec2(gl_FragCoord.xy) * RASTER_PX;
@@ -27,11 +34,9 @@ void main() {
   const bool everywhere = reaches_everywhere();
   const vec2 depths = everywhere ? vec2(proxy.z_near, proxy.z_far) : clamp(face, proxy.z_near, proxy.z_far);
   uvec2 slices = slices_of(depths.x, depths.y);
-  if (MODE == CLUSTERS_WALK) slices.y = slices_of(proxy.z_far, proxy.z_far).y;
-  if (MODE == CLUSTERS_FROM_EYE) slices.x = 0u;
+  const uvec2 tile = pixel / TILE_PX;
   const uint bit = 1u << (in_light % 32u);
-  for (uint slice = slices.x; slice <= slices.y; ++slice) {
-    const uint before = set_bit(cluster_word(pixel / TILE_PX, slice), bit);
-    if (MODE == CLUSTERS_WALK && (before & bit) != 0u) break;
-  }
+  if (MODE == CLUSTERS_WALK) slices.y = farthest_mark(tile, bit, slices.x, slices_of(proxy.z_far, proxy.z_far).y);
+  if (MODE == CLUSTERS_FROM_EYE) slices.x = 0u;
+  for (uint slice = slices.x; slice <= slices.y; ++slice) set_bit(cluster_word(tile, slice), bit);
 }

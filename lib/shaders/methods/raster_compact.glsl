@@ -1,4 +1,4 @@
-// Sets a light's bit, one atomic for all fragments of a subgroup that set bits of one word. Returns the word as it was.
+// Sets a light's bit, one atomic for all fragments of a subgroup that set bits of one word.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Atomic Contention", and
 // the merging of bits among its improvements.
 // Promise: right whoever is elected. Helper threads may be, and their atomics do nothing; so a thread looks whether its bit
@@ -9,9 +9,8 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
 // Each turn serves the threads with the first thread's word, so every thread has one turn.
-uint set_bit(uint word, uint bit) {
-  const uint before = bits[word];
-  if ((before & bit) != 0u) return before;
+void set_bit(uint word, uint bit) {
+  if ((bits[word] & bit) != 0u) return;
   for (bool waiting = true; waiting;) {
     if (subgroupBroadcastFirst(word) != word) continue;
     const uint merged = subgroupOr(bit);
@@ -20,5 +19,4 @@ uint set_bit(uint word, uint bit) {
   }
   memoryBarrierBuffer();  // the merged atomic before the look at what it did
   if ((bits[word] & bit) == 0u) atomicOr(bits[word], bit);
-  return before;
 }
