@@ -90,6 +90,27 @@ TEST_P(Overflow, IsCountedAndTheListsStayComplete) {
   EXPECT_EQ(counted.entries_needed, enough.entries_needed);  // so a host knows how much to grow
 }
 
+/// Rows that scatter lights into cells: the cells' entries and the tiles' lists are two buffers, either may be short.
+class ScatterOverflow : public LitCorridor {};
+
+TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
+  std::vector<shared::Light> wide = lit_.lights;
+  for (shared::Light& light : wide) light.range *= 30.0F;
+  const LitCase lit = make_case(renderer_, view_, wide);
+  const Method& method = *take(find_method("lamplight"));
+  const auto overflowed = [&](const std::vector<std::string>& settings) {
+    SCOPED_TRACE(fmt::format("{}", fmt::join(settings, " ")));
+    const Candidate candidate{.method = &method, .settings = settings, .light_capacity = COUNT};
+    check_method(renderer_, lit, candidate, Check::separate);
+    renderer_.set_frame(view_, lit.lights);
+    return renderer_.render(kept_lighting(renderer_, candidate, ShadingPath::deferred)).counters.overflowed_cells;
+  };
+  EXPECT_EQ(overflowed({"mean_cells=8", "mean_capacity=300"}), 0);
+  EXPECT_GT(overflowed({"mean_cells=8", "mean_capacity=1"}), 0);
+  EXPECT_GT(overflowed({"mean_cells=1", "mean_capacity=300"}), 0);
+  EXPECT_GT(overflowed({"mean_cells=1", "mean_capacity=1"}), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Overflow, ::testing::ValuesIn(all_short_lists()),
                          [](const auto& test) { return test_name(test.param.method->name); });
 
