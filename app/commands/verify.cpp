@@ -54,7 +54,7 @@ void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& ca
 }
 
 Findings findings_of(Candidate& candidate) {
-  const Findings separate = candidate.separate.findings();
+  Findings separate = candidate.separate.findings();
   if (!candidate.lighting.runner().plan().fused) return separate;
   return of_both(separate, candidate.fused.findings());
 }

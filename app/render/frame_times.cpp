@@ -3,6 +3,7 @@
 #include "render/frame_times.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "render/renderer.h"
@@ -27,7 +28,7 @@ double median_of(const std::vector<FrameTime>& frames, double FrameTime::* membe
 double percentile(std::vector<double> samples, double share) {
   if (samples.empty()) return 0.0;
   std::ranges::sort(samples);
-  return samples[static_cast<std::size_t>(share * static_cast<double>(samples.size() - 1) + 0.5)];
+  return samples[static_cast<std::size_t>(std::lround(share * static_cast<double>(samples.size() - 1)))];
 }
 
 double span_ms(std::span<const vulkan::Timestamps::Time> times, const std::function<bool(std::string_view)>& counts) {
