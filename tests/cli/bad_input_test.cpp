@@ -132,7 +132,7 @@ TEST_F(BadInput, LightsWhoseRangeIsNone) {
   gltf["extensionsUsed"] = {"KHR_lights_punctual"};
   gltf["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
   for (const char* range : {"-1", "0", "NaN", "1e999", "\"far\""}) {
-    nlohmann::json light{{"type", "point"}, {"range", "RANGE"}};
+    const nlohmann::json light{{"type", "point"}, {"range", "RANGE"}};
     gltf["extensions"]["KHR_lights_punctual"]["lights"] = {light};
     std::string text = gltf.dump();
     text.replace(text.find("\"RANGE\""), 7, range);

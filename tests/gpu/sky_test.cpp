@@ -156,7 +156,7 @@ TEST_F(Sky, EmptyTilesListNothing) {
 }
 
 TEST_F(Sky, ATransparentSurfaceBeforeItIsLit) {
-  Scene scene = wall_scene({.base_color = glm::vec4(0.8F, 0.7F, 0.6F, 0.5F), .alpha_mode = AlphaMode::blend});
+  const Scene scene = wall_scene({.base_color = glm::vec4(0.8F, 0.7F, 0.6F, 0.5F), .alpha_mode = AlphaMode::blend});
   const GpuScene gpu(test_context(), scene);
   Renderer renderer(test_context(), shader_library(), gpu, WIDTH, HEIGHT, COUNT);
   renderer.set_frame(camera_view(scene), covering_lights());
