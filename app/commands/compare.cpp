@@ -89,7 +89,7 @@ Exit compare(const CompareOptions& o) {
   write_png(o.out, side_by_side(pictures));
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
-    nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};
+    const nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};
     fmt::print("{}\n", json.dump(2));
     return Exit::done;
   }
