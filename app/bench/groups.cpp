@@ -82,15 +82,20 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   const auto [width, height] = size_of(group.size);
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
   const std::uint64_t pairs = std::uint64_t{width} * rows * group.lights;
+  const std::uint64_t all_pairs = std::uint64_t{width} * height * group.lights;
+  group.verify.verifier = chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
+  const bool by_gpu = group.verify.verifier == Verifier::gpu;
+  group.verify.every_list = by_gpu && limits.every_list && rows < height;
   if (series.verify.what == Verify::What::nothing) {
     group.unchecked = "not verified: the suite says so";
-  } else if (pairs / ORACLE_FACTOR > limits.most_pairs) {
+  } else if (!by_gpu && pairs / ORACLE_FACTOR > limits.most_pairs) {
     group.verify.what = Verify::What::nothing;
     group.unchecked = "not verified: too many lights for the oracle";
   } else if (pairs > limits.most_pairs) {
     group.verify.compares_pictures = false;
     group.unchecked =
-        "lists were held against the oracle; the picture was not compared: too many lights for brute force";
+        fmt::format("lists were held against the {}; the picture was not compared: too many lights for brute force",
+                    by_gpu ? "GPU verifier" : "oracle");
   }
 }
 
@@ -153,7 +158,8 @@ Expansion expand(const Suite& suite, const Limits& limits) {
 std::string words_of(const Verify& verify) {
   if (verify.what == Verify::What::nothing) return "nothing";
   const std::string what = verify.what == Verify::What::rows ? fmt::format("{} rows", verify.rows) : "picture";
-  return what + (verify.compares_pictures ? "" : ", lists alone");
+  return what + (verify.compares_pictures ? "" : ", lists alone") + (verify.every_list ? ", every list" : "") +
+         (verify.verifier == Verifier::gpu ? ", by gpu" : "");
 }
 
 std::string key_of(const Group& group, const GroupEntry& entry) {

@@ -45,6 +45,8 @@ struct Limits {
   std::uint64_t max_pixels = ~0ULL;  ///< likewise
   std::uint64_t most_pairs = ~0ULL;  ///< of pixel and light that brute force can walk here; beyond, lists alone are
                                      ///< checked, and nothing where there are too many for the oracle as well
+  VerifierChoice verifier = VerifierChoice::oracle;
+  bool every_list = false;  ///< where the GPU verifies: the lists of every row
 };
 
 /// All groups, in the order in which they are measured. `left_out` counts those beyond the limits.
@@ -57,7 +59,7 @@ struct Expansion {
 /// Names a configuration by all that decides its result, one line of text.
 [[nodiscard]] std::string key_of(const Group& group, const GroupEntry& entry);
 
-/// "picture", "64 rows", "64 rows, lists alone", "nothing".
+/// "picture", "64 rows", "64 rows, lists alone", "64 rows, every list, by gpu", "nothing".
 [[nodiscard]] std::string words_of(const Verify& verify);
 
 /// Lights at a frame of a flight of so many frames.

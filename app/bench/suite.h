@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "render/verification.h"
+
 namespace lamp::app {
 
 /// A method as a series measures it.
@@ -34,7 +36,9 @@ struct LightWave {
 struct Verify {
   enum class What : std::uint8_t { picture, rows, nothing } what = What::picture;
   std::uint32_t rows = 0;         ///< What::rows: so many in the middle of the picture
-  bool compares_pictures = true;  ///< false: lists alone, against the oracle; brute force would take too long
+  bool compares_pictures = true;  ///< false: lists alone; brute force would take too long
+  bool every_list = false;        ///< the lists of every row, whatever `rows` says
+  Verifier verifier = Verifier::oracle;
 };
 
 /// How a series wants to be drawn.

@@ -26,15 +26,11 @@ using nlohmann::json;
 
 constexpr std::uint32_t SOFTWARE_FRAMES = 5;  // a software device takes seconds for a frame of a large suite
 
-// Pairs of pixel and light that brute force walks in about a minute, and on a GPU in the second or two after which a
-// desktop takes the device away.
-constexpr std::uint64_t SOFTWARE_PAIRS = 3'000'000'000;
-constexpr std::uint64_t GPU_PAIRS = 200'000'000'000;
-
 struct BenchOptions {
   Request request;
   std::vector<std::string> methods;
   std::string out = "bench";
+  std::string verifier = "auto";
   std::string max_size;
   std::uint32_t max_lights = MAX_LIGHTS;
   std::optional<std::uint32_t> frames, warm_up;
@@ -166,7 +162,9 @@ Exit bench(const BenchOptions& o) {
                                              .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,
                                              .max_lights = o.max_lights,
                                              .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
-                                             .most_pairs = device.software() ? SOFTWARE_PAIRS : GPU_PAIRS});
+                                             .most_pairs = brute_force_pairs(device.context()),
+                                             .verifier = parse_verifier(o.verifier, device.context()),
+                                             .every_list = !device.software()});
   check_groups(from_suite ? o.request.scene : "lamp bench", expansion.groups);
   check_views(expansion.groups);
   check_folder(o.out);
@@ -237,6 +235,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   command->add_option("--warm-up", o->warm_up, "frames before those")->check(whole_number(0, 100000));
   command->add_option("--max-lights", o->max_lights, "leave out a suite's configurations with more")
       ->check(whole_number(0, MAX_LIGHTS));
+  add_verifier_option(*command, o->verifier);
   command->add_option("--max-size", o->max_size, "leave out a suite's configurations with more pixels, WIDTHxHEIGHT");
   command->footer(
       "Examples:\n"

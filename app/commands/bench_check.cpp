@@ -77,9 +77,12 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
 }
 
 void Checker::need_truths() {
-  if (truths_.empty())
+  if (group_.verify.verifier == Verifier::gpu) {
+    if (!verifier_) verifier_.emplace(renderer_, frame_.lights, group_.verify.every_list ? Rows{} : rows_);
+  } else if (truths_.empty()) {
     truths_ =
         truths_of(frame_, renderer_.read_depth(), rows_, device_.context().device().traits.max_storage_buffer_bytes);
+  }
 }
 
 const HdrImage& Checker::reference(ShadingPath path) {
@@ -96,8 +99,9 @@ const HdrImage& Checker::reference(ShadingPath path) {
 }
 
 Findings Checker::find(Lighting& lighting) {
-  Verification verification(frame_.view.width());
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
+  if (verifier_) return verifier_->check(lighting, which);
+  Verification verification(frame_.view.width());
   for (const Truth& truth : truths_) verification.add(truth, renderer_.visit(lighting, truth, which));
   return verification.findings();
 }
@@ -106,6 +110,8 @@ std::string Checker::fault(const Lighting& lighting, const Plan& plan, const Che
   if (checked.findings && checked.findings->missed != 0)
     return fmt::format("misses {} pairs of pixel and light, the first: {}", checked.findings->missed,
                        checked.findings->first_miss);
+  if (checked.findings && checked.findings->repeated != 0)
+    return fmt::format("walks {} lights again at a pixel that they reach", checked.findings->repeated);
   if (checked.findings && plan.ordered && checked.findings->unordered) return "a list does not ascend";
   if (!checked.difference) return "";
   const bool ascending = plan.ordered && lighting.info().path != ShadingPath::standard_deferred;

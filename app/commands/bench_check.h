@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands/bench_device.h"
-#include "render/verification.h"
+#include "render/gpu_verifier.h"
 
 namespace lamp::app {
 
@@ -31,7 +31,7 @@ class Checker {
  private:
   [[nodiscard]] const HdrImage& reference(ShadingPath path);
   [[nodiscard]] Findings find(Lighting& lighting);
-  /// Reads the depth that was rendered last: the same for every entry.
+  /// Uses the depth that was rendered last: the same for every entry.
   void need_truths();
   /// What is wrong, or nothing.
   [[nodiscard]] std::string fault(const Lighting& lighting, const Plan& plan, const Checked& checked);
@@ -42,6 +42,7 @@ class Checker {
   const BenchFrame& frame_;
   Rows rows_;
   std::vector<Truth> truths_;
+  std::optional<GpuVerifier> verifier_;
   std::optional<HdrImage> forward_, deferred_;
 };
 

@@ -101,7 +101,7 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
                             .frames = static_cast<std::uint32_t>(candidate.times.frames().size())},
                            *candidate.lighting, std::move(rendered));
   stats.findings = candidate.checked.findings;
-  stats.verified = stats.findings.has_value();
+  if (stats.findings) stats.verifier = info.group.verify.verifier;
   stats.image_max_abs_diff = candidate.checked.difference;
   json made = to_json(stats);
   if (!candidate.timed())

@@ -96,12 +96,12 @@ void print_rows(std::span<const Row> rows, bool json) {
     const Findings f = row.verification.findings();
     if (json)
       array.push_back({{"options", row.options},
-                       {"excess", f.excess()},
+                       {"excess", f.excess().value()},
                        {"waste", f.waste()},
                        {"list_mean", f.list_mean()},
                        {"missed", f.missed}});
     else
-      fmt::print("{:<62} {:>8.2f} {:>8.2f} {:>8.1f} {:>8}\n", row.options, f.excess(), f.waste(), f.list_mean(),
+      fmt::print("{:<62} {:>8.2f} {:>8.2f} {:>8.1f} {:>8}\n", row.options, f.excess().value(), f.waste(), f.list_mean(),
                  f.missed);
   }
   if (json) fmt::print("{}\n", array.dump(2));

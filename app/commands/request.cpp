@@ -142,6 +142,30 @@ Brdf parse_brdf(const std::string& text) {
   throw Error(fmt::format("--brdf '{}': expected ggx or blinn-phong", text));
 }
 
+VerifierChoice parse_verifier(const std::string& text, const Context& context) {
+  if (text == "oracle") return VerifierChoice::oracle;
+  if (text == "auto") return context.has_doubles() ? VerifierChoice::by_pairs : VerifierChoice::oracle;
+  if (!context.has_doubles())
+    throw Error(
+        fmt::format("--verifier gpu: device {} lacks the feature shaderFloat64; expected oracle", context.row().name),
+        Exit::no_device);
+  return VerifierChoice::gpu;
+}
+
+void add_verifier_option(CLI::App& command, std::string& verifier) {
+  command
+      .add_option("--verifier", verifier,
+                  fmt::format("who says which lights reach a pixel: oracle (CPU), gpu, or auto: the oracle up to {} "
+                              "billion pairs of pixel and light",
+                              ORACLE_PAIRS / 1'000'000'000))
+      ->check(CLI::IsMember({"oracle", "gpu", "auto"}))
+      ->capture_default_str();
+}
+
+std::uint64_t brute_force_pairs(const Context& context) {
+  return context.row().kind == "CPU" ? 3'000'000'000 : 200'000'000'000;
+}
+
 const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
 
 void check_request(const Request& request, const Method& method) {

@@ -11,6 +11,7 @@
 
 #include "error.h"
 #include "render/renderer.h"
+#include "render/verification.h"
 #include "scene/scene.h"
 
 namespace lamp::app {
@@ -63,6 +64,14 @@ struct Setup {
 [[nodiscard]] std::pair<float, float> parse_range(const std::string& text);
 [[nodiscard]] ShadingPath parse_path(const std::string& text);
 [[nodiscard]] Brdf parse_brdf(const std::string& text);
+/// "oracle", "gpu" or "auto": by the number of pairs where the device has double precision, else the oracle. Throws
+/// Error for `gpu` where it has not.
+[[nodiscard]] VerifierChoice parse_verifier(const std::string& text, const Context& context);
+/// Adds `--verifier`.
+void add_verifier_option(CLI::App& command, std::string& verifier);
+/// Pairs of pixel and light that brute force walks in about a minute on a software device, and on a GPU in the second
+/// or two after which a desktop takes the device away.
+[[nodiscard]] std::uint64_t brute_force_pairs(const Context& context);
 [[nodiscard]] const Method& parse_method(const std::string& text);
 
 /// Device, renderer and what they need, for one Setup.

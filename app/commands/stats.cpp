@@ -71,8 +71,12 @@ nlohmann::json to_json(const Stats& s) {
     json["evaluations"] = f.evaluations;
     json["list_mean"] = f.list_mean();
     json["list_max"] = f.list_max;
-    if (s.verified)
-      json.update({{"missed", f.missed}, {"useful", f.useful}, {"waste", f.waste()}, {"excess", f.excess()}});
+    if (s.verifier) {
+      json.update(
+          {{"verifier", name_of(*s.verifier)}, {"missed", f.missed}, {"useful", f.useful}, {"waste", f.waste()}});
+      if (f.excess()) json["excess"] = *f.excess();
+      if (s.verifier == Verifier::gpu) json["repeated"] = f.repeated;
+    }
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
   if (s.image_max_abs_diff) json["image_max_abs_diff"] = *s.image_max_abs_diff;

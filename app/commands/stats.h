@@ -25,9 +25,9 @@ struct Stats {
   std::uint64_t cells = 0;
   std::vector<std::string> notes;  ///< the plan's: what is done otherwise than asked
   std::optional<Findings> findings;
-  bool ordered = true;       ///< the plan's lists ascend
-  bool approximate = false;  ///< the plan may miss lights
-  bool verified = false;     ///< the findings were held against a truth
+  bool ordered = true;               ///< the plan's lists ascend
+  bool approximate = false;          ///< the plan may miss lights
+  std::optional<Verifier> verifier;  ///< whose truth the findings were held against, if any
   std::optional<float> image_max_abs_diff;
   std::optional<float> image_tolerance;  ///< how large it may be
 };

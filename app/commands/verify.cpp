@@ -8,6 +8,7 @@
 
 #include "commands/commands.h"
 #include "commands/stats.h"
+#include "render/gpu_verifier.h"
 
 namespace lamp::app {
 namespace {
@@ -15,16 +16,18 @@ namespace {
 struct VerifyOptions {
   Request request;
   std::vector<std::string> methods;
+  std::string verifier = "auto";
   bool json = false;
 };
 
-/// A method under test: its look-ups, and what they were found to hold.
+/// A method under test, and what its look-ups were found to hold.
 struct Candidate {
   Candidate(Lighting separate_lighting, std::uint32_t width)
       : lighting(std::move(separate_lighting)), separate(width), fused(width) {}
   Lighting lighting;
   Verification separate;
   Verification fused;
+  Findings findings;
 };
 
 void progress(std::string_view text) {
@@ -53,10 +56,27 @@ void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& ca
   }
 }
 
-Findings findings_of(Candidate& candidate) {
-  Findings separate = candidate.separate.findings();
-  if (!candidate.lighting.runner().plan().fused) return separate;
-  return of_both(separate, candidate.fused.findings());
+void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
+  for_each_truth(setup.view, session.renderer().read_depth(), setup.lights,
+                 session.context().device().traits.max_storage_buffer_bytes,
+                 [&](const Truth& truth) { visit_band(session, truth, candidates); });
+  for (Candidate& candidate : candidates) {
+    candidate.findings = candidate.separate.findings();
+    if (candidate.lighting.runner().plan().fused)
+      candidate.findings = of_both(candidate.findings, candidate.fused.findings());
+  }
+}
+
+void find_by_gpu(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
+  using Passes = vulkan::PlanRunner::Passes;
+  progress("verify: every light at every pixel");
+  GpuVerifier verifier(session.renderer(), setup.lights);
+  for (Candidate& candidate : candidates) {
+    progress(fmt::format("verify: {}", candidate.lighting.info().method->name));
+    candidate.findings = verifier.check(candidate.lighting);
+    if (candidate.lighting.runner().plan().fused)
+      candidate.findings = of_both(candidate.findings, verifier.check(candidate.lighting, Passes::fused));
+  }
 }
 
 /// A row of the table.
@@ -65,39 +85,76 @@ struct Row {
   bool good = false;
 };
 
+/// "-" where there is no number.
+template <class Number>
+std::string number_or_dash(const char* format, const std::optional<Number>& number) {
+  return number ? fmt::format(fmt::runtime(format), *number) : "-";
+}
+
 void print_table(std::span<const Row> rows) {
   fmt::print("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed",
              "evaluations", "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
   for (const auto& [s, good] : rows) {
     const Findings& f = *s.findings;
     const char* verdict = !good ? "FAILED" : s.approximate && f.missed != 0 ? "approximate" : "ok";
-    fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9.2f} {:>9.1f} {:>9} {:>10} {:>11.3g} {:>10.3f}  {}\n", s.method,
-               f.missed, f.evaluations, f.waste(), f.excess(), f.list_mean(), f.list_max,
-               s.rendered.counters.overflowed_cells, *s.image_max_abs_diff, s.rendered.cull_ms, verdict);
+    fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
+               f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
+               s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
+               verdict);
     for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
     if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
+    if (f.repeated != 0) fmt::print("  {} reaching lights walked again\n", f.repeated);
     if (s.ordered && f.unordered) fmt::print("  a list does not ascend\n");
-    if (!s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
+    if (s.image_max_abs_diff && !s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
       fmt::print("  the picture may differ by {:.3g}\n", *s.image_tolerance);
   }
 }
 
-Stats render_candidate(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
-                       const HdrImage& reference) {
-  progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
-  Rendered rendered = session.renderer().render(candidate.lighting);
-  float difference = max_abs_difference(rendered.image, reference);
+float picture_difference(const VerifyOptions& o, Session& session, Candidate& candidate, const HdrImage& picture,
+                         const HdrImage& reference) {
+  float difference = max_abs_difference(picture, reference);
   if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
     Lighting fused =
         session.lighting(*candidate.lighting.info().method, o.request.options, ShadingPath::tiled_deferred);
     difference = std::max(difference, max_abs_difference(session.renderer().render(fused).image, reference));
   }
-  Stats stats = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1);
-  stats.image_max_abs_diff = difference;
-  stats.image_tolerance = picture_tolerance(candidate.lighting.runner().plan(), reference);
-  stats.findings = findings_of(candidate);
-  stats.verified = true;
-  return stats;
+  return difference;
+}
+
+/// Without a reference, pictures are not compared.
+Row make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
+             const std::optional<HdrImage>& reference) {
+  progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
+  Rendered rendered = session.renderer().render(candidate.lighting);
+  const Plan& plan = candidate.lighting.runner().plan();
+  PictureDifference difference;
+  if (reference)
+    difference = {.max_abs = picture_difference(o, session, candidate, rendered.image, *reference),
+                  .tolerance = picture_tolerance(plan, *reference)};
+  Row row{.stats = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1),
+          .good = keeps_promises(plan, candidate.findings, difference)};
+  if (reference) {
+    row.stats.image_max_abs_diff = difference.max_abs;
+    row.stats.image_tolerance = difference.tolerance;
+  }
+  row.stats.findings = candidate.findings;
+  return row;
+}
+
+void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, std::span<const Row> rows) {
+  if (o.json) {
+    nlohmann::json array = nlohmann::json::array();
+    for (const Row& row : rows) array.push_back(to_json(row.stats));
+    fmt::print("{}\n", array.dump(2));
+    return;
+  }
+  const DeviceRow& device = session.context().row();
+  fmt::print("{} ({}), {} {}x{}, {} lights: {}\n", device.name, device.driver, o.request.scene, setup.view.width(),
+             setup.view.height(), setup.lights.size(), setup.lights_note);
+  if (!rows.empty() && rows.front().stats.verifier == Verifier::gpu)
+    fmt::print("truth by the GPU verifier{}\n",
+               rows.front().stats.image_max_abs_diff ? "" : "; pictures not compared: too many lights for brute force");
+  print_table(rows);
 }
 
 Exit verify(const VerifyOptions& o) {
@@ -105,34 +162,32 @@ Exit verify(const VerifyOptions& o) {
   const std::vector<const Method*> wanted = wanted_methods(o);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
-  Lighting brute = session.lighting(parse_method("all"), {}, path);
-  progress("verify picture: brute force");
-  const HdrImage reference = session.renderer().render(brute).image;
-  const std::vector<float> depth = session.renderer().read_depth();
+  const std::uint64_t pairs = std::uint64_t{setup.view.width()} * setup.view.height() * setup.lights.size();
+  const Verifier verifier = chosen(parse_verifier(o.verifier, session.context()), pairs);
 
   std::vector<Candidate> candidates;
   for (const Method* method : wanted)
     candidates.emplace_back(session.lighting(*method, o.request.options, path), setup.view.width());
-  for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
-                 [&](const Truth& truth) { visit_band(session, truth, candidates); });
+  progress("verify picture: brute force");
+  std::optional<HdrImage> reference;
+  if (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context())) {
+    Lighting brute = session.lighting(parse_method("all"), {}, path);
+    reference = session.renderer().render(brute).image;
+  } else {
+    static_cast<void>(session.renderer().render(candidates.front().lighting));  // for its depth
+  }
+  if (verifier == Verifier::gpu)
+    find_by_gpu(session, setup, candidates);
+  else
+    find_by_oracle(session, setup, candidates);
 
   std::vector<Row> rows;
   for (Candidate& candidate : candidates) {
-    Stats stats = render_candidate(o, session, setup, candidate, reference);
-    const bool good = keeps_promises(candidate.lighting.runner().plan(), *stats.findings,
-                                     {.max_abs = *stats.image_max_abs_diff, .tolerance = *stats.image_tolerance});
-    rows.push_back({.stats = std::move(stats), .good = good});
+    rows.push_back(make_row(o, session, setup, candidate, reference));
+    rows.back().stats.verifier = verifier;
   }
   progress("");
-  if (o.json) {
-    nlohmann::json array = nlohmann::json::array();
-    for (const Row& row : rows) array.push_back(to_json(row.stats));
-    fmt::print("{}\n", array.dump(2));
-  } else {
-    fmt::print("{} ({}), {} {}x{}, {} lights: {}\n", session.context().row().name, session.context().row().driver,
-               o.request.scene, setup.view.width(), setup.view.height(), setup.lights.size(), setup.lights_note);
-    print_table(rows);
-  }
+  print_rows(o, session, setup, rows);
   return std::ranges::all_of(rows, &Row::good) ? Exit::done : Exit::check_failed;
 }
 
@@ -150,6 +205,7 @@ Run add_verify(CLI::App& app) {
   command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
+  add_verifier_option(*command, o->verifier);
   command->add_flag("--json", o->json, "print an array of Stats objects, one a method");
   command->footer(
       "Examples:\n"

@@ -123,6 +123,8 @@ void Context::create_device() {
     throw Error("device " + row_.name + ": lacks the feature depthClamp", Exit::no_device);
   features.base.features.depthClamp = VK_TRUE;
   features.base.features.samplerAnisotropy = has.samplerAnisotropy;
+  features.base.features.shaderFloat64 = has.shaderFloat64;
+  doubles_ = has.shaderFloat64 == VK_TRUE;
 
   const float priority = 1.0F;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

@@ -37,6 +37,8 @@ class Context {
 
   [[nodiscard]] const vulkan::Device& device() const { return device_; }
   [[nodiscard]] const DeviceRow& row() const { return row_; }
+  /// Whether shaders may compute in double precision.
+  [[nodiscard]] bool has_doubles() const { return doubles_; }
 
   /// Records, submits and waits.
   void submit(const std::function<void(VkCommandBuffer)>& record);
@@ -61,6 +63,7 @@ class Context {
   std::unique_ptr<vulkan::PipelineStore> pipelines_;
   vulkan::Device device_;
   DeviceRow row_;
+  bool doubles_ = false;
 };
 
 }  // namespace lamp::app

@@ -146,64 +146,79 @@ CapturedFrame Renderer::capture() {
                         .emission = read_texels<glm::u16vec4>(targets_->emission)});
 }
 
-vulkan::Pipeline Renderer::visit_pipeline(Lighting& lighting, vulkan::PlanRunner::Passes which) const {
-  const Plan& plan = lighting.runner().plan();
-  const bool fused = which == vulkan::PlanRunner::Passes::fused;
-  const LookUp& lookup = fused ? plan.fused->lookup : plan.lookup;
-  vulkan::PipelineInfo info{.name = "visit",
-                            .constants = lighting.runner().lookup({}, which).constants,
-                            .push_constant_bytes = 2 * sizeof(std::uint32_t)};
-  info.constants.push_back({0, fused ? plan.fused->group_width : 16U});
-  info.constants.push_back({1, fused ? plan.fused->group_height : 16U});
-  for (std::uint32_t i = 0; i < 5; ++i)
-    info.bindings.push_back({i, i == 1 ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const {
+  vulkan::PipelineInfo info{.name = std::string(pass.shader),
+                            .push_constant_bytes = static_cast<std::uint32_t>(pass.push.size() * sizeof(pass.push[0]))};
+  info.bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
+  for (const PixelPass::Storage& storage : pass.storage)
+    info.bindings.push_back({storage.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  if (pass.lighting == nullptr)
+    return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv(pass.shader)));
+  const vulkan::PlanRunner& runner = pass.lighting->runner();
+  const bool fused = pass.which == vulkan::PlanRunner::Passes::fused;
+  const LookUp& lookup = fused ? runner.plan().fused->lookup : runner.plan().lookup;
+  info.constants = runner.lookup({}, pass.which).constants;
+  info.constants.push_back({0, group_px.x});
+  info.constants.push_back({1, group_px.y});
   for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
     info.bindings.push_back({LOOKUP_BINDING + i, vulkan::descriptor_type(lookup.bindings[i].resource)});
-  return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv("visit@" + lookup.name)));
+  return take(vulkan::Pipeline::compute(context_.device(), info,
+                                        shaders_.spirv(fmt::format("{}@{}", pass.shader, lookup.name))));
+}
+
+void Renderer::run(const PixelPass& pass) {
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  const bool fused = pass.lighting != nullptr && pass.which == vulkan::PlanRunner::Passes::fused;
+  glm::uvec2 group_px(16);
+  if (fused)
+    group_px = {pass.lighting->runner().plan().fused->group_width, pass.lighting->runner().plan().fused->group_height};
+  const std::uint32_t rows = fused || pass.rows.count == 0 ? targets_->height : pass.rows.count;
+  const vulkan::Pipeline pipeline = pixel_pipeline(pass, group_px);
+  const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
+
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    if (pass.prepares) data_.record_upload(recorder);
+    if (pass.prepares && pass.lighting != nullptr) pass.lighting->runner().record(recorder, inputs, pass.which);
+    std::vector<vulkan::Bound> bound{{0, data_.frame()}, {1, targets_->depth.sampled()}};
+    std::vector<vulkan::Use> uses{reads(data_.frame(), COMPUTE), reads(targets_->depth.sampled(), COMPUTE)};
+    for (const PixelPass::Storage& storage : pass.storage) {
+      bound.push_back({storage.binding, storage.resource});
+      uses.push_back({.resource = storage.resource, .stages = COMPUTE, .access = storage.access});
+    }
+    if (pass.lighting != nullptr)
+      for (const vulkan::Bound& b : pass.lighting->runner().lookup(inputs, pass.which).resources) {
+        bound.push_back(b);
+        uses.push_back(reads(b.resource, COMPUTE));
+      }
+    recorder.begin_pass(pass.shader, uses);
+    recorder.bind(pipeline, bound);
+    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0,
+                       static_cast<std::uint32_t>(pass.push.size() * sizeof(pass.push[0])), pass.push.data());
+    vkCmdDispatch(commands, (targets_->width + group_px.x - 1) / group_px.x, (rows + group_px.y - 1) / group_px.y, 1);
+    recorder.end_pass();
+    for (const PixelPass::Storage& storage : pass.storage)
+      if ((storage.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) != 0)
+        recorder.barrier({host_reads(storage.resource)});
+  });
 }
 
 std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which) {
   const std::size_t pixels = std::size_t{targets_->width} * truth.rows;
-  const vulkan::Pipeline pipeline = visit_pipeline(lighting, which);
   const vulkan::Buffer offsets =
       upload_buffer(context_, "truth offsets", bytes_of(truth.offsets), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer lights =
       upload_buffer(context_, "truth lights", bytes_of(truth.lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer found =
       readback(context_.device(), "visits", std::max<std::size_t>(1, pixels) * sizeof(gpu::Visit));
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
-  const bool fused = which == vulkan::PlanRunner::Passes::fused;
-  const std::uint32_t group_width = fused ? lighting.runner().plan().fused->group_width : 16;
-  const std::uint32_t group_height = fused ? lighting.runner().plan().fused->group_height : 16;
-
-  context_.submit([&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    data_.record_upload(recorder);
-    lighting.runner().record(recorder, inputs, which);
-    std::vector<vulkan::Bound> bound{{0, data_.frame()},
-                                     {1, targets_->depth.sampled()},
-                                     {2, vulkan::Resource::storage(offsets.handle())},
-                                     {3, vulkan::Resource::storage(lights.handle())},
-                                     {4, vulkan::Resource::storage(found.handle())}};
-    std::vector<vulkan::Use> uses{reads(data_.frame(), COMPUTE), reads(targets_->depth.sampled(), COMPUTE)};
-    for (const vulkan::Bound& b : lighting.runner().lookup(inputs, which).resources) {
-      bound.push_back(b);
-      uses.push_back(reads(b.resource, COMPUTE));
-    }
-    uses.push_back({.resource = vulkan::Resource::storage(found.handle()),
-                    .stages = COMPUTE,
-                    .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
-    recorder.begin_pass("visit", uses);
-    recorder.bind(pipeline, bound);
-    const std::uint32_t rows[] = {truth.first_row, truth.rows};
-    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(rows), rows);
-    vkCmdDispatch(commands, (targets_->width + group_width - 1) / group_width,
-                  (targets_->height + group_height - 1) / group_height, 1);
-    recorder.end_pass();
-    recorder.barrier({host_reads(vulkan::Resource::storage(found.handle()))});
-  });
-  tracker_.forget(found.handle());
+  run({.shader = "visit",
+       .lighting = &lighting,
+       .which = which,
+       .storage = {{2, vulkan::Resource::storage(offsets.handle())},
+                   {3, vulkan::Resource::storage(lights.handle())},
+                   {4, vulkan::Resource::storage(found.handle()), VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}},
+       .push = {truth.first_row, truth.rows}});
+  for (const vulkan::Buffer* buffer : {&offsets, &lights, &found}) forget(*buffer);
   return copy_out<gpu::Visit>(found, pixels);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "image/image.h"
@@ -31,6 +32,22 @@ struct Rendered {
   shared::Counters counters{};
 };
 
+/// A dispatch over the pixels of the last frame, for checks: one thread a pixel.
+struct PixelPass {
+  std::string_view shader;       ///< compiled with the look-up, where there is a lighting; frame at 0, depth at 1
+  Lighting* lighting = nullptr;  ///< whose look-up is walked
+  vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate;
+  bool prepares = true;  ///< uploads frame and lights, and culls the last frame's depth
+  struct Storage {
+    std::uint32_t binding = 0;
+    vulkan::Resource resource;
+    VkAccessFlags2 access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  };
+  std::vector<Storage> storage;
+  Rows rows;                        ///< dispatched; 0 rows: all. A fused look-up's are always all
+  std::vector<std::uint32_t> push;  ///< constants
+};
+
 class Renderer {
  public:
   /// Throws Error when a size is 0 or beyond the device's limits.
@@ -57,13 +74,19 @@ class Renderer {
   [[nodiscard]] std::vector<gpu::Visit> visit(Lighting& lighting, const Truth& truth,
                                               vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
 
+  /// Submits a pass and waits for it. Who destroys its buffers says so with `forget`.
+  void run(const PixelPass& pass);
+  void forget(const vulkan::Buffer& buffer) { tracker_.forget(buffer.handle()); }
+
   [[nodiscard]] const Targets& targets() const { return *targets_; }
+  [[nodiscard]] const FrameData& data() const { return data_; }
+  [[nodiscard]] Context& context() { return context_; }
   [[nodiscard]] const vulkan::Device& device() const { return context_.device(); }
   [[nodiscard]] const View& view() const { return view_; }
 
  private:
   [[nodiscard]] LightingFrame lighting_frame() const;
-  [[nodiscard]] vulkan::Pipeline visit_pipeline(Lighting& lighting, vulkan::PlanRunner::Passes which) const;
+  [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>
   [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);
   void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) const;

@@ -28,15 +28,25 @@ void sort_unique(std::vector<std::uint64_t>& keys) {
 }  // namespace
 
 double Findings::waste() const { return ratio(evaluations, useful); }
-double Findings::excess() const { return ratio(list_sum, truth_sum); }
+std::optional<double> Findings::excess() const {
+  return truth_sum ? std::optional(ratio(list_sum, *truth_sum)) : std::nullopt;
+}
 double Findings::list_mean() const {
   return cells_seen == 0 ? 0.0 : static_cast<double>(list_sum) / static_cast<double>(cells_seen);
+}
+
+std::string_view name_of(Verifier verifier) { return verifier == Verifier::gpu ? "gpu" : "oracle"; }
+
+Verifier chosen(VerifierChoice choice, std::uint64_t pairs) {
+  if (choice == VerifierChoice::by_pairs) return pairs > ORACLE_PAIRS ? Verifier::gpu : Verifier::oracle;
+  return choice == VerifierChoice::gpu ? Verifier::gpu : Verifier::oracle;
 }
 
 Findings of_both(Findings separate, const Findings& fused) {
   separate.missed_fused = fused.missed;
   separate.missed = std::max(separate.missed, fused.missed);
   separate.unordered = separate.unordered || fused.unordered;
+  separate.repeated = std::max(separate.repeated, fused.repeated);
   if (separate.first_miss.empty()) separate.first_miss = fused.first_miss;
   return separate;
 }
@@ -109,6 +119,7 @@ float picture_tolerance(const Plan& plan, const HdrImage& reference) {
 
 bool keeps_promises(const Plan& plan, const Findings& findings, const PictureDifference& difference) {
   if (plan.ordered && findings.unordered) return false;
+  if (findings.repeated != 0) return false;
   if (plan.approximate) return true;
   return findings.missed == 0 && std::isfinite(difference.max_abs) && difference.max_abs <= difference.tolerance;
 }

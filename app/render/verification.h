@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/image.h"
@@ -16,21 +17,33 @@
 
 namespace lamp::app {
 
+/// Who says which lights reach which pixels.
+enum class Verifier : std::uint8_t {
+  oracle,  ///< reference.h, on the CPU
+  gpu,     ///< GpuVerifier: the same answers on the device, where pairs of pixel and light are too many for a CPU
+};
+[[nodiscard]] std::string_view name_of(Verifier verifier);
+enum class VerifierChoice : std::uint8_t { oracle, gpu, by_pairs };
+/// Pairs of pixel and light that the oracle answers for in a few seconds; beyond, the GPU verifier is sooner.
+inline constexpr std::uint64_t ORACLE_PAIRS = 20'000'000'000;
+[[nodiscard]] Verifier chosen(VerifierChoice choice, std::uint64_t pairs);
+
 /// What a method's look-up was found to hold. Sums over the pixels that are not sky.
 struct Findings {
-  std::uint64_t missed = 0;       ///< pairs of pixel and light that the truth has and the look-up has not
-  std::uint64_t evaluations = 0;  ///< lights walked
-  std::uint64_t useful = 0;       ///< lights of the truth
-  std::uint64_t list_sum = 0;     ///< list lengths of the cells that hold a pixel
-  std::uint64_t truth_sum = 0;    ///< per cell, the lights that reach one of its pixels
-  std::uint64_t cells_seen = 0;   ///< cells that hold a pixel
+  std::uint64_t missed = 0;                ///< pairs of pixel and light that the truth has and the look-up has not
+  std::uint64_t evaluations = 0;           ///< lights walked
+  std::uint64_t useful = 0;                ///< lights of the truth
+  std::uint64_t list_sum = 0;              ///< list lengths of the cells that hold a pixel
+  std::optional<std::uint64_t> truth_sum;  ///< per cell, the lights that reach one of its pixels; nothing: not counted
+  std::uint64_t cells_seen = 0;            ///< cells that hold a pixel
   std::uint32_t list_max = 0;
   bool unordered = false;                     ///< a list did not ascend
+  std::uint64_t repeated = 0;                 ///< reaching lights that a list brought again; the oracle does not count
   std::string first_miss;                     ///< "pixel (12, 34): light 56", or empty
   std::optional<std::uint64_t> missed_fused;  ///< of the fused look-up alone, where the plan has one
 
-  [[nodiscard]] double waste() const;   ///< evaluations / useful; 1 when there is nothing to do and nothing done
-  [[nodiscard]] double excess() const;  ///< list_sum / truth_sum, likewise
+  [[nodiscard]] double waste() const;  ///< evaluations / useful; 1 when there is nothing to do and nothing done
+  [[nodiscard]] std::optional<double> excess() const;  ///< list_sum / truth_sum, likewise; nothing: not counted
   [[nodiscard]] double list_mean() const;
 };
 
@@ -69,8 +82,8 @@ struct PictureDifference {
   float max_abs = 0.0F;    ///< of max_abs_difference
   float tolerance = 0.0F;  ///< of picture_tolerance
 };
-/// Whether a plan does what its row promises: nothing missed, lists in order, the same picture. What an approximate
-/// plan misses is counted, not held against it.
+/// Whether a plan does what its row promises: nothing missed or repeated, lists in order, the same picture. What an
+/// approximate plan misses is counted, not held against it.
 [[nodiscard]] bool keeps_promises(const Plan& plan, const Findings& findings, const PictureDifference& difference);
 
 /// The largest difference of a channel; 0 if and only if all bits that matter agree, infinity where one is NaN.

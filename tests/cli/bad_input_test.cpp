@@ -38,6 +38,7 @@ TEST_F(BadInput, OptionsOfAMethod) {
   expect_error(BAD_INPUT, with("tile=5"), {"option tile: '5'", "8, 16, 32"});
   expect_error(BAD_INPUT, with("tile"), {"option 'tile'", "expected KEY=VALUE"});
   expect_error(BAD_INPUT, with("tile=8\n16"), {"option tile: '8\\n16'"});
+  expect_error(BAD_INPUT, {"verify", "--verifier", "cpu"}, {"--verifier", "cpu", "oracle"});
   expect_error(BAD_INPUT, {"verify", "--option", "tile=8"}, {"--option", "name it with --method"});
   expect_error(BAD_INPUT, {"compare", "tiled"}, {"names of two methods"});
 }

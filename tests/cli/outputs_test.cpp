@@ -44,6 +44,22 @@ bool is_one_colour(const app::LdrImage& image) {
   return std::ranges::all_of(image.pixels, [&](const glm::u8vec4& pixel) { return pixel == image.pixels.front(); });
 }
 
+TEST_F(Outputs, EitherVerifierFindsTheSame) {
+  const nlohmann::json oracle = json_of(small({"verify", "--json", "--verifier", "oracle"}));
+  const nlohmann::json gpu = json_of(small({"verify", "--json", "--verifier", "gpu"}));
+  ASSERT_EQ(oracle.size(), gpu.size());
+  for (std::size_t i = 0; i < oracle.size(); ++i) {
+    SCOPED_TRACE(oracle[i].at("method").get<std::string>());
+    EXPECT_EQ(oracle[i].at("verifier"), "oracle");
+    EXPECT_EQ(gpu[i].at("verifier"), "gpu");
+    for (const char* key : {"missed", "evaluations", "useful", "waste", "list_mean", "list_max", "image_max_abs_diff"})
+      EXPECT_EQ(oracle[i].at(key), gpu[i].at(key)) << key;
+    if (oracle[i].at("missed") == 0) {
+      EXPECT_EQ(oracle[i].at("excess"), gpu[i].at("excess"));
+    }
+  }
+}
+
 TEST_F(Outputs, VerifyPrintsStatsOfEveryMethod) {
   const nlohmann::json all = json_of(small({"verify", "--json"}));
   ASSERT_TRUE(all.is_array());

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
-#include <numeric>
 #include <optional>
 
+#include "gpu/faulty_lists.h"
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
@@ -82,41 +81,6 @@ TEST_F(CheckTheCheck, MissInALaterBandNamesItsRow) {
   const Findings findings = find(lighting, with_light(band, 2 * WIDTH + 7, COUNT));
   EXPECT_EQ(findings.missed, 1);
   EXPECT_EQ(findings.first_miss, fmt::format("pixel (7, 17): light {}", COUNT));
-}
-
-/// What a faulty list does: the host writes it, tile_lists walks it.
-enum class Fault : std::uint32_t { none, descending, duplicate, one_left_out, descending_and_one_left_out };
-constexpr std::uint32_t LEFT_OUT = 0;  ///< at the eye: reaches every pixel nearer than its range
-
-template <Fault FAULT>
-void write_list(const HostContext& context) {
-  std::vector<std::uint32_t> list(context.lights.size());
-  std::iota(list.begin(), list.end(), 0U);
-  if constexpr (FAULT == Fault::one_left_out || FAULT == Fault::descending_and_one_left_out) std::erase(list, LEFT_OUT);
-  if constexpr (FAULT == Fault::descending || FAULT == Fault::descending_and_one_left_out) std::ranges::reverse(list);
-  if constexpr (FAULT == Fault::duplicate) list.insert(list.begin(), list.front());
-  list.insert(list.begin(), static_cast<std::uint32_t>(list.size()));
-  std::memcpy(context.buffers[0].data(), list.data(), list.size() * sizeof(list[0]));
-}
-
-/// A method with one tile over the whole picture.
-template <Fault FAULT>
-Method faulty_method() {
-  return {.name = "faulty", .result = "tile_lists", .plan = [](const Problem& problem) {
-            constexpr std::uint32_t TILE_PX = 32;
-            const std::uint32_t capacity = 2 * problem.light_capacity;
-            Plan plan;
-            const ResourceId lists =
-                plan.add({.name = "lists", .bytes = 4 * std::uint64_t{capacity} + 4, .memory = BufferMemory::upload});
-            plan.passes = {{.name = "write the list",
-                            .kind = PassKind::host,
-                            .bindings = {{lists, Access::write}},
-                            .host = write_list<FAULT>}};
-            plan.lookup = {.name = "tile_lists",
-                           .constants = {TILE_PX, capacity, /*ranges*/ 1},
-                           .bindings = {{INPUT_FRAME}, {lists}, {lists}}};
-            return plan;
-          }};
 }
 
 TEST_F(CheckTheCheck, FaultyListsAreFoundOut) {

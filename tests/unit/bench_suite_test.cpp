@@ -113,6 +113,16 @@ TEST(BenchSuite, SweptOptionsBelongToEveryMethod) {
   EXPECT_EQ(group.entries[0].options, (std::vector<std::string>{"test=aabb", "tile=8"}));
 }
 
+TEST(BenchSuite, TheGpuVerifierChecksTheListsOfEveryRow) {
+  const Suite suite = parse_suite(
+      suite_with(R"("lights": [1000, 262144], "sizes": ["1000x500"], "verify": {"rows": 32})"), "mine.json");
+  const Expansion all = expand(suite, {.verifier = VerifierChoice::by_pairs, .every_list = true});
+  EXPECT_EQ(words_of(all.groups[0].verify), "32 rows");
+  EXPECT_EQ(words_of(all.groups[1].verify), "32 rows, every list, by gpu");
+  const Expansion software = expand(suite, {.verifier = VerifierChoice::by_pairs});
+  EXPECT_EQ(words_of(software.groups[1].verify), "32 rows") << "32 rows are few enough for the oracle";
+}
+
 TEST(BenchSuite, LimitsOfADevice) {
   const Suite suite =
       parse_suite(suite_with(R"("lights": [100, 1000], "sizes": ["100x10"], "frames": 50, "warm_up": 9)"), "mine.json");
@@ -127,6 +137,9 @@ TEST(BenchSuite, LimitsOfADevice) {
   const Expansion slower = expand(suite, {.most_pairs = 100});
   EXPECT_EQ(words_of(slower.groups[1].verify), "nothing");
   EXPECT_EQ(slower.groups[1].unchecked, "not verified: too many lights for the oracle");
+  const Expansion by_gpu = expand(suite, {.most_pairs = 100, .verifier = VerifierChoice::gpu, .every_list = true});
+  EXPECT_EQ(words_of(by_gpu.groups[1].verify), "picture, lists alone, by gpu");
+  EXPECT_NE(by_gpu.groups[1].unchecked.find("held against the GPU verifier"), std::string::npos);
   const Expansion asked = expand(suite, {.frames = 70, .most_frames = 5});
   EXPECT_EQ(asked.groups[0].frames, 70U) << "the command line has the last word";
   EXPECT_EQ(asked.groups[0].warm_up, 9U);

@@ -34,6 +34,18 @@ TEST(Verification, WhatOnlyOneLookUpGetsWrongIsKept) {
   EXPECT_EQ(of_both(faulty, good).missed_fused, 0);
 }
 
+TEST(Verification, TheGpuVerifiesWhereTheOracleIsSlow) {
+  EXPECT_EQ(chosen(VerifierChoice::by_pairs, ORACLE_PAIRS), Verifier::oracle);
+  EXPECT_EQ(chosen(VerifierChoice::by_pairs, ORACLE_PAIRS + 1), Verifier::gpu);
+  EXPECT_EQ(chosen(VerifierChoice::gpu, 0), Verifier::gpu);
+  EXPECT_EQ(chosen(VerifierChoice::oracle, ~0ULL), Verifier::oracle);
+}
+
+TEST(Verification, WhatWasNotCountedHasNoExcess) {
+  EXPECT_EQ(Findings{.list_sum = 6}.excess(), std::nullopt);
+  EXPECT_EQ((Findings{.list_sum = 6, .truth_sum = 4}.excess()), 1.5);
+}
+
 TEST(Verification, UnorderedListsMayRoundOrderedOnesMayNot) {
   const HdrImage reference = image_with(9.0F);
   EXPECT_EQ(largest_value(reference), 9.0F);
@@ -56,6 +68,7 @@ TEST(Verification, MissesAndDisorderFailUnlessTheRowAllowsThem) {
   const PictureDifference none;
   const Findings missed{.missed = 1};
   const Findings disorder{.unordered = true};
+  EXPECT_FALSE(keeps_promises({.ordered = false}, {.repeated = 1}, none));
   EXPECT_FALSE(keeps_promises({.ordered = false}, missed, none));
   EXPECT_TRUE(keeps_promises({.ordered = false, .approximate = true}, missed, {.max_abs = 1.0F}));
   EXPECT_FALSE(keeps_promises({.ordered = true}, disorder, none));

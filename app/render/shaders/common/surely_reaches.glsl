@@ -1,0 +1,53 @@
+// Whether a light surely reaches a pixel, in double precision: the oracle's answer, on the GPU.
+// Based on: reach() of lib/src/reference.cpp; the angle is compared by the squares of its sine and cosine instead of by
+// an arc tangent. Positions are those of View::world_position.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_SURELY_REACHES
+#define LAMP_COMMON_SURELY_REACHES
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/light.h"
+#include "reach_data.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1) uniform texture2D depth_image;
+layout(set = 0, binding = 2, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer LimitBuffer { ReachLimits limits[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer ViewBuffer { dmat4 world_from_view; };
+
+dvec3 exact_world_position(uvec2 pixel, float device_depth) {
+  const mat4 m = frame.clip_from_view;
+  const double depth = double(device_depth);
+  precise const double z =
+      (double(m[3][3]) * depth - double(m[3][2])) / (double(m[2][2]) - double(m[2][3]) * depth);
+  precise const double w = double(m[2][3]) * z + double(m[3][3]);
+  precise const dvec2 ndc = 2.0lf * (dvec2(pixel) + 0.5lf) / dvec2(frame.size_px) - 1.0lf;
+  precise const double x = (ndc.x * w - double(m[2][0]) * z - double(m[3][0])) / double(m[0][0]);
+  precise const double y = (ndc.y * w - double(m[2][1]) * z - double(m[3][1])) / double(m[1][1]);
+  precise const dvec3 world = world_from_view[0].xyz * x + world_from_view[1].xyz * y + world_from_view[2].xyz * z +
+                              world_from_view[3].xyz;
+  return world;
+}
+
+bool surely_reaches(uint light, dvec3 position) {
+  precise const dvec3 from_light = position - dvec3(lights[light].position);
+  precise const double distance_squared = dot(from_light, from_light);
+  if (!(distance_squared < limits[light].distance_squared)) return false;
+  if (lights[light].type == LIGHT_POINT) return true;
+  const dvec3 direction = dvec3(lights[light].direction);
+  precise const double ahead = dot(direction, from_light);
+  if (!(ahead > 0.0lf)) return false;
+  precise const dvec3 across = cross(direction, from_light);
+  precise const double across_squared = dot(across, across);
+  return across_squared * limits[light].cos_squared < ahead * ahead * limits[light].sin_squared;
+}
+
+// Based on: Ellis, lowbias32, Prospecting for Hash Functions (2018).
+uint mixed(uint x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+uvec2 hash_of(uint light) { return uvec2(mixed(light + 1u), mixed(light ^ 0x9e3779b9u)); }
+#endif

@@ -1,0 +1,36 @@
+// Marks, for every cell, the places of its list whose light surely reaches one of its pixels.
+// Promise: one bit a place; the cell's pixels must walk one and the same list, which the host has made sure of.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/surely_reaches.glsl"
+
+layout(local_size_x_id = 0, local_size_y_id = 1) in;
+layout(set = 0, binding = 5, scalar) readonly buffer PlaceBuffer { uint first_places[]; };
+layout(set = 0, binding = 6, scalar) buffer MarkBuffer { uint marks[]; };
+layout(push_constant) uniform Push {
+  uint buffer_row;  // of the picture: the first of `first_places`
+  uint first_row;   // rows to look at
+  uint rows;
+  uint origin_row;  // of the dispatch
+};
+#include "lookup.glsl"
+#include "common/frame.glsl"
+
+void main() {
+  lookup_prepare();
+  const uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, origin_row);
+  if (any(greaterThanEqual(pixel, frame.size_px)) || pixel.y < first_row || pixel.y >= first_row + rows) return;
+  const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
+  if (depth <= 0.0) return;
+  const float z_view = z_view_of(frame, depth);
+  const dvec3 position = exact_world_position(pixel, depth);
+  uint place = first_places[(pixel.y - buffer_row) * frame.size_px.x + pixel.x];
+  uint light;
+  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light); ++place) {
+    const uint bit = 1u << (place % 32u);
+    // Most are marked already, and an atomic is dear.
+    if ((marks[place / 32u] & bit) != 0u) continue;
+    if (light < frame.light_count && surely_reaches(light, position)) atomicOr(marks[place / 32u], bit);
+  }
+}

@@ -1,0 +1,51 @@
+// Methods whose lists have a known fault: for the tests of the checks.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "lamplight/method.h"
+
+namespace lamp::app {
+
+/// What a faulty list does: the host writes it, tile_lists walks it.
+enum class Fault : std::uint32_t { none, descending, duplicate, one_left_out, descending_and_one_left_out, swap };
+inline constexpr std::uint32_t LEFT_OUT = 0;  ///< at the eye: reaches every pixel nearer than its range
+
+template <Fault FAULT>
+void write_list(const HostContext& context) {
+  std::vector<std::uint32_t> list(context.lights.size());
+  std::iota(list.begin(), list.end(), 0U);
+  if constexpr (FAULT == Fault::one_left_out || FAULT == Fault::descending_and_one_left_out) std::erase(list, LEFT_OUT);
+  if constexpr (FAULT == Fault::descending || FAULT == Fault::descending_and_one_left_out) std::ranges::reverse(list);
+  if constexpr (FAULT == Fault::duplicate) list.insert(list.begin(), list.front());
+  if constexpr (FAULT == Fault::swap) std::swap(list[1], list[2]);
+  list.insert(list.begin(), static_cast<std::uint32_t>(list.size()));
+  std::memcpy(context.buffers[0].data(), list.data(), list.size() * sizeof(list[0]));
+}
+
+/// A method with one tile over the whole picture.
+template <Fault FAULT>
+Method faulty_method() {
+  return {.name = "faulty", .result = "tile_lists", .plan = [](const Problem& problem) {
+            constexpr std::uint32_t TILE_PX = 32;
+            const std::uint32_t capacity = 2 * problem.light_capacity;
+            Plan plan;
+            const ResourceId lists =
+                plan.add({.name = "lists", .bytes = 4 * std::uint64_t{capacity} + 4, .memory = BufferMemory::upload});
+            plan.passes = {{.name = "write the list",
+                            .kind = PassKind::host,
+                            .bindings = {{lists, Access::write}},
+                            .host = write_list<FAULT>}};
+            plan.lookup = {.name = "tile_lists",
+                           .constants = {TILE_PX, capacity, /*ranges*/ 1},
+                           .bindings = {{INPUT_FRAME}, {lists}, {lists}}};
+            return plan;
+          }};
+}
+
+}  // namespace lamp::app

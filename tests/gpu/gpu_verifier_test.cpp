@@ -1,0 +1,159 @@
+// The GPU verifier finds what the oracle finds: in every method, and in truths and lists with known faults.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gpu_verifier.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gpu/faulty_lists.h"
+#include "gpu/method_check.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "scene/builtin.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+using Passes = vulkan::PlanRunner::Passes;
+
+Findings by_oracle(Renderer& renderer, Lighting& lighting, const LitCase& lit, Passes which) {
+  Verification verification(lit.view.width());
+  verification.add(lit.truth, renderer.visit(lighting, lit.truth, which));
+  return verification.findings();
+}
+
+void expect_same(const Findings& gpu, const Findings& oracle) {
+  EXPECT_EQ(gpu.missed, oracle.missed);
+  EXPECT_EQ(gpu.evaluations, oracle.evaluations);
+  EXPECT_EQ(gpu.useful, oracle.useful);
+  EXPECT_EQ(gpu.list_sum, oracle.list_sum);
+  EXPECT_EQ(gpu.cells_seen, oracle.cells_seen);
+  EXPECT_EQ(gpu.list_max, oracle.list_max);
+  EXPECT_EQ(gpu.unordered, oracle.unordered);
+  EXPECT_EQ(gpu.first_miss, oracle.first_miss);
+  EXPECT_EQ(gpu.repeated, 0);
+}
+
+struct Param {
+  std::string_view scene;
+  std::string_view projection;
+  std::uint32_t count;
+  Mix mix;
+};
+
+std::vector<Param> params() {
+  constexpr Mix MIXES[] = {Mix::points, Mix::spots, Mix::both};
+  constexpr std::uint32_t COUNTS[] = {0, 1, 33, 257, 600};
+  std::vector<Param> made;
+  for (const BuiltinScene& scene : builtin_scenes())
+    for (const std::string_view projection : tested_projections())
+      made.push_back(
+          {scene.name, projection, COUNTS[made.size() % std::size(COUNTS)], MIXES[made.size() % std::size(MIXES)]});
+  return made;
+}
+
+class GpuVerifierMatrix : public GpuTest, public ::testing::WithParamInterface<Param> {};
+
+TEST_P(GpuVerifierMatrix, FindsWhatTheOracleFinds) {
+  const auto& [name, projection, count, mix] = GetParam();
+  constexpr std::uint32_t WIDTH = 50;
+  constexpr std::uint32_t HEIGHT = 37;
+  const TestScene& scene = builtin_test_scene(name);
+  const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, projection);
+  Renderer renderer(test_context(), shader_library(), scene.gpu, WIDTH, HEIGHT, count);
+  const LitCase lit =
+      make_case(renderer, view, test_lights(scene.air, view, {.count = count, .mix = mix, .seed = count}));
+  GpuVerifier verifier(renderer, lit.lights);
+  for (const Method& method : methods()) {
+    SCOPED_TRACE(method.name);
+    Lighting lighting = make_lighting(renderer, {.method = &method, .light_capacity = count});
+    const Findings oracle = by_oracle(renderer, lighting, lit, Passes::separate);
+    const Findings gpu = verifier.check(lighting);
+    expect_same(gpu, oracle);
+    if (oracle.missed == 0) {
+      EXPECT_EQ(gpu.truth_sum, oracle.truth_sum);
+    } else {
+      EXPECT_FALSE(gpu.truth_sum);
+    }
+    if (!lighting.runner().plan().fused) continue;
+    SCOPED_TRACE("fused");
+    expect_same(verifier.check(lighting, Passes::fused), by_oracle(renderer, lighting, lit, Passes::fused));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GpuVerifierMatrix, ::testing::ValuesIn(params()), [](const auto& test) {
+  return test_name(fmt::format("{}__{}", test.param.scene, test.param.projection));
+});
+
+class GpuVerifierFaults : public GpuTest {
+ protected:
+  static constexpr std::uint32_t WIDTH = 24;
+  static constexpr std::uint32_t HEIGHT = 20;
+  static constexpr std::uint32_t COUNT = 40;
+
+  GpuVerifierFaults()
+      : scene_(builtin_test_scene("plane")),
+        view_(view_of(scene_.scene.cameras.front(), WIDTH, HEIGHT, "camera")),
+        renderer_(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT),
+        lit_(make_case(renderer_, view_, test_lights(scene_.air, view_, {.count = COUNT, .mix = Mix::points}))) {}
+
+  const TestScene& scene_;
+  View view_;
+  Renderer renderer_;
+  LitCase lit_;
+};
+
+TEST_F(GpuVerifierFaults, FaultyListsAreFoundOutWithTheRightCounts) {
+  const std::uint64_t reached = std::ranges::count(lit_.truth.lights, LEFT_OUT);
+  const std::uint64_t all = lit_.truth.lights.size();
+  const std::uint64_t pixels = std::ranges::count_if(lit_.depth, [](float depth) { return depth > 0.0F; });
+  ASSERT_GT(reached, 0);
+  ASSERT_GT(all, reached);
+  struct Expectation {
+    Method method;
+    std::uint64_t missed = 0;
+    std::uint64_t repeated = 0;
+    bool unordered = false;
+    std::uint64_t walked = 0;
+  };
+  const Expectation expectations[] = {
+      {faulty_method<Fault::none>(), 0, 0, false, COUNT},
+      {faulty_method<Fault::descending>(), 0, 0, true, COUNT},
+      {faulty_method<Fault::duplicate>(), 0, reached, true, COUNT + 1},
+      {faulty_method<Fault::one_left_out>(), reached, 0, false, COUNT - 1},
+      {faulty_method<Fault::descending_and_one_left_out>(), reached, 0, true, COUNT - 1},
+      {faulty_method<Fault::swap>(), 0, 0, true, COUNT},
+  };
+  GpuVerifier verifier(renderer_, lit_.lights);
+  for (const Expectation& expected : expectations) {
+    SCOPED_TRACE(&expected - expectations);
+    Lighting lighting = make_lighting(renderer_, {.method = &expected.method, .light_capacity = COUNT});
+    const Findings findings = verifier.check(lighting);
+    EXPECT_EQ(findings.useful, all);
+    EXPECT_EQ(findings.missed, expected.missed);
+    EXPECT_EQ(findings.repeated, expected.repeated);
+    EXPECT_EQ(findings.unordered, expected.unordered);
+    EXPECT_EQ(findings.evaluations, expected.walked * pixels);
+    EXPECT_EQ(findings.first_miss, by_oracle(renderer_, lighting, lit_, Passes::separate).first_miss);
+  }
+}
+
+TEST_F(GpuVerifierFaults, RowsAreThoseAskedFor) {
+  const Truth band = truth({.view = view_, .depth = lit_.depth, .lights = lit_.lights, .first_row = 11, .rows = 6});
+  GpuVerifier verifier(renderer_, lit_.lights, {11, 6});
+  for (const char* name : {"tiled", "clustered", "all"}) {
+    SCOPED_TRACE(name);
+    Lighting lighting = make_lighting(renderer_, {.method = take(find_method(name)), .light_capacity = COUNT});
+    Verification verification(WIDTH);
+    verification.add(band, renderer_.visit(lighting, band));
+    const Findings oracle = verification.findings();
+    const Findings gpu = verifier.check(lighting);
+    expect_same(gpu, oracle);
+    EXPECT_EQ(gpu.truth_sum, oracle.truth_sum);
+  }
+}
+
+}  // namespace
+}  // namespace lamp::app
