@@ -55,6 +55,14 @@ std::filesystem::path with_folder(std::filesystem::path file) {
   return file;
 }
 
+/// "; there is room with mean_capacity=40".
+std::string room_note(std::span<const std::pair<std::string, std::string>> fits_with) {
+  std::string note;
+  for (const auto& [key, value] : fits_with)
+    note += fmt::format("{} {}={}", note.empty() ? "; there is room with" : ",", key, value);
+  return note;
+}
+
 void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup) {
   const auto line = [](const char* label, const std::string& text) { fmt::print("{:<10}{}\n", label, text); };
   line("device", fmt::format("{} ({})", stats.device, stats.driver));
@@ -67,8 +75,8 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
     line("pairs", fmt::format("{} of pixel and light walked, {:.1f} lights a pixel's list, longest {}",
                               stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
   if (stats.rendered.counters.overflowed_cells != 0)
-    line("overflow",
-         fmt::format("{} cells did not fit and walked every light", stats.rendered.counters.overflowed_cells));
+    line("overflow", fmt::format("{} cells did not fit and walked more lights{}",
+                                 stats.rendered.counters.overflowed_cells, room_note(stats.fits_with)));
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
     passes += fmt::format("{}{} {:.3f}", passes.empty() ? "" : ", ", pass.name, pass.ms_median);

@@ -22,6 +22,7 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
               .ordered = plan.ordered,
               .approximate = plan.approximate};
   stats.rendered.image.pixels = {};
+  stats.fits_with = lighting.fits_with(stats.rendered.needed);
   for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, buffer.bytes);
   stats.bytes.emplace_back("total", plan.bytes());
   return stats;
@@ -57,6 +58,7 @@ nlohmann::json to_json(const Stats& s) {
                       {"notes", s.notes},
                       {"overflowed_cells", s.rendered.counters.overflowed_cells}};
   for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
+  for (const auto& [key, value] : s.fits_with) json["fits_with"][key] = value;
   for (const PassTime& pass : s.rendered.passes)
     json["passes"].push_back({{"name", pass.name},
                               {"part", pass.cull    ? "cull"

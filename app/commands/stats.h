@@ -23,7 +23,8 @@ struct Stats {
   Rendered rendered;  ///< its picture is not kept
   std::vector<std::pair<std::string, std::uint64_t>> bytes;
   std::uint64_t cells = 0;
-  std::vector<std::string> notes;  ///< the plan's: what is done otherwise than asked
+  std::vector<std::pair<std::string, std::string>> fits_with;  ///< options with which all lists of the frame fit
+  std::vector<std::string> notes;                              ///< the plan's: what is done otherwise than asked
   std::optional<Findings> findings;
   bool ordered = true;               ///< the plan's lists ascend
   bool approximate = false;          ///< the plan may miss lights

@@ -77,6 +77,14 @@ vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLib
                                          {.colors = {VK_FORMAT_R32G32B32A32_SFLOAT}}));
 }
 
+Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
+  return {.width = info.width,
+          .height = info.height,
+          .light_capacity = info.light_capacity,
+          .options = info.options,
+          .traits = traits};
+}
+
 /// Draws reach only these rows.
 void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
   if (info.shaded.count == 0) return;
@@ -93,17 +101,25 @@ std::span<const std::string_view> path_names() {
 }
 
 Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
-  return take(make_plan(*info.method, {.width = info.width,
-                                       .height = info.height,
-                                       .light_capacity = info.light_capacity,
-                                       .options = info.options,
-                                       .traits = device.traits}));
+  return take(make_plan(*info.method, problem_of(info, device.traits)));
 }
 
-Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info) : info_(info) {
+Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info)
+    : info_(info), traits_(device.traits) {
   runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(info, device), shaders.source()));
   build_shade(device, shaders);
   if (info.transparency) build_transparent(device, shaders);
+}
+
+std::vector<std::pair<std::string, std::string>> Lighting::fits_with(std::span<const std::uint32_t> needed) const {
+  std::vector<std::pair<std::string, std::string>> changed;
+  const Plan& plan = runner_.plan();
+  if (needed.size() != plan.capacities.size()) return changed;
+  const std::optional<GrownPlan> grown = grow_plan(*info_.method, problem_of(info_, traits_), plan, needed);
+  if (!grown) return changed;
+  for (const auto& [key, value] : grown->options.all())
+    if (value != info_.options.word(key)) changed.emplace_back(key, value);
+  return changed;
 }
 
 bool Lighting::fused() const { return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value(); }

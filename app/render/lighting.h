@@ -63,6 +63,9 @@ class Lighting {
   [[nodiscard]] const LightingInfo& info() const { return info_; }
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
   [[nodiscard]] bool fused() const;
+  /// The options, and their values, that `vulkan::Culler` would grow to after a frame that needed so much (of the
+  /// plan's capacities). Empty if everything fitted, or nothing can grow.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> fits_with(std::span<const std::uint32_t> needed) const;
   /// Whether a pass of this name (of the times) belongs to the cull.
   [[nodiscard]] bool is_cull_pass(std::string_view name) const;
 
@@ -77,6 +80,7 @@ class Lighting {
   void add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame);
 
   LightingInfo info_;
+  DeviceTraits traits_;
   vulkan::PlanRunner runner_;
   std::optional<vulkan::PlanRunner> any_depth_runner_;  ///< for transparent surfaces, if the method needs another
   vulkan::Pipeline shade_;

@@ -81,8 +81,8 @@ void Renderer::record_readback(vulkan::Recorder& recorder, const GpuImage& image
 Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
   const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
-  const vulkan::Buffer counters = readback(context_.device(), "counters read-back", sizeof(shared::Counters));
-  const VkBuffer counted = lighting.runner().buffer(lighting.runner().plan().counters);
+  const Plan& plan = lighting.runner().plan();
+  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
   FrameTimes times;
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
@@ -93,20 +93,18 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
       lighting.record(recorder, lighting_frame());
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
-      if (counted == VK_NULL_HANDLE) return;
-      recorder.barrier(
-          {copies_from(vulkan::Resource::storage(counted)), copies_to(vulkan::Resource::storage(counters.handle()))});
-      const VkBufferCopy whole{.size = sizeof(shared::Counters)};
-      vkCmdCopyBuffer(commands, counted, counters.handle(), 1, &whole);
-      recorder.barrier({host_reads(vulkan::Resource::storage(counters.handle()))});
+      lighting.runner().record_counts(recorder, counts);
     });
     if (i >= warm_up) times.add(timestamps_.read(), lighting);
   }
   tracker_.forget(picture.handle());
-  tracker_.forget(counters.handle());
+  tracker_.forget(counts.handle());
   Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
   times.fill(rendered, lighting);
-  if (counted != VK_NULL_HANDLE) rendered.counters = copy_out<shared::Counters>(counters, 1)[0];
+  if (plan.counters == NO_RESOURCE) return rendered;
+  vulkan::FrameCounts counted = vulkan::read_counts(plan, counts.mapped());
+  rendered.counters = counted.counters;
+  rendered.needed = std::move(counted.needed);
   return rendered;
 }
 

@@ -29,7 +29,8 @@ struct Rendered {
   double cull_ms = 0.0;  ///< medians over the frames
   double shade_ms = 0.0;
   double frame_ms = 0.0;
-  shared::Counters counters{};
+  shared::Counters counters{};        ///< of the last frame
+  std::vector<std::uint32_t> needed;  ///< of the plan's capacities, likewise
 };
 
 /// A dispatch over the pixels of the last frame, for checks: one thread a pixel.

@@ -90,6 +90,17 @@ std::optional<Error> check_groups(const std::string& source, const Extent& exten
   return std::nullopt;
 }
 
+std::optional<Error> check_capacity(const Plan& plan, const Capacity& capacity) {
+  const std::string source = "capacity " + std::string(capacity.option);
+  if (!is_buffer(plan, capacity.needed) || !buffer_of(plan, capacity.needed).zeroed)
+    return Error{source, "what was needed must be counted in a zeroed buffer of the plan"};
+  if (capacity.needed_offset % 4 != 0 || capacity.needed_offset + 4 > buffer_of(plan, capacity.needed).bytes)
+    return Error{source, "the count at byte " + std::to_string(capacity.needed_offset) + " is not in buffer " +
+                             buffer_of(plan, capacity.needed).name};
+  if (capacity.per_option == 0 || capacity.entries_per_count == 0) return Error{source, "must say how it grows"};
+  return std::nullopt;
+}
+
 /// Walks a plan's passes in order and keeps what has been written so far.
 class PassChecker {
  public:
@@ -218,6 +229,8 @@ std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
   const std::uint64_t light_bytes = std::uint64_t{plan.light_capacity} * sizeof(shared::Light);
   if (auto error = check_bytes("light buffer", light_bytes, traits)) return error;
   if (auto error = check_counters(plan)) return error;
+  for (const Capacity& capacity : plan.capacities)
+    if (auto error = check_capacity(plan, capacity)) return error;
   if (plan.cells == 0) return Error{"cells", "a look-up has at least one cell"};
   if (auto error = check_passes(plan, plan.passes, plan.lookup, traits)) return error;
   if (!plan.fused) return std::nullopt;

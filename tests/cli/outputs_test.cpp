@@ -44,6 +44,19 @@ bool is_one_colour(const app::LdrImage& image) {
   return std::ranges::all_of(image.pixels, [&](const glm::u8vec4& pixel) { return pixel == image.pixels.front(); });
 }
 
+TEST_F(Outputs, RenderSaysWhatWouldFit) {
+  const auto rendered_with = [this](const std::string& capacity) {
+    return json_of(small({"render", "--method", "clustered", "--json", "--option", "mean_capacity=" + capacity}));
+  };
+  const nlohmann::json overflowed = rendered_with("1");
+  EXPECT_GT(overflowed.at("overflowed_cells"), 0);
+  const std::string needed = overflowed.at("fits_with").at("mean_capacity");
+  EXPECT_GT(std::stoi(needed), 1);
+  const nlohmann::json fits = rendered_with(needed);
+  EXPECT_EQ(fits.at("overflowed_cells"), 0);
+  EXPECT_FALSE(fits.contains("fits_with"));
+}
+
 TEST_F(Outputs, EitherVerifierFindsTheSame) {
   const nlohmann::json oracle = json_of(small({"verify", "--json", "--verifier", "oracle"}));
   const nlohmann::json gpu = json_of(small({"verify", "--json", "--verifier", "gpu"}));

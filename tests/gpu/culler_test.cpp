@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <tuple>
 
 #include "gpu/dispatch.h"
 #include "gpu/method_check.h"
@@ -155,6 +156,46 @@ TEST_F(CullerTest, CountsWhatDoesNotFit) {
     expect_no_miss(frame, masks);
     EXPECT_GT(walked(masks), least);
     EXPECT_GT(full.counters().overflowed_cells, 0);
+  }
+}
+
+TEST_F(CullerTest, GrowsForTheNextFrame) {
+  const EngineFrame frame = make_frame("infinite", 64);
+  for (const auto& [method, option, growth] : {std::tuple("tiled", "capacity=1", vulkan::Growth::constants),
+                                               {"primal", "mean_capacity=1", vulkan::Growth::buffers},
+                                               {"clustered", "mean_capacity=1", vulkan::Growth::constants},
+                                               {"lamplight", "mean_capacity=1", vulkan::Growth::buffers}}) {
+    SCOPED_TRACE(method);
+    vulkan::Culler fits = take(make_culler(method));
+    vulkan::Culler full = take(make_culler(method, {option}));
+    const std::uint64_t least = walked(cull_and_walk(fits, frame));
+    EXPECT_EQ(take(fits.finish(1)), vulkan::Growth::none);
+    expect_no_miss(frame, cull_and_walk(full, frame));
+    const std::uint64_t bytes = full.bytes();
+    EXPECT_GT(full.counters().overflowed_cells, 0);
+    EXPECT_EQ(take(full.finish(1)), growth);
+    EXPECT_GT(full.bytes(), bytes);
+    const std::vector<glm::uvec2> masks = cull_and_walk(full, frame);
+    expect_no_miss(frame, masks);
+    EXPECT_EQ(walked(masks), least);
+    EXPECT_EQ(full.counters().overflowed_cells, 0);
+    EXPECT_EQ(take(full.finish(2)), vulkan::Growth::none);
+  }
+}
+
+TEST_F(CullerTest, FramesUnderWayKeepTheirBuffers) {
+  const EngineFrame frame = make_frame("infinite", 64);
+  vulkan::Culler culler = take(make_culler("clustered", {"mean_capacity=1"}));
+  const std::vector<vulkan::Bound> first = culler.lookup().resources;
+  static_cast<void>(cull_and_walk(culler, frame));
+  static_cast<void>(cull_and_walk(culler, frame));
+  EXPECT_EQ(take(culler.finish(1)), vulkan::Growth::constants);
+  EXPECT_NE(culler.lookup().resources.back().resource.buffer, first.back().resource.buffer);
+  EXPECT_EQ(take(culler.finish(2)), vulkan::Growth::none) << "it was recorded before the Culler grew";
+  for (std::uint64_t number = 3; number < 9; ++number) {
+    expect_no_miss(frame, cull_and_walk(culler, frame));
+    EXPECT_EQ(take(culler.finish(number)), vulkan::Growth::none);
+    EXPECT_EQ(culler.counters().overflowed_cells, 0);
   }
 }
 

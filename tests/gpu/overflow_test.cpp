@@ -111,6 +111,60 @@ TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
   EXPECT_GT(overflowed({"mean_cells=1", "mean_capacity=1"}), 0);
 }
 
+/// A row with every option that sizes a list set to its least, and lights so wide that all of them are too small.
+class Growing : public LitCorridor, public ::testing::WithParamInterface<const Method*> {};
+
+TEST_P(Growing, TwoFramesMakeRoomForEverything) {
+  const Method& method = *GetParam();
+  std::vector<shared::Light> wide = lit_.lights;
+  for (shared::Light& light : wide) light.range *= 30.0F;
+  const LitCase lit = make_case(renderer_, view_, wide);
+  renderer_.set_frame(view_, lit.lights);
+  std::vector<std::string> settings;
+  Problem problem{.width = WIDTH, .height = HEIGHT, .light_capacity = COUNT, .traits = renderer_.device().traits};
+  problem.options = take(resolve_options(method, {}));
+  for (const Capacity& capacity : take(make_plan(method, problem)).capacities) {
+    settings.push_back(fmt::format("{}=1", capacity.option));
+    problem.options = take(resolve_options(method, settings));
+  }
+
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    SCOPED_TRACE(fmt::format("{}", fmt::join(settings, " ")));
+    const Candidate candidate{.method = &method, .settings = settings, .light_capacity = COUNT};
+    check_method(renderer_, lit, candidate, Check::separate);
+    const Rendered rendered = renderer_.render(kept_lighting(renderer_, candidate, ShadingPath::deferred));
+    if (frame == 0) {
+      EXPECT_GT(rendered.counters.overflowed_cells, 0);
+    }
+    const Plan plan = take(make_plan(method, problem));
+    const std::optional<GrownPlan> grown = grow_plan(method, problem, plan, rendered.needed);
+    EXPECT_EQ(grown.has_value(), rendered.counters.overflowed_cells != 0);
+    if (!grown) return;
+    for (std::size_t i = 0; i < plan.capacities.size(); ++i)
+      if (grown->plan.capacities[i].entries != plan.capacities[i].entries) {
+        EXPECT_GE(grown->plan.capacities[i].entries,
+                  std::uint64_t{rendered.needed[i]} * plan.capacities[i].entries_per_count);
+      }
+    problem.options = grown->options;
+    settings.clear();
+    for (const auto& [key, value] : grown->options.all()) settings.push_back(fmt::format("{}={}", key, value));
+  }
+  FAIL() << "three frames, and lists still do not fit";
+}
+
+std::vector<const Method*> growing_methods() {
+  std::vector<const Method*> found;
+  for (const Method& method : methods()) {
+    const Problem problem{
+        .width = WIDTH, .height = HEIGHT, .light_capacity = COUNT, .options = take(resolve_options(method, {}))};
+    if (!take(make_plan(method, problem)).capacities.empty()) found.push_back(&method);
+  }
+  return found;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Growing, ::testing::ValuesIn(growing_methods()),
+                         [](const auto& test) { return test_name(test.param->name); });
+
 INSTANTIATE_TEST_SUITE_P(Of, Overflow, ::testing::ValuesIn(all_short_lists()),
                          [](const auto& test) { return test_name(test.param.method->name); });
 

@@ -15,7 +15,8 @@ T value_of(lamp::Result<T> result) {
 
 }  // namespace
 
-LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engine_(engine), size_(info.size) {
+LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info)
+    : engine_(engine), spirv_(info.spirv), size_(info.size) {
   const lamp::vulkan::Device device = value_of(lamp::vulkan::make_device(engine.physical(), engine.device()));
   culler_ = value_of(lamp::vulkan::Culler::create(device, {.width = info.size.width,
                                                            .height = info.size.height,
@@ -24,9 +25,13 @@ LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engin
                                                            .options = info.options}));
   const lamp::vulkan::BoundLookUp lookup = culler_.lookup();
   if (lookup.name != info.lookup) throw std::runtime_error("the shader was built for another look-up");
+  make_pipeline();
+}
 
+void LightCulling::make_pipeline() {
+  const lamp::vulkan::BoundLookUp lookup = culler_.lookup();
   // The shader's own bindings, then the look-up's; the look-up's sizes are specialization constants.
-  ComputePipelineInfo pipeline{.spirv = info.spirv,
+  ComputePipelineInfo pipeline{.spirv = spirv_,
                                .bindings = {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                                             {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                             {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}};
@@ -34,16 +39,16 @@ LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engin
     pipeline.bindings.push_back({bound.binding, bound.resource.type});
   for (const lamp::vulkan::Constant& constant : lookup.constants)
     pipeline.constants.push_back({constant.id, constant.value});
-  count_ = engine.make_compute_pipeline(pipeline);
+  count_ = engine_.make_compute_pipeline(pipeline);
 }
 
 void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
-  culler_.record(commands, {.view = &frame.view,
-                            .lights = frame.lights,
-                            .light_count = frame.light_count,
-                            .depth_image = frame.depth.image,
-                            .depth_view = frame.depth.view,
-                            .depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+  frame_ = culler_.record(commands, {.view = &frame.view,
+                                     .lights = frame.lights,
+                                     .light_count = frame.light_count,
+                                     .depth_image = frame.depth.image,
+                                     .depth_view = frame.depth.view,
+                                     .depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 
   // From here on any compute or fragment shader may read the look-up; no barrier is needed.
   std::vector<Descriptor> descriptors{{.binding = 0, .view = frame.depth.view},
@@ -53,4 +58,11 @@ void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
     descriptors.push_back({.binding = bound.binding, .buffer = bound.resource.buffer});
   engine_.bind(commands, count_, descriptors);
   vkCmdDispatch(commands, (size_.width + 7) / 8, (size_.height + 7) / 8, 1);
+}
+
+bool LightCulling::finish() {
+  const lamp::vulkan::Growth growth = value_of(culler_.finish(frame_));
+  // The frame is done, so the old pipeline may go. Descriptors are pushed anew in every frame.
+  if (growth == lamp::vulkan::Growth::constants) make_pipeline();
+  return growth != lamp::vulkan::Growth::none;
 }

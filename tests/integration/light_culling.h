@@ -35,13 +35,21 @@ class LightCulling {
   /// Lights and depth must be visible to compute shaders; the counts are then written by a compute shader.
   void record(VkCommandBuffer commands, const Frame& frame);
 
+  /// After the fence of the frame that was recorded last: makes room for the next one where lists did not fit. Returns
+  /// whether it did.
+  bool finish();
+
   /// Cells whose lists did not fit in the last finished frame.
   [[nodiscard]] std::uint32_t overflowed_cells() const { return culler_.counters().overflowed_cells; }
   [[nodiscard]] std::uint64_t bytes() const { return culler_.bytes(); }
 
  private:
-  const Engine& engine_;
+  void make_pipeline();
+
+  Engine& engine_;
+  std::span<const std::uint32_t> spirv_;
   VkExtent2D size_;
   lamp::vulkan::Culler culler_;
+  std::uint64_t frame_ = 0;  ///< recorded last
   ComputePipeline count_;
 };

@@ -77,6 +77,17 @@ struct Method {
 /// Checks sizes and capacity, makes the plan and checks it (`plan_check`).
 [[nodiscard]] Result<Plan> make_plan(const Method& method, const Problem& problem);
 
+/// A plan with more room, and the options that made it.
+struct GrownPlan {
+  Options options;
+  Plan plan;
+};
+
+/// A plan with room for what a frame needed, and for a quarter more. `needed`: what the counts of `plan.capacities`
+/// said, in their order. Nothing if everything fitted, or where the method's options or the device allow no more.
+[[nodiscard]] std::optional<GrownPlan> grow_plan(const Method& method, const Problem& problem, const Plan& plan,
+                                                 std::span<const std::uint32_t> needed);
+
 /// The names nearest to `wanted`, nearest first, at most `count`, for error messages.
 [[nodiscard]] std::vector<std::string> nearest_names(std::string_view wanted, std::span<const std::string_view> names,
                                                      std::size_t count = 3);

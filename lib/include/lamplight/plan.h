@@ -114,6 +114,18 @@ struct FusedLookUp {
   std::uint32_t shared_bytes = 0;  ///< shared memory of a work group, for plan_check
 };
 
+/// Entries that a plan has room for, and where a frame counts how many it needed. What does not fit is walked the long
+/// way in that frame; a host can make room for the next one (`grow_plan`).
+struct Capacity {
+  std::string_view option;              ///< of the method, that it grows with
+  std::uint64_t entries = 0;            ///< that there is room for
+  std::uint64_t per_option = 0;         ///< entries that one more of the option adds
+  ResourceId needed = NO_RESOURCE;      ///< plan buffer with a 32-bit count of what was needed, or less than that where
+                                        ///< something else did not fit either, but then more than `entries`
+  std::uint64_t needed_offset = 0;      ///< bytes, a multiple of 4
+  std::uint32_t entries_per_count = 1;  ///< that one of the count stands for
+};
+
 struct Plan {
   std::vector<BufferDesc> buffers;
   std::vector<Pass> passes;
@@ -124,6 +136,7 @@ struct Plan {
   bool approximate = false;           ///< may miss lights, by the paper's design
   std::uint32_t light_capacity = 0;   ///< the problem's
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
+  std::vector<Capacity> capacities;   ///< everything that can overflow
   std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something
 
   /// Adds a buffer and returns its id.

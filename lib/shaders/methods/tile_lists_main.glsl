@@ -10,6 +10,11 @@ layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[];
 layout(set = 0, binding = 7, scalar) writeonly buffer SplitBuffer { float splits[]; };  // a tile
 layout(set = 0, binding = 8, scalar) buffer CounterBuffer { Counters counters; };
 
+void count_overflow(uint range) {
+  atomicAdd(counters.overflowed_cells, 1u);
+  atomicMax(counters.longest_list, s_light_count[range]);
+}
+
 void main() {
   const TileRanges ranges = cull_tile(gl_WorkGroupID.xy);
   const uint tile = tile_index(gl_WorkGroupID.xy);
@@ -18,7 +23,7 @@ void main() {
     const uint base = (tile * RANGES + range) * (1u + CAPACITY);
     if (gl_LocalInvocationIndex == 0u) {
       lists[base] = s_light_count[range];
-      if (!list_fits(range)) atomicAdd(counters.overflowed_cells, 1u);
+      if (!list_fits(range)) count_overflow(range);
     }
     if (!list_fits(range)) continue;
     for (uint i = gl_LocalInvocationIndex; i < s_light_count[range]; i += gl_WorkGroupSize.x)

@@ -34,6 +34,7 @@ uint count_points(uint range) {
 void allocate(uint cell, uint range) {
   const uint count = s_light_count[range];
   s_offset = list_fits(range) ? atomicAdd(counters.entries_needed, count) : OVERFLOWED;
+  if (!list_fits(range)) atomicMax(counters.longest_list, count);
   if (s_offset > ENTRIES || count > ENTRIES - s_offset) s_offset = OVERFLOWED;
   if (s_offset == OVERFLOWED) {
     atomicAdd(counters.overflowed_cells, 1u);

@@ -68,6 +68,7 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   const std::uint64_t wanted = c.count * problem.options.integer("mean_capacity");
   const auto entries = static_cast<std::uint32_t>(wanted);  // beyond 32 bits, plan_check refuses the buffer
   const ResourceId counters = parts::add_counters(plan);
+  plan.capacities = {parts::shared_list(plan, "mean_capacity", wanted, c.count)};
   const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = c.count * 8});
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
   const std::uint32_t words = words_of_a_tile(problem, c.tiles);

@@ -5,6 +5,7 @@
 // distribution; lists of any length ascend; what does not fit is counted and walked the long way.
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
+#include <cstddef>
 
 #include "lamplight/shared/lamplight.h"
 #include "methods.h"
@@ -180,6 +181,17 @@ Plan plan_lamplight(const Problem& problem) {
   Plan plan;
   plan.cells = sizes.tiles.count();
   const Buffers buffers = add_buffers(plan, sizes, parts::capacity(problem));
+  plan.capacities = {{.option = "mean_cells",
+                      .entries = sizes.entries,
+                      .per_option = parts::capacity(problem),
+                      .needed = buffers.totals,
+                      .needed_offset = offsetof(shared::LightTotals, entry_units),
+                      .entries_per_count = shared::ENTRY_UNIT},
+                     {.option = "mean_capacity",
+                      .entries = sizes.listed,
+                      .per_option = sizes.tiles.count(),
+                      .needed = buffers.totals,
+                      .needed_offset = offsetof(shared::LightTotals, list_entries)}};
   plan.passes = passes_of(problem, sizes, buffers);
   plan.lookup = {.name = "cell_lists",
                  .constants = {sizes.tile_px, sizes.cell_tiles},

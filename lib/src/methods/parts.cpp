@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parts.h"
 
+#include <cstddef>
+
 #include "lamplight/shared/slices.h"
 
 namespace lamp::parts {
@@ -20,6 +22,22 @@ Pass light_bounds_pass(ResourceId bounds) {
 ResourceId add_counters(Plan& plan) {
   plan.counters = plan.add({.name = "counters", .bytes = sizeof(shared::Counters), .zeroed = true});
   return plan.counters;
+}
+
+Capacity shared_list(const Plan& plan, std::string_view option, std::uint64_t entries, std::uint64_t per_option) {
+  return {.option = option,
+          .entries = entries,
+          .per_option = per_option,
+          .needed = plan.counters,
+          .needed_offset = offsetof(shared::Counters, entries_needed)};
+}
+
+Capacity own_lists(const Plan& plan, std::string_view option, std::uint64_t entries) {
+  return {.option = option,
+          .entries = entries,
+          .per_option = 1,
+          .needed = plan.counters,
+          .needed_offset = offsetof(shared::Counters, longest_list)};
 }
 
 OptionSpec walk_option(std::string_view fallback) {

@@ -39,6 +39,11 @@ struct TileGrid {
 /// Adds shared::Counters, zeroed every frame, and makes it the plan's.
 ResourceId add_counters(Plan& plan);
 
+/// Capacities whose need is in the counters: of one list shared by all cells, and of each cell's own.
+[[nodiscard]] Capacity shared_list(const Plan& plan, std::string_view option, std::uint64_t entries,
+                                   std::uint64_t per_option);
+[[nodiscard]] Capacity own_lists(const Plan& plan, std::string_view option, std::uint64_t entries);
+
 /// What a cell keeps: a list, or a bit for each light.
 enum class Container : std::uint8_t { list, bits };
 

@@ -1,9 +1,10 @@
-// The Culler: a plan runner, a frame buffer, a counter read-back.
+// The Culler: a plan runner, a frame buffer, a read-back of counts; more room when a frame needed it.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/vulkan/culler.h"
 
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 namespace lamp::vulkan {
 
@@ -12,12 +13,17 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   if (!method) return method.error();
   Result<Options> options = resolve_options(*method.value(), info.options);
   if (!options) return options.error();
-  Result<Plan> plan = make_plan(*method.value(), {.width = info.width,
-                                                  .height = info.height,
-                                                  .light_capacity = info.light_capacity,
-                                                  .options = std::move(options.value()),
-                                                  .traits = device.traits});
+  Culler culler;
+  culler.device_ = device;
+  culler.method_ = method.value();
+  culler.problem_ = {.width = info.width,
+                     .height = info.height,
+                     .light_capacity = info.light_capacity,
+                     .options = std::move(options.value()),
+                     .traits = device.traits};
+  Result<Plan> plan = make_plan(*method.value(), culler.problem_);
   if (!plan) return plan.error();
+  const std::uint64_t slots_bytes = FRAMES_IN_FLIGHT * count_bytes(plan.value());
   Result<PlanRunner> runner = PlanRunner::create(device, std::move(plan.value()));
   if (!runner) return runner.error();
   Result<Buffer> frame =
@@ -25,22 +31,20 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                               .bytes = sizeof(shared::Frame),
                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
   if (!frame) return frame.error();
-  Result<Buffer> counters = Buffer::create(device, {.name = "counters read-back",
-                                                    .bytes = sizeof(shared::Counters),
-                                                    .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                    .memory = MemoryUse::readback});
-  if (!counters) return counters.error();
-  std::memset(counters.value().mapped().data(), 0, sizeof(shared::Counters));
-
-  Culler culler;
-  culler.device_ = device;
+  Result<Buffer> counts = Buffer::create(device, {.name = "counts read-back",
+                                                  .bytes = slots_bytes,
+                                                  .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                  .memory = MemoryUse::readback});
+  if (!counts) return counts.error();
+  std::memset(counts.value().mapped().data(), 0, slots_bytes);
   culler.frame_ = std::move(frame.value());
-  culler.counters_ = std::move(counters.value());
+  culler.counts_ = std::move(counts.value());
   culler.runner_ = std::move(runner.value());
   return culler;
 }
 
-void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
+std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
+  ++frames_;
   assert(frame.view != nullptr && "set CullerFrame::view");
   const shared::Frame record = frame.view->frame(frame.light_count);
   const PlanInputs inputs{.frame = frame_.handle(),
@@ -70,27 +74,41 @@ void Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
                          .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                          .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
   recorder.barrier(readers);
-  const VkBuffer counters = runner_.buffer(runner_.plan().counters);
-  if (counters == VK_NULL_HANDLE) return;
-  recorder.barrier({{.resource = Resource::storage(counters),
-                     .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
-                     .access = VK_ACCESS_2_TRANSFER_READ_BIT},
-                    {.resource = Resource::storage(counters_.handle()),
-                     .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
-                     .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
-  const VkBufferCopy whole{.size = sizeof(shared::Counters)};
-  vkCmdCopyBuffer(commands, counters, counters_.handle(), 1, &whole);
-  recorder.barrier({{.resource = Resource::storage(counters_.handle()),
-                     .stages = VK_PIPELINE_STAGE_2_HOST_BIT,
-                     .access = VK_ACCESS_2_HOST_READ_BIT}});
+  runner_.record_counts(recorder, counts_, frames_ % FRAMES_IN_FLIGHT * count_bytes(runner_.plan()));
+  return frames_;
 }
 
 BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle()}); }
 
-shared::Counters Culler::counters() const {
-  shared::Counters counters{};
-  std::memcpy(&counters, counters_.mapped().data(), sizeof(counters));
-  return counters;
+FrameCounts Culler::counts_of(std::uint64_t frame) const {
+  const std::uint64_t bytes = count_bytes(runner_.plan());
+  return read_counts(runner_.plan(), counts_.mapped().subspan(frame % FRAMES_IN_FLIGHT * bytes, bytes));
+}
+
+void Culler::release(std::uint64_t finished_frame) {
+  for (const Retired& retired : retired_)
+    for (ResourceId id = PLAN_BUFFER;
+         retired.last_frame <= finished_frame && id - PLAN_BUFFER < retired.runner.plan().buffers.size(); ++id)
+      tracker_.forget(retired.runner.buffer(id));
+  std::erase_if(retired_, [&](const Retired& retired) { return retired.last_frame <= finished_frame; });
+}
+
+Result<Growth> Culler::finish(std::uint64_t frame) {
+  assert(frame >= 1 && frame <= frames_ && frame + FRAMES_IN_FLIGHT > frames_ && "finish frames soon after they ran");
+  release(frame);
+  if (frame < first_frame_ || runner_.plan().counters == NO_RESOURCE) return Growth::none;
+  std::optional<GrownPlan> grown = grow_plan(*method_, problem_, runner_.plan(), counts_of(frame).needed);
+  return grown ? grow(std::move(*grown)) : Result<Growth>(Growth::none);
+}
+
+Result<Growth> Culler::grow(GrownPlan grown) {
+  const std::vector<std::uint32_t> constants = runner_.plan().lookup.constants;
+  Result<PlanRunner> runner = PlanRunner::create(device_, std::move(grown.plan));
+  if (!runner) return runner.error();
+  retired_.push_back({std::exchange(runner_, std::move(runner.value())), frames_});
+  problem_.options = std::move(grown.options);
+  first_frame_ = frames_ + 1;
+  return runner_.plan().lookup.constants == constants ? Growth::buffers : Growth::constants;
 }
 
 }  // namespace lamp::vulkan

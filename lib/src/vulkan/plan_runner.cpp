@@ -3,11 +3,15 @@
 #include "lamplight/vulkan/plan_runner.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cstring>
 
 #include "lamplight/shader_code.h"
 
 namespace lamp::vulkan {
 namespace {
+
+constexpr std::uint64_t COUNT_BYTES = sizeof(std::uint32_t);
 
 Use use_of(const Resource& resource, Access access, VkPipelineStageFlags2 stages) {
   VkAccessFlags2 flags = 0;
@@ -63,6 +67,18 @@ Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name) {
   const ShaderCode* code = find_shader(library_shaders(), name);
   if (code == nullptr) return Error{"shader " + std::string(name), "is not among the library's shaders"};
   return std::vector<std::uint32_t>(code->spirv.begin(), code->spirv.end());
+}
+
+std::uint64_t count_bytes(const Plan& plan) { return sizeof(shared::Counters) + plan.capacities.size() * COUNT_BYTES; }
+
+FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes) {
+  assert(bytes.size() >= count_bytes(plan) && "read what record_counts wrote");
+  FrameCounts counts{.needed = std::vector<std::uint32_t>(plan.capacities.size())};
+  std::memcpy(&counts.counters, bytes.data(), sizeof(counts.counters));
+  if (!counts.needed.empty())
+    std::memcpy(counts.needed.data(), bytes.subspan(sizeof(counts.counters)).data(),
+                counts.needed.size() * COUNT_BYTES);
+  return counts;
 }
 
 VkDescriptorType descriptor_type(ResourceId id) {
@@ -141,6 +157,34 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
     else
       record_gpu(recorder, built, inputs);
   }
+}
+
+void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset) const {
+  if (plan_.counters == NO_RESOURCE) return;
+  struct Source {
+    VkBuffer buffer;
+    VkBufferCopy copy;
+  };
+  std::vector<Source> sources{{buffer(plan_.counters), {.dstOffset = offset, .size = sizeof(shared::Counters)}}};
+  for (const Capacity& capacity : plan_.capacities) {
+    const VkBufferCopy& last = sources.back().copy;
+    sources.push_back(
+        {buffer(capacity.needed),
+         {.srcOffset = capacity.needed_offset, .dstOffset = last.dstOffset + last.size, .size = COUNT_BYTES}});
+  }
+  std::vector<Use> uses{{.resource = Resource::storage(to.handle()),
+                         .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                         .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}};
+  for (const Source& source : sources)
+    uses.push_back({.resource = Resource::storage(source.buffer),
+                    .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                    .access = VK_ACCESS_2_TRANSFER_READ_BIT});
+  recorder.barrier(uses);
+  for (const Source& source : sources)
+    vkCmdCopyBuffer(recorder.commands(), source.buffer, to.handle(), 1, &source.copy);
+  recorder.barrier({{.resource = Resource::storage(to.handle()),
+                     .stages = VK_PIPELINE_STAGE_2_HOST_BIT,
+                     .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
 bool PlanRunner::projection_changed(const PlanInputs& inputs) {

@@ -31,35 +31,67 @@ struct CullerFrame {
   VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 };
 
-/// Owns the buffers and pipelines of one method at one size. One frame in flight: a second `record` may run on the GPU
-/// only after the first (as on one queue it does).
+/// What `Culler::finish` changed.
+enum class Growth : std::uint8_t {
+  none,
+  buffers,    ///< buffers of the look-up: bind its resources anew
+  constants,  ///< and its constants: make your pipelines anew
+};
+
+/// Owns the buffers and pipelines of one method at one size. Frames run on the GPU one after the other, as on one queue
+/// they do; up to FRAMES_IN_FLIGHT may be recorded ahead.
 class Culler {
  public:
+  static constexpr std::uint32_t FRAMES_IN_FLIGHT = 4;
+
   Culler() = default;
   /// Errors: an unknown method or option (with the nearest names), a size or capacity beyond the device's limits, no
   /// memory left.
   [[nodiscard]] static Result<Culler> create(const Device& device, const CullerInfo& info);
 
-  /// Records the passes. What they wrote is visible to compute and fragment shaders recorded later.
-  void record(VkCommandBuffer commands, const CullerFrame& frame);
+  /// Records the passes. What they wrote is visible to compute and fragment shaders recorded later. Returns the frame's
+  /// number.
+  std::uint64_t record(VkCommandBuffer commands, const CullerFrame& frame);
+
+  /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
+  /// now on. Call it after the frame's fence; it waits for nothing. Frames that are still under way keep their buffers,
+  /// which are freed when the last of them is finished. A device or a method that allows no more room changes nothing:
+  /// lists that do not fit are walked the long way. Errors: no memory left; the Culler goes on as it was.
+  [[nodiscard]] Result<Growth> finish(std::uint64_t frame);
 
   /// How a shader reads the result: the file lookup/NAME.glsl, constants for its specialization, resources for its
-  /// descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed.
+  /// descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows in `finish`.
   [[nodiscard]] BoundLookUp lookup() const;
 
-  /// What the last finished frame counted: cells that did not fit and were walked as all lights.
+  /// What the frame that was recorded last counted: cells that did not fit and were walked the long way.
   /// Read it after that frame's fence.
-  [[nodiscard]] shared::Counters counters() const;
+  [[nodiscard]] shared::Counters counters() const { return counts_of(frames_).counters; }
 
-  /// Bytes on the GPU.
+  /// Bytes on the GPU of the buffers in use.
   [[nodiscard]] std::uint64_t bytes() const { return runner_.plan().bytes(); }
+  /// The method's options, as they have grown.
+  [[nodiscard]] const Options& options() const { return problem_.options; }
 
  private:
+  /// Buffers that frames up to `last_frame` still use.
+  struct Retired {
+    PlanRunner runner;
+    std::uint64_t last_frame = 0;
+  };
+  [[nodiscard]] FrameCounts counts_of(std::uint64_t frame) const;
+  void release(std::uint64_t finished_frame);
+  [[nodiscard]] Result<Growth> grow(GrownPlan grown);
+
   Device device_;
+  const Method* method_ = nullptr;
+  Problem problem_;
   Buffer frame_;
-  Buffer counters_;
+  Buffer counts_;  ///< a slot for each frame in flight
   PlanRunner runner_;
   AccessTracker tracker_;
+  std::vector<Retired> retired_;
+  std::uint64_t frames_ = 0;       ///< that were recorded
+  std::uint64_t first_frame_ = 1;  ///< of the runner
 };
 
 }  // namespace lamp::vulkan

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lamplight/plan.h"
+#include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
 #include "lamplight/vulkan/recorder.h"
 
@@ -35,6 +36,15 @@ struct BoundLookUp {
 /// The pass that clears a plan's `zeroed` buffers, before all others.
 inline constexpr std::string_view CLEAR_PASS = "clear";
 
+/// What a frame of a plan counted.
+struct FrameCounts {
+  shared::Counters counters{};
+  std::vector<std::uint32_t> needed;  ///< of the plan's capacities, in their order
+};
+/// Bytes of those in a read-back buffer, and from there.
+[[nodiscard]] std::uint64_t count_bytes(const Plan& plan);
+[[nodiscard]] FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes);
+
 class PlanRunner {
  public:
   enum class Passes : std::uint8_t { separate, fused };
@@ -46,6 +56,9 @@ class PlanRunner {
 
   /// Records the passes: all of them, or those that a fused shader needs before it.
   void record(Recorder& recorder, const PlanInputs& inputs, Passes which = Passes::separate);
+
+  /// Records the copy of the frame's counts to a mapped buffer, for `read_counts` after the frame's fence.
+  void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0) const;
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
   /// How often passes that wait for a change of projection have been recorded.
