@@ -91,7 +91,7 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   } else if (!by_gpu && pairs / ORACLE_FACTOR > limits.most_pairs) {
     group.verify.what = Verify::What::nothing;
     group.unchecked = "not verified: too many lights for the oracle";
-  } else if (pairs > limits.most_pairs) {
+  } else if (pairs > limits.most_pairs || group.lights > limits.most_walked) {
     group.verify.compares_pictures = false;
     group.unchecked =
         fmt::format("lists were held against the {}; the picture was not compared: too many lights for brute force",

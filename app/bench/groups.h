@@ -45,6 +45,7 @@ struct Limits {
   std::uint64_t max_pixels = ~0ULL;  ///< likewise
   std::uint64_t most_pairs = ~0ULL;  ///< of pixel and light that brute force can walk here; beyond, lists alone are
                                      ///< checked, and nothing where there are too many for the oracle as well
+  std::uint32_t most_walked = ~0U;   ///< lights that brute force can walk at a pixel; beyond, likewise
   VerifierChoice verifier = VerifierChoice::oracle;
   bool every_list = false;  ///< where the GPU verifies: the lists of every row
 };

@@ -17,8 +17,7 @@ namespace lamp::app {
 namespace fs = std::filesystem;
 
 std::vector<gpu::Visit> visit_all(Session& session, Lighting& lighting) {
-  const Targets& targets = session.renderer().targets();
-  return session.renderer().visit(lighting, empty_truth(targets.width, targets.height));
+  return session.renderer().visit_all(lighting);
 }
 
 std::vector<std::uint32_t> walked_lights(std::span<const gpu::Visit> visits) {

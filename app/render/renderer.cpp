@@ -220,4 +220,18 @@ std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, 
   return copy_out<gpu::Visit>(found, pixels);
 }
 
+std::vector<gpu::Visit> Renderer::visit_all(Lighting& lighting, vulkan::PlanRunner::Passes which) {
+  const std::uint64_t row_bytes = targets_->width * sizeof(gpu::Visit);
+  const auto step = static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(context_.device().traits.max_storage_buffer_bytes / row_bytes, 1, targets_->height));
+  std::vector<gpu::Visit> visits;
+  for (std::uint32_t row = 0; row < targets_->height; row += step) {
+    Truth band = empty_truth(targets_->width, std::min(step, targets_->height - row));
+    band.first_row = row;
+    const std::vector<gpu::Visit> found = visit(lighting, band, which);
+    visits.insert(visits.end(), found.begin(), found.end());
+  }
+  return visits;
+}
+
 }  // namespace lamp::app

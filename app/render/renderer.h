@@ -75,6 +75,10 @@ class Renderer {
   [[nodiscard]] std::vector<gpu::Visit> visit(Lighting& lighting, const Truth& truth,
                                               vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
 
+  /// The same of every pixel, against nothing: for heat maps.
+  [[nodiscard]] std::vector<gpu::Visit> visit_all(
+      Lighting& lighting, vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
+
   /// Submits a pass and waits for it. Who destroys its buffers says so with `forget`.
   void run(const PixelPass& pass);
   void forget(const vulkan::Buffer& buffer) { tracker_.forget(buffer.handle()); }

@@ -33,6 +33,22 @@ Result<const Method*> find_method(std::string_view name) {
   return Error{"method '" + std::string(name) + "'", message};
 }
 
+namespace {
+
+/// A device that ends long loops cannot walk every light: an error where every pixel does, a note where a cell may.
+std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
+  if (problem.light_capacity <= problem.traits.max_loop_rounds) return std::nullopt;
+  const std::string ends = std::to_string(problem.light_capacity) +
+                           " lights, but the device ends a thread's loops after " +
+                           std::to_string(problem.traits.max_loop_rounds) + " rounds";
+  if (plan.lookup.name == "all") return Error{"look-up all", "walks " + ends};
+  if (plan.counters != NO_RESOURCE)
+    plan.notes.push_back("a cell that does not fit may walk up to " + ends + ": it can then lose lights");
+  return std::nullopt;
+}
+
+}  // namespace
+
 Result<Plan> make_plan(const Method& method, const Problem& problem) {
   const std::uint32_t limit = std::min(problem.traits.max_image_size, MAX_IMAGE_SIZE);
   if (problem.width == 0 || problem.height == 0 || problem.width > limit || problem.height > limit)
@@ -45,7 +61,9 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);
   plan.light_capacity = problem.light_capacity;
-  if (auto error = plan_check(plan, problem.traits)) {
+  std::optional<Error> error = plan_check(plan, problem.traits);
+  if (!error) error = check_walks(problem, plan);
+  if (error) {
     error->source = "method " + std::string(method.name) + ": " + error->source;
     return *error;
   }

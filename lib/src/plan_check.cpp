@@ -228,6 +228,9 @@ std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
     if (auto error = check_buffer(buffer, traits)) return error;
   const std::uint64_t light_bytes = std::uint64_t{plan.light_capacity} * sizeof(shared::Light);
   if (auto error = check_bytes("light buffer", light_bytes, traits)) return error;
+  if (plan.bytes() > traits.memory_bytes)
+    return Error{"memory", "all buffers together need " + std::to_string(plan.bytes()) + " bytes, the device has " +
+                               std::to_string(traits.memory_bytes)};
   if (auto error = check_counters(plan)) return error;
   for (const Capacity& capacity : plan.capacities)
     if (auto error = check_capacity(plan, capacity)) return error;

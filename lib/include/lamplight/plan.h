@@ -148,21 +148,23 @@ struct Plan {
 /// What plans and checks ask of a device. The defaults are, but for one, the least that Vulkan 1.3 guarantees.
 struct DeviceTraits {
   std::uint64_t max_storage_buffer_bytes = 1ULL << 27;
+  std::uint64_t memory_bytes = ~0ULL;  ///< of the largest heap of the device's own
   std::array<std::uint32_t, 3> max_groups{65535, 65535, 65535};
   std::uint32_t max_group_invocations = 128;
   std::uint32_t shared_memory_bytes = 16384;
   std::uint32_t max_image_size = 4096;     ///< pixels a side
   std::uint32_t max_storage_buffers = 16;  ///< that a shader stage sees; Vulkan guarantees 4, too few for most methods
   std::uint32_t subgroup_size = 32;
-  bool subgroup_ballot = false;      ///< in compute and fragment shaders
-  bool subgroup_arithmetic = false;  ///< in compute and fragment shaders
-  bool conservative_raster = false;  ///< VK_EXT_conservative_rasterization is enabled
+  std::uint32_t max_loop_rounds = ~0U;  ///< of all loops of a thread together; llvmpipe ends them after 65 535
+  bool subgroup_ballot = false;         ///< in compute and fragment shaders
+  bool subgroup_arithmetic = false;     ///< in compute and fragment shaders
+  bool conservative_raster = false;     ///< VK_EXT_conservative_rasterization is enabled
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond
-/// the limit (the light buffer that the plan reads included), a binding to nothing, a read of what nothing wrote, too
-/// many groups or storage buffers, a host pass after a GPU pass, a shader that does not exist. The first such problem,
-/// or nothing.
+/// the limit (the light buffer that the plan reads included), all of them beyond the memory, a binding to nothing, a
+/// read of what nothing wrote, too many groups or storage buffers, a host pass after a GPU pass, a shader that does not
+/// exist. The first such problem, or nothing.
 [[nodiscard]] std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
 
 }  // namespace lamp

@@ -44,6 +44,15 @@ std::uint32_t block_size(std::uint32_t lights) {
   return std::clamp(wanted * SMALLEST_BLOCK, SMALLEST_BLOCK, LARGEST_BLOCK);
 }
 
+/// Entries whose pieces every limit of the device allows: one work group each in the last pass, and a span a tile.
+std::uint64_t most_entries(const Problem& problem, const Sizes& s) {
+  const std::uint64_t bytes = problem.traits.max_storage_buffer_bytes;
+  const std::uint64_t spans = bytes / sizeof(shared::LightSpan) / (s.cell_tiles * s.cell_tiles);
+  const std::uint64_t pieces = std::min<std::uint64_t>(problem.traits.max_groups[0], spans);
+  const std::uint64_t for_pieces = pieces > s.cell_count ? (pieces - s.cell_count) * PIECE : 1;
+  return std::min({MOST_ENTRIES, bytes / 4, for_pieces});
+}
+
 Sizes sizes_of(const Problem& problem) {
   Sizes s{};
   s.tile_px = problem.options.integer("tile");
@@ -57,13 +66,13 @@ Sizes sizes_of(const Problem& problem) {
   const std::uint64_t lights = parts::capacity(problem);
   s.block = block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);
-  const std::uint64_t most = std::min(MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 4);
   s.entries = static_cast<std::uint32_t>(std::min(
       lights * problem.options.integer("mean_cells") +
           (std::min<std::uint64_t>(lights, 64) + shared::ENTRY_UNIT / SCAN_COLUMNS) * s.cell_count + shared::ENTRY_UNIT,
-      most));
-  s.listed = static_cast<std::uint32_t>(std::min(
-      lights + s.tiles.count() * std::min<std::uint64_t>(lights, problem.options.integer("mean_capacity")), most));
+      most_entries(problem, s)));
+  s.listed = static_cast<std::uint32_t>(
+      std::min(lights + s.tiles.count() * std::min<std::uint64_t>(lights, problem.options.integer("mean_capacity")),
+               std::min(MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 4)));
   s.pieces = s.cell_count + s.entries / PIECE;
   return s;
 }

@@ -69,8 +69,24 @@ std::optional<Error> check_device(VkPhysicalDevice physical) {
   return std::nullopt;
 }
 
+namespace {
+
+std::uint64_t largest_heap(VkPhysicalDevice physical) {
+  VkPhysicalDeviceMemoryProperties memory{};
+  vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+  std::uint64_t bytes = 0;
+  for (const VkMemoryHeap& heap : std::span(memory.memoryHeaps, memory.memoryHeapCount))
+    if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) bytes = std::max(bytes, heap.size);
+  return bytes;
+}
+
+}  // namespace
+
 DeviceTraits traits_of(VkPhysicalDevice physical) {
-  VkPhysicalDeviceVulkan11Properties v11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+  constexpr std::uint32_t LLVMPIPE_LOOP_ROUNDS = 65535;  // LP_MAX_TGSI_LOOP_ITERATIONS of Mesa
+  VkPhysicalDeviceVulkan12Properties v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+  VkPhysicalDeviceVulkan11Properties v11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
+                                         .pNext = &v12};
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v11};
   vkGetPhysicalDeviceProperties2(physical, &properties);
   const VkPhysicalDeviceLimits& limits = properties.properties.limits;
@@ -78,6 +94,7 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
   const bool everywhere = (v11.subgroupSupportedStages & STAGES) == STAGES;
   const VkSubgroupFeatureFlags operations = everywhere ? v11.subgroupSupportedOperations : 0;
   return {.max_storage_buffer_bytes = limits.maxStorageBufferRange,
+          .memory_bytes = largest_heap(physical),
           .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                          limits.maxComputeWorkGroupCount[2]},
           .max_group_invocations = limits.maxComputeWorkGroupInvocations,
@@ -85,6 +102,7 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
           .max_image_size = limits.maxImageDimension2D,
           .max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers,
           .subgroup_size = v11.subgroupSize,
+          .max_loop_rounds = v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? LLVMPIPE_LOOP_ROUNDS : ~0U,
           .subgroup_ballot = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0,
           .subgroup_arithmetic = (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0};
 }

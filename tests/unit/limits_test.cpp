@@ -1,0 +1,173 @@
+// The largest problems: 16 million lights, 16 384 x 16 384 pixels, and one beyond: planned, or refused in one line.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "lamplight/method.h"
+
+namespace lamp {
+namespace {
+
+constexpr std::uint32_t SIDE = 16384;
+
+/// A large GPU: storage buffers of 4 GiB less a byte, as 32 bits can say.
+DeviceTraits large_gpu() {
+  return {.max_storage_buffer_bytes = 0xffffffffU,
+          .memory_bytes = 80ULL << 30,
+          .max_groups = {0x7fffffffU, 65535, 65535},
+          .max_group_invocations = 1024,
+          .shared_memory_bytes = 49152,
+          .max_image_size = 32768,
+          .max_storage_buffers = 1024,
+          .subgroup_ballot = true,
+          .subgroup_arithmetic = true,
+          .conservative_raster = true};
+}
+
+Problem problem_of(const Method& method, std::uint32_t width, std::uint32_t height, std::uint32_t lights,
+                   const DeviceTraits& traits) {
+  return {.width = width,
+          .height = height,
+          .light_capacity = lights,
+          .options = resolve_options(method, {}).value(),
+          .traits = traits};
+}
+
+class Limits : public ::testing::TestWithParam<const Method*> {};
+
+TEST_P(Limits, SizesNeverShrinkAsAProblemGrows) {
+  DeviceTraits boundless = large_gpu();
+  boundless.max_storage_buffer_bytes = ~0ULL;
+  boundless.memory_bytes = ~0ULL;
+  boundless.max_groups = {~0U, ~0U, ~0U};
+  boundless.max_image_size = MAX_IMAGE_SIZE;
+  const auto sizes = [&](std::uint32_t side, std::uint32_t lights) {
+    std::map<std::string, std::uint64_t> bytes;
+    const Result<Plan> plan = make_plan(*GetParam(), problem_of(*GetParam(), side, side, lights, boundless));
+    EXPECT_TRUE(plan) << (plan ? "" : plan.error().text());
+    if (!plan) return bytes;
+    for (const BufferDesc& buffer : plan.value().buffers) bytes[buffer.name] = buffer.bytes;
+    bytes["cells"] = plan.value().cells;
+    return bytes;
+  };
+  // Cells grow with the picture in `lamplight`; the bits that clusters fall back to have a limit of their own.
+  std::set<std::string> may_shrink{"cell depth ranges", "cell counts", "cells",      "pieces",
+                                   "cell lists",        "piece lists", "tile spans", "hits"};
+  if (GetParam()->result == "cluster_lists") may_shrink.insert("tile bits");
+  for (std::uint32_t lights = 1024; lights < MAX_LIGHTS; lights *= 2)
+    for (const auto& [name, bytes] : sizes(SIDE, lights))
+      if (!may_shrink.contains(name)) {
+        EXPECT_GE(sizes(SIDE, 2 * lights)[name], bytes) << name << ", " << 2 * lights << " lights";
+      }
+  for (std::uint32_t side = 64; side < MAX_IMAGE_SIZE / 2; side *= 2)
+    for (const auto& [name, bytes] : sizes(side, MAX_LIGHTS))
+      if (!may_shrink.contains(name)) {
+        EXPECT_GE(sizes(2 * side, MAX_LIGHTS)[name], bytes) << name << ", " << 2 * side << " pixels a side";
+      }
+}
+
+/// A plan within every limit, or a line that names a limit of the device.
+void expect_planned_or_refused(const Method& method, const Problem& problem) {
+  const Result<Plan> plan = make_plan(method, problem);
+  if (!plan) {
+    EXPECT_NE(plan.error().text().find("the device"), std::string::npos) << plan.error().text();
+    return;
+  }
+  EXPECT_LE(plan.value().bytes(), problem.traits.memory_bytes);
+  for (const BufferDesc& buffer : plan.value().buffers)
+    EXPECT_LE(buffer.bytes, problem.traits.max_storage_buffer_bytes) << buffer.name;
+}
+
+TEST_P(Limits, SixteenMillionLightsAreAtLeastPlannedWhereListsHoldThem) {
+  const Method& method = *GetParam();
+  const bool bits = method.result.find("bits") != std::string_view::npos || method.result == "tile_zbins";
+  const Result<Plan> uhd = make_plan(method, problem_of(method, 3840, 2160, MAX_LIGHTS, large_gpu()));
+  EXPECT_EQ(uhd.ok(), !bits) << (uhd ? "planned" : uhd.error().text());
+  if (bits) {
+    EXPECT_NE(uhd.error().text().find("bits: needs"), std::string::npos) << uhd.error().text();
+  }
+  const Result<Plan> large = make_plan(method, problem_of(method, SIDE, SIDE, MAX_LIGHTS, large_gpu()));
+  if (method.name == "all" || method.name == "tiled" || method.name == "clustered" || method.name == "lamplight") {
+    EXPECT_TRUE(large) << (large ? "" : large.error().text());
+  } else if (bits) {
+    EXPECT_FALSE(large);
+  }
+}
+
+TEST_P(Limits, EverySizeIsPlannedOrRefused) {
+  DeviceTraits least = {};
+  least.max_image_size = SIDE;
+  for (const DeviceTraits& traits : {large_gpu(), least})
+    for (const std::uint32_t side : {1U, 4096U, SIDE})
+      for (const std::uint32_t lights : {0U, 1U << 16, 1U << 20, 1U << 21, MAX_LIGHTS})
+        expect_planned_or_refused(*GetParam(), problem_of(*GetParam(), side, side, lights, traits));
+}
+
+TEST_P(Limits, OneBeyondIsRefused) {
+  const Method& method = *GetParam();
+  const Result<Plan> lights = make_plan(method, problem_of(method, 64, 64, MAX_LIGHTS + 1, large_gpu()));
+  ASSERT_FALSE(lights);
+  EXPECT_EQ(lights.error().text(), "light capacity: expected at most 16777216, got 16777217");
+  const Result<Plan> size = make_plan(method, problem_of(method, 64, 32769, 1, large_gpu()));
+  ASSERT_FALSE(size);
+  EXPECT_EQ(size.error().text(), "size 64x32769: expected 1 to 32768 pixels a side on this device");
+  DeviceTraits small = large_gpu();
+  small.max_storage_buffer_bytes = 64 * 1000;
+  const Result<Plan> buffer = make_plan(method, problem_of(method, 8, 8, 1001, small));
+  ASSERT_FALSE(buffer);
+  EXPECT_NE(buffer.error().text().find("the device's storage buffers hold at most 64000"), std::string::npos)
+      << buffer.error().text();
+  DeviceTraits tight = large_gpu();
+  tight.memory_bytes = 1;
+  const Result<Plan> memory = make_plan(method, problem_of(method, 64, 64, 64, tight));
+  EXPECT_EQ(memory.ok(), method.name == "all");
+  if (!memory) {
+    EXPECT_NE(memory.error().text().find("memory: all buffers together need"), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Limits, ::testing::ValuesIn([] {
+                           std::vector<const Method*> all;
+                           for (const Method& method : methods()) all.push_back(&method);
+                           return all;
+                         }()),
+                         [](const auto& test) {
+                           std::string name(test.param->name);
+                           std::ranges::replace_if(name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
+
+TEST(LoopLimits, ADeviceThatEndsLoopsWalksNoMoreLights) {
+  DeviceTraits traits = large_gpu();
+  traits.max_loop_rounds = 65535;
+  const auto plan = [&](std::string_view name, std::uint32_t lights) {
+    const Method& method = *find_method(name).value();
+    return make_plan(method, problem_of(method, 640, 360, lights, traits));
+  };
+  EXPECT_TRUE(plan("all", 65535));
+  const Result<Plan> all = plan("all", 65536);
+  ASSERT_FALSE(all);
+  EXPECT_EQ(all.error().text(),
+            "method all: look-up all: walks 65536 lights, but the device ends a thread's loops after 65535 rounds");
+  EXPECT_TRUE(plan("tiled", 65535).value().notes.empty());
+  EXPECT_EQ(plan("tiled", 65536).value().notes.size(), 1U);
+  EXPECT_TRUE(plan("tiled-bits", 65536).value().notes.empty()) << "bits have room for every light";
+}
+
+// Pieces of cells are work groups of an indirect dispatch, which no check sees while it runs.
+TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
+  const Method& method = *find_method("lamplight").value();
+  DeviceTraits traits = large_gpu();
+  traits.max_groups[0] = 65535;
+  const Plan plan = make_plan(method, problem_of(method, 3840, 2160, MAX_LIGHTS, traits)).value();
+  const auto pieces = std::ranges::find(plan.buffers, "pieces", &BufferDesc::name);
+  EXPECT_LE(pieces->bytes / 8, 65535);
+  EXPECT_GT(pieces->bytes / 8, 60000);
+}
+
+}  // namespace
+}  // namespace lamp
