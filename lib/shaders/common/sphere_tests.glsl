@@ -73,9 +73,16 @@ bool sphere_touches_tile_depths(LightBounds sphere, TileSides sides, TileBox box
   return TEST != TEST_EXACT || sphere_touches_frustum(sphere, sides, z_near, z_far);
 }
 
-// The test, repeated for every run of occupied parts that the sphere's depths meet.
+// The test, repeated for every run of occupied parts that the sphere's depths meet; but where there are several, first
+// for all of them as one, because most spheres that touch none do not touch that either.
 bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges, uint parts) {
   const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
+  const uint lowest = uint(findLSB(parts));
+  if (parts != 0u && bits_in_a_row(parts >> lowest) + lowest <= uint(findMSB(parts))) {
+    const float z_first = ranges.z_near[0] + step * (float(lowest) - 0.001);
+    const float z_last = ranges.z_near[0] + step * (float(findMSB(parts)) + 1.001);
+    if (!sphere_touches_tile_depths(sphere, sides, tile_box(sides, z_first, z_last), z_first, z_last)) return false;
+  }
   while (parts != 0u) {
     const uint first = uint(findLSB(parts));
     const uint end = first + bits_in_a_row(parts >> first);

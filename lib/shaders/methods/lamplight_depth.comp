@@ -13,6 +13,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
+layout(constant_id = 3) const uint BLOCK = 256;  // lights
 #define BOUNDS BOUNDS_MASK
 #include "common/tile_ranges.glsl"
 #include "lamplight/shared/lamplight.h"
@@ -21,6 +22,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; 
 layout(set = 0, binding = 1) uniform texture2D depth_image;
 layout(set = 0, binding = 2, scalar) writeonly buffer TileBuffer { TileDepths tile_depths[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[]; };  // [block][cell]
 
 shared uint s_nearest;   // device depth: reversed, so the greatest
 shared uint s_farthest;
@@ -88,6 +90,15 @@ const float LARGEST_HALF = 65504.0;
 float half_below(float z) { return min(0.999 * z, LARGEST_HALF); }
 float half_above(float z) { return z > 0.99 * LARGEST_HALF ? infinity() : 1.001 * z + 1e-6; }
 
+// The count matrix, for the passes that follow: here it costs nothing, because all wait for the depth buffer.
+void clear_counts() {
+  const uint cells = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+  const uint words = (frame.light_count + BLOCK - 1u) / BLOCK * cells;
+  const uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+  for (uint i = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex; i < words; i += cells * gl_WorkGroupSize.x)
+    counts[i] = 0u;
+}
+
 void main() {
   if (gl_LocalInvocationIndex == 0u) {
     s_nearest = 0u;
@@ -102,6 +113,7 @@ void main() {
     const TileDepths result = depths_of_tile(tile, size_px);
     if (subgroupElect()) tile_depths[tile.x + tiles.x * tile.y] = result;
   }
+  clear_counts();
   barrier();  // every tile before the cell is written
   if (gl_LocalInvocationIndex != 0u) return;
   vec2 depths = vec2(infinity(), -infinity());  // sky: no light reaches

@@ -21,26 +21,23 @@ struct TileDepths {
   uint reserved;
 };
 
-// Where on screen a light's bounding sphere lies. Tiles as y << 16 | x.
-struct LightReach {
-  uint first;  // tile
-  uint last;   // tile; and REACH_OF_SPOT
+// A light that may reach a cell.
+struct LightHit {
+  uint light;
+  uint place;  // cell, and above HIT_CELL_BITS the rank among the hits of the same block of lights in the same cell
 };
-LAMP_CONST REACHES_NO_TILE = 0xffffffffu;  // in `first`
-LAMP_CONST REACH_OF_SPOT = 0x80000000u;    // in `last`
+LAMP_CONST HIT_CELL_BITS = 14u;  // cells of 32 x 32 tiles of 8 pixels in a picture of 32768 x 32768
 
-// A cell is a square of tiles. Its lights ascend through its pieces, which are culled by one work group each.
+// A cell is a square of tiles. Its lights ascend through its pieces, which are culled by one work group each: piece i
+// has room for PIECE entries from i * PIECE.
 struct LightCell {
   uint first_piece;
-  uint pieces;  // ALL_LIGHTS: its entries did not fit; walk every light
-  uint end;     // of its entries
+  uint pieces;   // ALL_LIGHTS: its entries did not fit; walk every light
+  uint entries;  // lights
 };
 LAMP_CONST ALL_LIGHTS = 0xffffffffu;
-
-struct LightPiece {
-  uint cell;
-  uint begin;  // of its entries; PIECE of them, or fewer at the end of the cell
-};
+LAMP_CONST NO_CELL = 0xffffffffu;   // a piece of a cell that did not fit
+LAMP_CONST NO_PLACE = 0xffffffffu;  // of its entries
 
 // A tile's part of a piece.
 struct LightSpan {
@@ -54,14 +51,21 @@ struct LightTotals {
   uint pieces;  // these three are the group counts of the last pass
   uint one_y;
   uint one_z;
-  uint entry_units;  // rooms of ENTRY_UNIT entries: their sum has 32 bits where that of entries has not
+  uint find_x;  // and these of the pass that finds cells
+  uint find_y;
+  uint find_z;
+  uint scatter_x;  // and these of scattering
+  uint scatter_y;
+  uint scatter_z;
+  uint seen;           // lights in view
+  uint hits;           // pairs of light and cell; beyond the capacity it may stop to grow
+  uint wanted_pieces;  // whether there is room or not
   uint list_entries;
 };
-LAMP_CONST ENTRY_UNIT = 64u;
 
 #ifdef __cplusplus
-static_assert(sizeof(TileDepths) == 16 && sizeof(LightReach) == 8 && sizeof(LightCell) == 12 &&
-              sizeof(LightPiece) == 8 && sizeof(LightSpan) == 8 && sizeof(LightTotals) == 20);
+static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 && sizeof(LightSpan) == 8 &&
+              sizeof(LightTotals) == 52);
 }  // namespace lamp::shared
 #endif
 #undef LAMP_CONST

@@ -1,0 +1,73 @@
+// Every light once: its bounding sphere in view space, and whether that meets the picture. Those that do are listed, in
+// any order.
+// Promise: the only pass that reads every light; later ones know of a light what is stored here.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+layout(local_size_x_id = 0) in;
+#include "common/light_bounds.glsl"
+#include "common/tile_volume.glsl"
+#include "lamplight/shared/lamplight.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 2, scalar) buffer TotalBuffer { LightTotals totals; };
+layout(set = 0, binding = 3, scalar) writeonly buffer SphereBuffer { LightBounds spheres[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer SeenBuffer { uint seen[]; };  // lights
+
+shared uint s_seen_count;
+shared uint s_begin;
+
+// The sides of the picture, as of a tile: x and y limits as lines over the depth, and the length of their normals.
+struct PictureSides {
+  vec4 x_edges;
+  vec4 y_edges;
+  vec4 lengths;
+};
+
+PictureSides picture_sides() {
+  PictureSides sides;
+  tile_edges(frame, vec2(0.0), vec2(frame.size_px), sides.x_edges, sides.y_edges);
+  const vec4 slopes = vec4(sides.x_edges.yw, sides.y_edges.yw);
+  sides.lengths = sqrt(1.0 + slopes * slopes);
+  return sides;
+}
+
+bool in_view(LightBounds sphere, PictureSides sides) {
+  const float z = -sphere.center.z;
+  const vec4 outside = vec4(sides.x_edges.x + sides.x_edges.y * z - sphere.center.x,
+                            sphere.center.x - sides.x_edges.z - sides.x_edges.w * z,
+                            sides.y_edges.x + sides.y_edges.y * z - sphere.center.y,
+                            sphere.center.y - sides.y_edges.z - sides.y_edges.w * z);
+  return sphere.radius >= 0.0 && all(lessThanEqual(outside, sphere.radius * sides.lengths));
+}
+
+// By one thread: room for the group's lights, and work groups of the next pass, as large as this one's, for them.
+void reserve_seen() {
+  const uint begin = s_seen_count == 0u ? 0u : atomicAdd(totals.seen, s_seen_count);
+  if (s_seen_count > 0u) atomicMax(totals.find_x, (begin + s_seen_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x);
+  s_begin = begin;
+}
+
+void main() {
+  const uint light = gl_GlobalInvocationID.x;
+  if (gl_LocalInvocationIndex == 0u) s_seen_count = 0u;
+  if (light == 0u) totals.find_y = totals.find_z = 1u;
+  LightBounds sphere = LightBounds(vec3(0.0), REACHES_NOTHING);
+  if (light < frame.light_count) sphere = light_bounds(frame, lights[light]);
+  const bool is_seen = in_view(sphere, picture_sides());
+  const uvec4 those = subgroupBallot(is_seen);
+  barrier();  // a count of zero before it is added to
+  uint place = 0u;
+  if (subgroupElect()) place = atomicAdd(s_seen_count, subgroupBallotBitCount(those));
+  place = subgroupBroadcastFirst(place) + subgroupBallotExclusiveBitCount(those);
+  barrier();  // every subgroup's count before room is reserved
+  if (gl_LocalInvocationIndex == 0u) reserve_seen();
+  barrier();  // room before it is filled
+  if (!is_seen) return;
+  seen[s_begin + place] = light;
+  spheres[light] = sphere;
+}

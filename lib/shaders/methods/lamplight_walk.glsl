@@ -1,0 +1,109 @@
+// A walk over the cells that lights may reach, as far as rectangles and depths of cells tell. The cells of a subgroup's
+// lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by whichever
+// subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to write.
+// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`, `cell_depths`; flush_hits(waiting), for a subgroup together.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_METHODS_LAMPLIGHT_WALK
+#define LAMP_METHODS_LAMPLIGHT_WALK
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "common/subgroup_work.glsl"
+
+const uint MANY_CELLS = 256u;     // a light of more waits
+const uint WAITING = 64u;         // lights in the queue, at most; others are walked at once
+const uint STRIP_OF_THREAD = 4u;  // cells of a strip, for each thread of the subgroup
+
+struct CellRectangle {
+  uint corner;  // first cell
+  uint columns;
+  uint cells;
+  float z_near;
+  float z_far;
+  uint light;
+};
+
+shared CellRectangle s_waiting[WAITING];
+shared uint s_arrived;  // may be more than there is room for
+shared uint s_next_strip;
+
+shared LightHit s_hits[GROUP_HITS];  // a subgroup uses its own part
+
+uint cells_wide() { return (frame.size_px.x + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES); }
+
+// Of the first and last tile; without tiles none.
+CellRectangle cells_of(uint light, LightBounds sphere, uvec4 tiles, bool any_tile) {
+  const uvec2 first = tiles.xy / CELL_TILES;
+  const uvec2 size = any_tile ? tiles.zw / CELL_TILES + 1u - first : uvec2(1u, 0u);
+  return CellRectangle(first.x + cells_wide() * first.y, size.x, size.x * size.y, -sphere.center.z - sphere.radius,
+                       -sphere.center.z + sphere.radius, light);
+}
+
+CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
+  return CellRectangle(subgroupShuffle(cells.corner, thread), subgroupShuffle(cells.columns, thread),
+                       subgroupShuffle(cells.cells, thread), subgroupShuffle(cells.z_near, thread),
+                       subgroupShuffle(cells.z_far, thread), subgroupShuffle(cells.light, thread));
+}
+
+// All below is for the threads of a subgroup together. `waiting`: its hits since they were last written.
+uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
+uint first_hit() { return gl_SubgroupID * hits_room(); }
+
+// Cell i of each thread's rectangle, or none.
+void visit_cell(CellRectangle cells, uint i, bool any_cell, inout uint waiting) {
+  const uint row = uint((float(i) + 0.5) / float(cells.columns));  // exact: there are a few thousand cells
+  const uint cell = cells.corner + i + (cells_wide() - cells.columns) * row;
+  bool hit = false;
+  if (any_cell) {
+    const vec2 depths = unpackHalf2x16(cell_depths[cell]);
+    hit = cells.z_far >= depths.x && cells.z_near <= depths.y;
+  }
+  const uvec4 those = subgroupBallot(hit);
+  const uint count = subgroupBallotBitCount(those);
+  if (waiting + count > hits_room()) flush_hits(waiting);
+  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] = LightHit(cells.light, cell);
+  waiting += count;
+}
+
+// Each thread with a light of its own.
+void visit_cells(CellRectangle own, inout uint waiting) {
+  if (own.cells > MANY_CELLS) {
+    const uint place = atomicAdd(s_arrived, 1u);
+    if (place < WAITING) {
+      s_waiting[place] = own;
+      own.cells = 0u;
+    }
+  }
+  const SharedWork work = share_work(own.cells);
+  for (uint start = 0u; start < work.total; start += gl_SubgroupSize) {
+    const uint i = start + gl_SubgroupInvocationID;
+    const WorkItem item = work_item(work, i);
+    visit_cell(rectangle_of_thread(own, item.owner), item.number, i < work.total, waiting);
+  }
+}
+
+uint next_strip() {
+  uint strip = 0u;
+  if (subgroupElect()) strip = atomicAdd(s_next_strip, 1u);
+  return subgroupBroadcastFirst(strip);
+}
+
+// After a barrier of the group: the lights in the queue.
+void visit_waiting_cells(inout uint waiting) {
+  const uint arrived = min(s_arrived, WAITING);
+  const uint strip_cells = STRIP_OF_THREAD * gl_SubgroupSize;
+  uint first_strip = 0u;  // of the light
+  uint strip = arrived == 0u ? 0u : next_strip();
+  for (uint light = 0u; light < arrived; ++light) {
+    const CellRectangle cells = s_waiting[light];
+    const uint strips = (cells.cells + strip_cells - 1u) / strip_cells;
+    for (; strip < first_strip + strips; strip = next_strip()) {
+      const uint begin = (strip - first_strip) * strip_cells + gl_SubgroupInvocationID;
+      for (uint k = 0u; k < STRIP_OF_THREAD; ++k) {
+        const uint i = begin + k * gl_SubgroupSize;
+        visit_cell(cells, i, i < cells.cells, waiting);
+      }
+    }
+    first_strip += strips;
+  }
+}
+
+#endif
