@@ -41,9 +41,11 @@ std::vector<Wish> wishes(const Method& method, const Options& options, const Pla
 
 Options with_wishes(const Method& method, const Options& options, std::span<const Wish> wishes) {
   std::vector<std::string> settings;
-  for (const auto& [key, value] : options.all()) settings.push_back(key + "=" + value);
-  for (const Wish& wish : wishes)
-    settings.push_back(std::string(wish.option) + "=" + std::to_string(wish.now + wish.more));
+  const auto set = [&](std::string setting, const std::string& value) {
+    settings.push_back(setting.append("=").append(value));
+  };
+  for (const auto& [key, value] : options.all()) set(key, value);
+  for (const Wish& wish : wishes) set(std::string(wish.option), std::to_string(wish.now + wish.more));
   return resolve_options(method, settings).value();
 }
 
