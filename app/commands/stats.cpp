@@ -59,7 +59,8 @@ nlohmann::json to_json(const Stats& s) {
   for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
   for (const PassTime& pass : s.rendered.passes)
     json["passes"].push_back({{"name", pass.name},
-                              {"part", pass.cull    ? "cull"
+                              {"part", pass.host    ? "host"
+                                       : pass.cull  ? "cull"
                                        : pass.shade ? "shade"
                                                     : "other"},
                               {"ms_median", pass.ms_median},

@@ -62,6 +62,7 @@ class Lighting {
 
   [[nodiscard]] const LightingInfo& info() const { return info_; }
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
+  [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   [[nodiscard]] bool fused() const;
   /// Whether a pass of this name (of the times) belongs to the cull.
   [[nodiscard]] bool is_cull_pass(std::string_view name) const;

@@ -20,6 +20,7 @@ struct PassTime {
   double ms_p95 = 0.0;
   bool cull = false;
   bool shade = false;
+  bool host = false;  ///< on the CPU, before the GPU begins; of no sum
 };
 
 struct Rendered {

@@ -133,6 +133,36 @@ TEST_F(Bench, ASceneWithOptionsOfTheCommandLine) {
   EXPECT_EQ(all.at("results")[0].at("stats").at("frames"), 2);
 }
 
+TEST_F(Bench, HostPassesHaveATimeOfTheirOwn) {
+  (void)output_of({"bench", "plane", "--size", "32x18", "--lights", "3000", "--method", "drobot-zbin", "--option",
+                   "sort=cpu", "--frames", "3", "--out", "out"});
+  const json stats = results().at("results").at(0).at("stats");
+  std::size_t hosts = 0;
+  for (const json& pass : stats.at("passes")) {
+    if (pass.at("part") != "host") continue;
+    ++hosts;
+    EXPECT_EQ(pass.at("name"), "sort and bins");
+    EXPECT_GT(pass.at("ms_p5"), 0.0);
+    EXPECT_LE(pass.at("ms_p5"), pass.at("ms_median"));
+    EXPECT_LE(pass.at("ms_median"), pass.at("ms_p95"));
+  }
+  EXPECT_EQ(hosts, 1U);
+}
+
+TEST_F(Bench, DrobotsTablesStandBesideOurs) {
+  (void)output_of({"bench", "drobot-memory", "--max-size", "1920x1080", "--max-lights", "256", "--out", "out"});
+  const json all = results();
+  for (const json& result : all.at("results")) {
+    EXPECT_TRUE(result.at("times").is_null());
+    EXPECT_EQ(result.at("verdict"), "unverified");
+  }
+  const std::string tool = (fs::path(LAMPLIGHT_SOURCE_DIR) / "tools/drobot_tables").string();
+  ASSERT_EQ(script("'" + tool + "' out/results.json >table.md"), 0);
+  EXPECT_NE(read("table.md").find("| tiles | 240x135 | 1 | 1036 KB | 1036.8 KB |"), std::string::npos)
+      << read("table.md");
+  EXPECT_EQ(script("'" + tool + "' script.sh"), BAD_INPUT);
+}
+
 TEST_F(Bench, ACapturedFrameIsAScene) {
   (void)output_of({"capture", "plane", "--size", "48x27", "--lights", "8", "--out", "frame"});
   (void)output_of({"bench", "frame", "--method", "tiled", "--method", "clustered", "--frames", "2", "--out", "out"});

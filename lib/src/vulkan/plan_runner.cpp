@@ -3,6 +3,7 @@
 #include "lamplight/vulkan/plan_runner.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "lamplight/shader_code.h"
 
@@ -130,6 +131,7 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
   assert(inputs.light_count <= plan_.light_capacity && "make a plan with a larger light capacity");
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
   zero_buffers(recorder);
+  host_times_.clear();
   const bool changed = projection_changed(inputs);
   for (const BuiltPass& built : passes) {
     if (built.pass.on_projection_change) {
@@ -163,10 +165,13 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
   recorder.end_pass();
 }
 
-void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) const {
+void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) {
   std::vector<std::span<std::byte>> mapped;
   for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
+  const auto begin = std::chrono::steady_clock::now();
   pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+  host_times_.push_back({pass.name, taken.count()});
 }
 
 void PlanRunner::record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const {
