@@ -146,7 +146,7 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
 }
 
 void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders) {
-  if (!info_.method->any_depth) {
+  if (!info_.method->any_depth || !runner_.plan().any_depth) {
     LightingInfo clustered = info_;
     clustered.method = take(find_method("clustered"));
     clustered.options = take(resolve_options(*clustered.method, {}));

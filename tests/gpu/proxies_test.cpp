@@ -77,6 +77,20 @@ std::vector<shared::Light> slight_lights(const View& view, const std::vector<See
   return pack(lights);
 }
 
+/// Every resolution with every way to use depth; none for methods that draw no lights.
+std::vector<std::vector<std::string>> raster_settings(const Method& method) {
+  const auto choices = [&](std::string_view key) {
+    const auto spec = std::ranges::find(method.options, key, &OptionSpec::key);
+    return spec == method.options.end() ? std::vector<std::string_view>{} : spec->choices;
+  };
+  std::vector<std::vector<std::string>> all;
+  for (const std::string_view raster : choices("raster"))
+    for (const char* key : {"depth", "early"})
+      for (const std::string_view value : choices(key))
+        all.push_back({fmt::format("raster={}", raster), fmt::format("{}={}", key, value)});
+  return all;
+}
+
 class Proxies : public GpuTest {};
 
 TEST_F(Proxies, MissNoLightHoweverSlight) {
@@ -88,12 +102,9 @@ TEST_F(Proxies, MissNoLightHoweverSlight) {
     const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
     EXPECT_GT(lit.truth.lights.size(), LIGHTS / 2);
     for (const Method& method : methods()) {
-      const auto raster = std::ranges::find(method.options, "raster", &OptionSpec::key);
-      if (raster == method.options.end()) continue;
-      for (const std::string_view value : raster->choices) {
-        SCOPED_TRACE(fmt::format("{}, {} raster={}", projection, method.name, value));
-        check_method(renderer, lit,
-                     {.method = &method, .settings = {fmt::format("raster={}", value)}, .light_capacity = LIGHTS});
+      for (const std::vector<std::string>& settings : raster_settings(method)) {
+        SCOPED_TRACE(fmt::format("{}, {} {}", projection, method.name, fmt::join(settings, " ")));
+        check_method(renderer, lit, {.method = &method, .settings = settings, .light_capacity = LIGHTS});
       }
     }
   }
