@@ -67,6 +67,10 @@ void FrameTimes::fill(Rendered& rendered, const Lighting& lighting) const {
                                .cull = !host && lighting.is_cull_pass(pass),
                                .shade = !host && is_shade_pass(pass),
                                .host = host});
+  for (PassTime& pass : rendered.passes) {
+    const auto statistics = lighting.statistics(pass.name);
+    pass.statistics.assign(statistics.begin(), statistics.end());
+  }
   rendered.cull_ms = median_of(frames_, &FrameTime::cull_ms);
   rendered.shade_ms = median_of(frames_, &FrameTime::shade_ms);
   rendered.frame_ms = median_of(frames_, &FrameTime::frame_ms);

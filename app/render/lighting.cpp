@@ -106,6 +106,12 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
   if (info.transparency) build_transparent(device, shaders);
 }
 
+std::span<const vulkan::PipelineStatistic> Lighting::statistics(std::string_view pass) const {
+  if (pass == "forward+ shading" || pass == "deferred shading" || pass == "cull and shade") return shade_.statistics();
+  if (pass == "light volumes") return volumes_.statistics();
+  return runner_.statistics(pass);
+}
+
 bool Lighting::fused() const { return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value(); }
 
 void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& shaders) {

@@ -64,6 +64,8 @@ class Lighting {
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   [[nodiscard]] bool fused() const;
+  /// What the driver says of the pipeline of a pass of this name (of the times); empty where it says nothing.
+  [[nodiscard]] std::span<const vulkan::PipelineStatistic> statistics(std::string_view pass) const;
   /// Whether a pass of this name (of the times) belongs to the cull.
   [[nodiscard]] bool is_cull_pass(std::string_view name) const;
 

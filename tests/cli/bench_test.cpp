@@ -149,6 +149,33 @@ TEST_F(Bench, HostPassesHaveATimeOfTheirOwn) {
   EXPECT_EQ(hosts, 1U);
 }
 
+// A driver may have none to give, as Mesa's llvmpipe; what it gives must be whole, and nothing may come unasked.
+TEST_F(Bench, PipelineStatisticsComeWhenAskedFor) {
+  const Arguments command{"bench",    "plane", "--size",   "32x18", "--lights", "8",
+                          "--method", "tiled", "--frames", "2",     "--out",    "out"};
+  (void)output_of(command);
+  for (const json& pass : results().at("results").at(0).at("stats").at("passes")) {
+    EXPECT_FALSE(pass.contains("statistics"));
+    EXPECT_FALSE(pass.contains("registers"));
+  }
+  fs::remove_all(path("out"));
+  Arguments asking = command;
+  asking.emplace_back("--pipeline-statistics");
+  (void)output_of(asking);
+  for (const json& pass : results().at("results").at(0).at("stats").at("passes")) {
+    if (!pass.contains("statistics")) continue;
+    EXPECT_NE(pass.at("part"), "host");
+    for (const json& statistic : pass.at("statistics")) {
+      EXPECT_FALSE(statistic.at("executable").get<std::string>().empty());
+      EXPECT_FALSE(statistic.at("name").get<std::string>().empty());
+      EXPECT_TRUE(statistic.at("value").is_number());
+    }
+    if (pass.contains("registers")) {
+      EXPECT_GT(pass.at("registers"), 0);
+    }
+  }
+}
+
 TEST_F(Bench, DrobotsTablesStandBesideOurs) {
   (void)output_of({"bench", "drobot-memory", "--max-size", "1920x1080", "--max-lights", "256", "--out", "out"});
   const json all = results();

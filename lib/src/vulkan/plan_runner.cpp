@@ -100,6 +100,13 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   return runner;
 }
 
+std::span<const PipelineStatistic> PlanRunner::statistics(std::string_view pass) const {
+  for (const auto* passes : {&separate_, &fused_})
+    for (const BuiltPass& built : *passes)
+      if (built.pass.name == pass) return built.pipeline.statistics();
+  return {};
+}
+
 VkBuffer PlanRunner::buffer(ResourceId id) const {
   return id < PLAN_BUFFER || id == NO_RESOURCE ? VK_NULL_HANDLE : buffers_[id - PLAN_BUFFER].handle();
 }

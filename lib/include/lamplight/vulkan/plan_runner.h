@@ -54,6 +54,8 @@ class PlanRunner {
     double ms = 0.0;
   };
   [[nodiscard]] std::span<const HostTime> host_times() const { return host_times_; }
+  /// What the driver says of a pass's pipeline (Pipeline::statistics); of the first pass of that name.
+  [[nodiscard]] std::span<const PipelineStatistic> statistics(std::string_view pass) const;
   /// How often passes that wait for a change of projection have been recorded.
   [[nodiscard]] std::uint64_t projection_rebuilds() const { return projection_rebuilds_; }
   [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate) const;
