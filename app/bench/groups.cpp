@@ -61,6 +61,12 @@ std::vector<GroupEntry> entries_of(const Series& series) {
 }
 
 Group base_of(const Series& series, const Limits& limits) {
+  if (!series.timed)
+    return {.series = series.name,
+            .brdf = series.brdf,
+            .seed = series.seed,
+            .frame = series.frame,
+            .entries = entries_of(series)};
   const std::uint32_t most = series.flight && limits.most_frames < ~0U / FLIGHT_FACTOR
                                  ? limits.most_frames * FLIGHT_FACTOR
                                  : limits.most_frames;
@@ -79,6 +85,11 @@ Group base_of(const Series& series, const Limits& limits) {
 void limit_verify(const Series& series, const Limits& limits, Group& group) {
   group.verify = series.verify;
   group.unchecked.clear();
+  if (!series.timed) {
+    group.verify = {.what = Verify::What::nothing};
+    group.unchecked = "neither timed nor verified: the suite asks for what plans say by themselves";
+    return;
+  }
   const auto [width, height] = size_of(group.size);
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
   const std::uint64_t pairs = std::uint64_t{width} * rows * group.lights;

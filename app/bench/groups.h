@@ -26,7 +26,7 @@ struct Group {
   double spots = 0.0;
   std::uint64_t seed = 1;
   int frame = -1;
-  std::uint32_t frames = 0;
+  std::uint32_t frames = 0;  ///< 0: nothing is rendered
   std::uint32_t warm_up = 0;
   std::optional<LightWave> flight;
   Verify verify;

@@ -144,8 +144,11 @@ Series parse_series(const json& value, const std::string& source) {
   if (frame != ~0U) series.frame = static_cast<int>(frame);
   object.read("frames", series.frames, 1, MAX_FRAMES);
   object.read("warm_up", series.warm_up, 0, MAX_FRAMES);
+  object.read("timed", series.timed);
   series.flight = parse_flight(object);
   series.verify = parse_verify(object);
+  if (!series.timed && (series.flight || object.has("verify") || object.has("pictures")))
+    object.wrong("timed", "true where there is a flight, something to verify, or pictures");
   object.read("pictures", series.pictures);
   object.finish();
   return series;

@@ -68,6 +68,7 @@ struct Series {
   int frame = -1;                  ///< of the scene's flight, for the camera and for when the lights begin; -1: camera
   std::uint32_t frames = 60;       ///< timed ones
   std::uint32_t warm_up = 8;       ///< frames before
+  bool timed = true;               ///< false: nothing is rendered; what the plans say by themselves, above all memory
   std::optional<LightWave> flight; /**< the camera flies its whole path, with so many lights */
   Verify verify;
   bool pictures = false;  ///< picture and heat maps of the first group of each scene that has the most lights

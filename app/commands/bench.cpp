@@ -156,7 +156,7 @@ Exit bench(const BenchOptions& o) {
   const bool from_suite = is_suite(o.request.scene);
   const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o, load_scene(o.request.scene));
   const fs::path folder = o.out;
-  BenchDevice device(o.request.device, o.request.shader_dir);
+  BenchDevice device(o.request);
   const Expansion expansion = expand(suite, {.frames = o.frames,
                                              .warm_up = o.warm_up,
                                              .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,

@@ -23,7 +23,7 @@ struct BenchScene {
 
 class BenchDevice {
  public:
-  BenchDevice(const std::string& device, const std::string& shader_dir);
+  explicit BenchDevice(const Request& request);
 
   /// Loads a scene unless it is the last one's.
   [[nodiscard]] BenchScene& scene(const std::string& name);

@@ -25,8 +25,9 @@ struct Candidate {
   Checked checked;
   FrameTimes times;
   std::vector<std::pair<std::uint32_t, std::size_t>> frames;  ///< number and lights of each timed frame
+  bool rendered = true;                                       ///< false: the series asks for its plan alone
 
-  [[nodiscard]] bool timed() const { return lighting && checked.verdict != "wrong"; }
+  [[nodiscard]] bool timed() const { return lighting && rendered && checked.verdict != "wrong"; }
 };
 
 /// The frame whose output is checked: the middle one, of a flight the one with the most lights.
@@ -196,11 +197,25 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
   }
 }
 
+/// Plans alone: no frame is rendered, so no picture needs room on the device.
+std::vector<json> plan_only(const MeasureInfo& info, BenchScene& scene) {
+  const BenchFrame frame = bench_frame(scene, info.group, 0);
+  std::list<Candidate> candidates = make_candidates(info, scene);
+  std::vector<json> results;
+  for (Candidate& candidate : candidates) {
+    candidate.rendered = false;
+    if (candidate.lighting) candidate.checked = {.verdict = "unverified", .reason = info.group.unchecked};
+    results.push_back(result_json(info, candidate, frame));
+  }
+  return results;
+}
+
 }  // namespace
 
 std::vector<json> measure(const MeasureInfo& info) {
   say(info, "loads " + info.group.scene, 0.0);
   BenchScene& scene = info.device.scene(info.group.scene);
+  if (info.group.frames == 0) return plan_only(info, scene);
   const BenchFrame frame = bench_frame(scene, info.group, checked_frame(info.group));
   std::optional<Renderer> renderer;
   std::optional<Checker> checker;

@@ -79,7 +79,8 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
                                  stats.rendered.counters.overflowed_cells, room_note(stats.fits_with)));
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
-    passes += fmt::format("{}{} {:.3f}", passes.empty() ? "" : ", ", pass.name, pass.ms_median);
+    passes += fmt::format("{}{}{} {:.3f}", passes.empty() ? "" : ", ", pass.host ? "on the CPU: " : "", pass.name,
+                          pass.ms_median);
   line("times", fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
                             stats.rendered.shade_ms, stats.rendered.frame_ms, passes));
   line("picture", o.out);

@@ -96,6 +96,8 @@ void add_common_options(CLI::App& command, Request& r) {
       ->capture_default_str();
   command.add_option("--brdf", r.brdf, "ggx or blinn-phong")->capture_default_str();
   command.add_option("--device", r.device, "number or part of the name of a device (lamp list devices)");
+  command.add_flag("--pipeline-statistics", r.pipeline_statistics,
+                   "registers and what else the driver says of each pass, in the stats; needs a driver that does");
   command.add_option("--shader-dir", r.shader_dir,
                      "a checkout of Lamplight whose shaders are compiled anew, with glslc");
 }
@@ -218,7 +220,8 @@ Setup make_setup(const Request& request) {
 
 Session::Session(const Request& request, const Setup& setup, ContextInfo::Validation validation)
     : setup_(setup), brdf_(parse_brdf(request.brdf)), shaders_(request.shader_dir) {
-  context_ = std::make_unique<Context>(ContextInfo{.device = request.device, .validation = validation});
+  context_ = std::make_unique<Context>(ContextInfo{
+      .device = request.device, .validation = validation, .pipeline_statistics = request.pipeline_statistics});
   gpu_scene_ = std::make_unique<GpuScene>(*context_, setup.scene);
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
                                          static_cast<std::uint32_t>(setup.lights.size()));

@@ -34,6 +34,7 @@ struct Request {
   std::string projection = "camera";
   std::string device;
   std::string shader_dir;
+  bool pipeline_statistics = false;
 };
 
 /// Adds the options to a command, with their defaults and examples in the help text.

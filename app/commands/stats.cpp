@@ -2,7 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/stats.h"
 
+#include <algorithm>
+
 namespace lamp::app {
+namespace {
+
+/// Drivers name them "Register Count" or "VGPRs", and "Occupancy" or "Subgroups per SIMD".
+bool counts_registers(const std::string& name) {
+  return name.find("egister Count") != std::string::npos || name == "VGPRs";
+}
+bool is_occupancy(const std::string& name) {
+  return name.find("ccupancy") != std::string::npos || name == "Subgroups per SIMD";
+}
+
+/// The driver's numbers by their names; `registers`, the most of its stages, and `occupancy`, the least, where it has
+/// them.
+void add_statistics(nlohmann::json& json, const PassTime& pass) {
+  for (const vulkan::PipelineStatistic& s : pass.statistics) {
+    json["statistics"].push_back({{"executable", s.executable}, {"name", s.name}, {"value", s.value}});
+    if (counts_registers(s.name)) json["registers"] = std::max(json.value("registers", 0.0), s.value);
+    if (is_occupancy(s.name)) json["occupancy"] = std::min(json.value("occupancy", s.value), s.value);
+  }
+}
+
+}  // namespace
 
 Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
   const Plan& plan = lighting.runner().plan();
@@ -61,12 +84,14 @@ nlohmann::json to_json(const Stats& s) {
   for (const auto& [key, value] : s.fits_with) json["fits_with"][key] = value;
   for (const PassTime& pass : s.rendered.passes)
     json["passes"].push_back({{"name", pass.name},
-                              {"part", pass.cull    ? "cull"
+                              {"part", pass.host    ? "host"
+                                       : pass.cull  ? "cull"
                                        : pass.shade ? "shade"
                                                     : "other"},
                               {"ms_median", pass.ms_median},
                               {"ms_p5", pass.ms_p5},
                               {"ms_p95", pass.ms_p95}});
+  for (std::size_t i = 0; i < s.rendered.passes.size(); ++i) add_statistics(json["passes"][i], s.rendered.passes[i]);
   for (const auto& [name, bytes] : s.bytes) json["bytes"][name] = bytes;
   if (s.findings) {
     const Findings& f = *s.findings;

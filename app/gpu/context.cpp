@@ -59,6 +59,22 @@ VkInstance make_instance(ContextInfo::Validation validation) {
   return instance;
 }
 
+bool can_describe_pipelines(VkPhysicalDevice physical) {
+  std::uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  const auto is_it = [](const VkExtensionProperties& extension) {
+    return std::string_view(extension.extensionName) == VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+  };
+  if (std::ranges::none_of(extensions, is_it)) return false;
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR has{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
+  VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &has};
+  vkGetPhysicalDeviceFeatures2(physical, &features);
+  return has.pipelineExecutableInfo == VK_TRUE;
+}
+
 std::uint32_t graphics_queue_family(VkPhysicalDevice physical) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -98,7 +114,7 @@ Context::Context(const ContextInfo& info) : messages_(std::make_unique<Messages>
   if (info.validation == ContextInfo::Validation::on) create_messenger();
   physical_ = choose_device(instance_, info.device);
   row_ = describe(physical_);
-  create_device();
+  create_device(info.pipeline_statistics);
 }
 
 void Context::create_messenger() {
@@ -114,7 +130,7 @@ void Context::create_messenger() {
   check(create_function(instance_, &create, nullptr, &messenger_), "creating a debug messenger");
 }
 
-void Context::create_device() {
+void Context::create_device(bool pipeline_statistics) {
   queue_family_ = graphics_queue_family(physical_);
   vulkan::RequiredFeatures features;
   VkPhysicalDeviceFeatures has{};
@@ -135,8 +151,14 @@ void Context::create_device() {
   const std::vector<const char*> useful = vulkan::useful_extensions(physical_);
   std::vector<const char*> extensions(required.begin(), required.end());
   extensions.insert(extensions.end(), useful.begin(), useful.end());
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+      .pNext = &features.base,
+      .pipelineExecutableInfo = VK_TRUE};
+  const bool describes = pipeline_statistics && can_describe_pipelines(physical_);
+  if (describes) extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                  .pNext = &features.base,
+                                  .pNext = describes ? static_cast<const void*>(&statistics) : &features.base,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
@@ -145,6 +167,7 @@ void Context::create_device() {
   vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
   device_ = take(vulkan::make_device(physical_, handle_), Exit::no_device);
   device_.traits.conservative_raster = !useful.empty();
+  device_.pipeline_statistics = describes;
   pipelines_ = std::make_unique<vulkan::PipelineStore>();
   device_.pipelines = pipelines_.get();
 

@@ -25,6 +25,7 @@ struct DeviceRow {
 struct ContextInfo {
   std::string device;                                              ///< empty: the best
   enum class Validation { off, on } validation = Validation::off;  ///< core and synchronization validation
+  bool pipeline_statistics = false;  ///< pipelines that the driver can describe, if it can; they may compile slowly
 };
 
 class Context {
@@ -49,7 +50,7 @@ class Context {
  private:
   struct Messages;
   void create_messenger();
-  void create_device();
+  void create_device(bool pipeline_statistics);
 
   std::unique_ptr<Messages> messages_;
   VkInstance instance_ = VK_NULL_HANDLE;

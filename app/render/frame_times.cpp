@@ -43,25 +43,33 @@ double span_ms(std::span<const vulkan::Timestamps::Time> times, const std::funct
   return sum;
 }
 
+void FrameTimes::add_sample(const std::string& pass, bool host, double ms) {
+  const auto is_pass = [&](const Samples& samples) { return samples.pass == pass && samples.host == host; };
+  auto found = std::ranges::find_if(samples_, is_pass);
+  if (found == samples_.end()) found = samples_.insert(samples_.end(), {.pass = pass, .host = host});
+  found->ms.push_back(ms);
+}
+
 void FrameTimes::add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
-  for (const vulkan::Timestamps::Time& time : times) {
-    if (!samples_.contains(time.pass)) order_.push_back(time.pass);
-    samples_[time.pass].push_back(time.ms());
-  }
+  for (const auto& [pass, ms] : lighting.runner().host_times()) add_sample(pass, /* host= */ true, ms);
+  for (const vulkan::Timestamps::Time& time : times) add_sample(time.pass, /* host= */ false, time.ms());
   frames_.push_back({.cull_ms = span_ms(times, [&](std::string_view pass) { return lighting.is_cull_pass(pass); }),
                      .shade_ms = span_ms(times, is_shade_pass),
                      .frame_ms = span_ms(times, [](std::string_view) { return true; })});
 }
 
 void FrameTimes::fill(Rendered& rendered, const Lighting& lighting) const {
-  for (const std::string& name : order_) {
-    const std::vector<double>& ms = samples_.at(name);
-    rendered.passes.push_back({.name = name,
+  for (const auto& [pass, host, ms] : samples_)
+    rendered.passes.push_back({.name = pass,
                                .ms_median = percentile(ms, 0.5),
                                .ms_p5 = percentile(ms, 0.05),
                                .ms_p95 = percentile(ms, 0.95),
-                               .cull = lighting.is_cull_pass(name),
-                               .shade = is_shade_pass(name)});
+                               .cull = !host && lighting.is_cull_pass(pass),
+                               .shade = !host && is_shade_pass(pass),
+                               .host = host});
+  for (PassTime& pass : rendered.passes) {
+    const auto statistics = lighting.statistics(pass.name);
+    pass.statistics.assign(statistics.begin(), statistics.end());
   }
   rendered.cull_ms = median_of(frames_, &FrameTime::cull_ms);
   rendered.shade_ms = median_of(frames_, &FrameTime::shade_ms);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,13 +34,19 @@ struct FrameTime {
 class FrameTimes {
  public:
   void add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting);
-  /// Passes, in the order of the first frame, and the medians of the frames' sums.
+  /// Passes, host passes first, else in the order of the first frame, and the medians of the frames' sums.
   void fill(Rendered& rendered, const Lighting& lighting) const;
   [[nodiscard]] const std::vector<FrameTime>& frames() const { return frames_; }
 
  private:
-  std::vector<std::string> order_;
-  std::map<std::string, std::vector<double>, std::less<>> samples_;
+  struct Samples {
+    std::string pass;
+    bool host = false;
+    std::vector<double> ms;
+  };
+  void add_sample(const std::string& pass, bool host, double ms);
+
+  std::vector<Samples> samples_;  ///< in the order of the first frame, host passes first
   std::vector<FrameTime> frames_;
 };
 

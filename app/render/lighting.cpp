@@ -122,6 +122,12 @@ std::vector<std::pair<std::string, std::string>> Lighting::fits_with(std::span<c
   return changed;
 }
 
+std::span<const vulkan::PipelineStatistic> Lighting::statistics(std::string_view pass) const {
+  if (pass == "forward+ shading" || pass == "deferred shading" || pass == "cull and shade") return shade_.statistics();
+  if (pass == "light volumes") return volumes_.statistics();
+  return runner_.statistics(pass);
+}
+
 bool Lighting::fused() const { return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value(); }
 
 void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& shaders) {
@@ -162,7 +168,7 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
 }
 
 void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders) {
-  if (!info_.method->any_depth) {
+  if (!info_.method->any_depth || !runner_.plan().any_depth) {
     LightingInfo clustered = info_;
     clustered.method = take(find_method("clustered"));
     clustered.options = take(resolve_options(*clustered.method, {}));

@@ -62,10 +62,13 @@ class Lighting {
 
   [[nodiscard]] const LightingInfo& info() const { return info_; }
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
+  [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   [[nodiscard]] bool fused() const;
   /// The options, and their values, that `vulkan::Culler` would grow to after a frame that needed so much (of the
   /// plan's capacities). Empty if everything fitted, or nothing can grow.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> fits_with(std::span<const std::uint32_t> needed) const;
+  /// What the driver says of the pipeline of a pass of this name (of the times); empty where it says nothing.
+  [[nodiscard]] std::span<const vulkan::PipelineStatistic> statistics(std::string_view pass) const;
   /// Whether a pass of this name (of the times) belongs to the cull.
   [[nodiscard]] bool is_cull_pass(std::string_view name) const;
 

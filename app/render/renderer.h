@@ -21,6 +21,8 @@ struct PassTime {
   double ms_p95 = 0.0;
   bool cull = false;
   bool shade = false;
+  bool host = false;                                  ///< on the CPU, before the GPU begins; of no sum
+  std::vector<vulkan::PipelineStatistic> statistics;  ///< what the driver says of its pipeline, where it was asked
 };
 
 struct Rendered {

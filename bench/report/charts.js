@@ -199,6 +199,7 @@ function shadeOf(part, place, count) {
 function passTimes(result) {
   const times = new Map();
   for (const pass of result.stats.passes) {
+    if (pass.part === 'host') continue; // before the frame, not a part of it
     const name = pass.name.startsWith('transparent') ? 'transparent' : pass.name;
     const key = `${pass.part}: ${name}`;
     const before = times.get(key);

@@ -39,6 +39,18 @@ function statColumn(name, key, title) {
           show: r => typeof r.stats[key] === 'number' ? short(r.stats[key]) : ''};
 }
 
+/** Passes on the CPU, ms, or null when there are none. */
+function hostTime(result) {
+  const host = (result.stats.passes || []).filter(pass => pass.part === 'host');
+  return result.times && host.length ? host.reduce((sum, pass) => sum + pass.ms_median, 0) : null;
+}
+
+/** Registers of the shading pass, or null where the driver did not say. */
+function shadeRegisters(result) {
+  const shade = (result.stats.passes || []).find(pass => pass.part === 'shade' && pass.registers !== undefined);
+  return shade ? shade.registers : null;
+}
+
 /** Parameters in which the results of a series differ. */
 function changingParameters(results) {
   const keys = Object.keys(results[0].parameters).filter(k => k !== 'method');
@@ -57,6 +69,11 @@ function resultTable(results) {
     ...(results.some(r => r.verified !== results[0].verified) ?
       [{name: 'checked', text: true, title: 'what of the picture was held against the oracle and brute force', value: r => r.verified}] : []),
     timeColumn('cull, ms', 'cull'), timeColumn('shade, ms', 'shade'), timeColumn('both, ms', 'cull+shade'), timeColumn('frame, ms', 'frame'),
+    ...(results.some(r => hostTime(r) !== null) ?
+      [{name: 'host, ms', title: 'passes on the CPU, before the GPU begins: sum of their medians', value: hostTime,
+        show: r => hostTime(r) === null ? '' : short(hostTime(r))}] : []),
+    ...(results.some(r => shadeRegisters(r) !== null) ?
+      [{name: 'registers', title: 'of the shading pass, as the driver counts them', value: shadeRegisters}] : []),
     statColumn('list', 'list_mean', 'lights a cell, mean'), statColumn('longest', 'list_max', 'lights a cell, longest list'),
     statColumn('waste', 'waste', 'lights walked for each that reaches its pixel'),
     statColumn('excess', 'excess', 'length of the lists over the lights that reach the cell'),

@@ -133,6 +133,63 @@ TEST_F(Bench, ASceneWithOptionsOfTheCommandLine) {
   EXPECT_EQ(all.at("results")[0].at("stats").at("frames"), 2);
 }
 
+TEST_F(Bench, HostPassesHaveATimeOfTheirOwn) {
+  (void)output_of({"bench", "plane", "--size", "32x18", "--lights", "3000", "--method", "drobot-zbin", "--option",
+                   "sort=cpu", "--frames", "3", "--out", "out"});
+  const json stats = results().at("results").at(0).at("stats");
+  std::size_t hosts = 0;
+  for (const json& pass : stats.at("passes")) {
+    if (pass.at("part") != "host") continue;
+    ++hosts;
+    EXPECT_EQ(pass.at("name"), "sort and bins");
+    EXPECT_GT(pass.at("ms_p5"), 0.0);
+    EXPECT_LE(pass.at("ms_p5"), pass.at("ms_median"));
+    EXPECT_LE(pass.at("ms_median"), pass.at("ms_p95"));
+  }
+  EXPECT_EQ(hosts, 1U);
+}
+
+// A driver may have none to give, as Mesa's llvmpipe; what it gives must be whole, and nothing may come unasked.
+TEST_F(Bench, PipelineStatisticsComeWhenAskedFor) {
+  const Arguments command{"bench",    "plane", "--size",   "32x18", "--lights", "8",
+                          "--method", "tiled", "--frames", "2",     "--out",    "out"};
+  (void)output_of(command);
+  for (const json& pass : results().at("results").at(0).at("stats").at("passes")) {
+    EXPECT_FALSE(pass.contains("statistics"));
+    EXPECT_FALSE(pass.contains("registers"));
+  }
+  fs::remove_all(path("out"));
+  Arguments asking = command;
+  asking.emplace_back("--pipeline-statistics");
+  (void)output_of(asking);
+  for (const json& pass : results().at("results").at(0).at("stats").at("passes")) {
+    if (!pass.contains("statistics")) continue;
+    EXPECT_NE(pass.at("part"), "host");
+    for (const json& statistic : pass.at("statistics")) {
+      EXPECT_FALSE(statistic.at("executable").get<std::string>().empty());
+      EXPECT_FALSE(statistic.at("name").get<std::string>().empty());
+      EXPECT_TRUE(statistic.at("value").is_number());
+    }
+    if (pass.contains("registers")) {
+      EXPECT_GT(pass.at("registers"), 0);
+    }
+  }
+}
+
+TEST_F(Bench, DrobotsTablesStandBesideOurs) {
+  (void)output_of({"bench", "drobot-memory", "--max-size", "1920x1080", "--max-lights", "256", "--out", "out"});
+  const json all = results();
+  for (const json& result : all.at("results")) {
+    EXPECT_TRUE(result.at("times").is_null());
+    EXPECT_EQ(result.at("verdict"), "unverified");
+  }
+  const std::string tool = (fs::path(LAMPLIGHT_SOURCE_DIR) / "tools/drobot_tables").string();
+  ASSERT_EQ(script("'" + tool + "' out/results.json >table.md"), 0);
+  EXPECT_NE(read("table.md").find("| tiles | 240x135 | 1 | 1036 KB | 1036.8 KB |"), std::string::npos)
+      << read("table.md");
+  EXPECT_EQ(script("'" + tool + "' script.sh"), BAD_INPUT);
+}
+
 TEST_F(Bench, ACapturedFrameIsAScene) {
   (void)output_of({"capture", "plane", "--size", "48x27", "--lights", "8", "--out", "frame"});
   (void)output_of({"bench", "frame", "--method", "tiled", "--method", "clustered", "--frames", "2", "--out", "out"});

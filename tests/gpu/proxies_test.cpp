@@ -77,6 +77,20 @@ std::vector<shared::Light> slight_lights(const View& view, const std::vector<See
   return pack(lights);
 }
 
+/// Every resolution with every way to use depth; none for methods that draw no lights.
+std::vector<std::vector<std::string>> raster_settings(const Method& method) {
+  const auto choices = [&](std::string_view key) {
+    const auto spec = std::ranges::find(method.options, key, &OptionSpec::key);
+    return spec == method.options.end() ? std::vector<std::string_view>{} : spec->choices;
+  };
+  std::vector<std::vector<std::string>> all;
+  for (const std::string_view raster : choices("raster"))
+    for (const char* key : {"depth", "early"})
+      for (const std::string_view value : choices(key))
+        all.push_back({fmt::format("raster={}", raster), fmt::format("{}={}", key, value)});
+  return all;
+}
+
 class Proxies : public GpuTest {};
 
 TEST_F(Proxies, MissNoLightHoweverSlight) {
@@ -88,15 +102,65 @@ TEST_F(Proxies, MissNoLightHoweverSlight) {
     const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
     EXPECT_GT(lit.truth.lights.size(), LIGHTS / 2);
     for (const Method& method : methods()) {
-      const auto raster = std::ranges::find(method.options, "raster", &OptionSpec::key);
-      if (raster == method.options.end()) continue;
-      for (const std::string_view value : raster->choices) {
-        SCOPED_TRACE(fmt::format("{}, {} raster={}", projection, method.name, value));
-        check_method(renderer, lit,
-                     {.method = &method, .settings = {fmt::format("raster={}", value)}, .light_capacity = LIGHTS});
+      for (const std::vector<std::string>& settings : raster_settings(method)) {
+        SCOPED_TRACE(fmt::format("{}, {} {}", projection, method.name, fmt::join(settings, " ")));
+        check_method(renderer, lit, {.method = &method, .settings = settings, .light_capacity = LIGHTS});
       }
     }
   }
+}
+
+/// What the method walks with each value of the option, in the order of the values.
+std::vector<std::uint64_t> walked_with(Renderer& renderer, const LitCase& lit, std::string_view method,
+                                       std::string_view raster, std::string_view key,
+                                       std::initializer_list<std::string_view> values) {
+  std::vector<std::uint64_t> walked;
+  for (const std::string_view value : values) {
+    const Candidate candidate{.method = take(find_method(method)),
+                              .settings = {fmt::format("raster={}", raster), fmt::format("{}={}", key, value)},
+                              .light_capacity = LIGHTS};
+    walked.push_back(check_method(renderer, lit, candidate).evaluations);
+  }
+  return walked;
+}
+
+TEST_F(Proxies, EachUseOfDepthLeavesMoreOut) {
+  const TestScene& scene = builtin_test_scene("posts");
+  const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, "camera");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, WIDTH, HEIGHT, LIGHTS);
+  const LitCase dark = make_case(renderer, view, {});
+  const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
+  for (const std::string_view raster : {"full", "half-msaa", "quarter-msaa"}) {
+    SCOPED_TRACE(raster);
+    const auto tiles = walked_with(renderer, lit, "drobot-raster-tile", raster, "depth", {"test", "bounds", "stencil"});
+    EXPECT_GE(tiles[0], tiles[1]);
+    EXPECT_GT(tiles[1], tiles[2]);
+    const auto clusters = walked_with(renderer, lit, "drobot-raster-cluster", raster, "early", {"off", "on"});
+    EXPECT_GE(clusters[0], clusters[1]);
+  }
+}
+
+// Glass in the atrium lies before the depth buffer's surfaces, where an early end leaves lights out.
+TEST_F(Proxies, AnEarlyEndDoesNotDarkenGlass) {
+  const TestScene& scene = builtin_test_scene("atrium");
+  const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, "camera");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, WIDTH, HEIGHT, LIGHTS);
+  const LitCase dark = make_case(renderer, view, {});
+  const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
+  const auto info = [&](std::string_view method, const std::vector<std::string>& settings) {
+    const Method& row = *take(find_method(method));
+    return LightingInfo{.method = &row,
+                        .options = take(resolve_options(row, settings)),
+                        .width = WIDTH,
+                        .height = HEIGHT,
+                        .light_capacity = LIGHTS,
+                        .transparency = true};
+  };
+  ASSERT_FALSE(scene.gpu.blended().empty());
+  Lighting all(renderer.device(), shader_library(), info("all", {}));
+  Lighting early(renderer.device(), shader_library(), info("drobot-raster-cluster", {"early=on"}));
+  const HdrImage expected = renderer.render(all).image;
+  EXPECT_EQ(max_abs_difference(renderer.render(early).image, expected), 0.0F);
 }
 
 }  // namespace

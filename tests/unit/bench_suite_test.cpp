@@ -38,7 +38,8 @@ void expect_error(const std::string& text, const std::vector<std::string>& parts
 TEST(BenchSuite, EveryBuiltInSuiteIsOneAndNamesItself) {
   const std::vector<std::string> names = suite_names();
   for (const char* name :
-       {"quick", "stewart-1.3", "stewart-1.6", "stewart-flight", "article", "primal", "tests", "tile-size", "lights"})
+       {"quick", "stewart-1.3", "stewart-1.6", "stewart-flight", "article", "primal", "tests", "tile-size", "lights",
+        "drobot-scalarisation", "drobot-memory", "drobot-zbin", "drobot-raster"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   for (const std::string& name : names) {
     SCOPED_TRACE(name);
@@ -88,6 +89,18 @@ TEST(BenchSuite, ValuesThatAreWrong) {
   expect_error(suite_with(R"("flight": {"from": 9, "to": 3})"), {"flight", "from <= to"});
   expect_error(suite_with(R"("verify": 3)"), {"verify", "true, false or"});
   EXPECT_THROW(static_cast<void>(load_suite("nowhere.json")), Error);
+}
+
+TEST(BenchSuite, ASeriesThatIsNotTimed) {
+  const Suite suite = parse_suite(suite_with(R"("timed": false)"), "mine.json");
+  const Group group = expand(suite, {.frames = 7, .most_frames = 5}).groups.at(0);
+  EXPECT_EQ(group.frames, 0U);
+  EXPECT_EQ(group.warm_up, 0U);
+  EXPECT_EQ(words_of(group.verify), "nothing");
+  EXPECT_NE(group.unchecked.find("neither timed nor verified"), std::string::npos);
+  expect_error(suite_with(R"("timed": 1)"), {"timed", "true or false"});
+  for (const char* other : {R"("verify": true)", R"("pictures": true)", R"("flight": {"from": 1, "to": 2})"})
+    expect_error(suite_with(R"("timed": false, )" + std::string(other)), {"timed", "expected true where"});
 }
 
 TEST(BenchSuite, SweepsMultiply) {

@@ -131,9 +131,10 @@ struct Plan {
   std::vector<Pass> passes;
   LookUp lookup;
   std::optional<FusedLookUp> fused;
-  std::uint64_t cells = 1;            ///< cells of the look-up
-  bool ordered = true;                ///< lists ascend
-  bool approximate = false;           ///< may miss lights, by the paper's design
+  std::uint64_t cells = 1;   ///< cells of the look-up
+  bool ordered = true;       ///< lists ascend
+  bool approximate = false;  ///< may miss lights, by the paper's design
+  bool any_depth = true;     ///< false: of a row that says any_depth, but with options that need the depth buffer
   std::uint32_t light_capacity = 0;   ///< the problem's
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;   ///< everything that can overflow

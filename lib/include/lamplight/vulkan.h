@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lamplight/vulkan/buffer.h"       // IWYU pragma: export
-#include "lamplight/vulkan/culler.h"       // IWYU pragma: export
-#include "lamplight/vulkan/device.h"       // IWYU pragma: export
-#include "lamplight/vulkan/pipeline.h"     // IWYU pragma: export
-#include "lamplight/vulkan/plan_runner.h"  // IWYU pragma: export
-#include "lamplight/vulkan/recorder.h"     // IWYU pragma: export
+#include "lamplight/vulkan/buffer.h"               // IWYU pragma: export
+#include "lamplight/vulkan/culler.h"               // IWYU pragma: export
+#include "lamplight/vulkan/device.h"               // IWYU pragma: export
+#include "lamplight/vulkan/pipeline.h"             // IWYU pragma: export
+#include "lamplight/vulkan/pipeline_statistics.h"  // IWYU pragma: export
+#include "lamplight/vulkan/plan_runner.h"          // IWYU pragma: export
+#include "lamplight/vulkan/recorder.h"             // IWYU pragma: export

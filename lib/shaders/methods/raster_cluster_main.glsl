@@ -1,6 +1,7 @@
 // A fragment of a light's proxy: sets the light's bit in clusters of its tile.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Cluster Rasterizer".
-// Promise: the bits of a tile reach from the nearest front to the farthest back without a gap. A walk looks for the
+// Promise: the bits of a tile reach from the nearest front to the farthest back without a gap, as far as there are surfaces
+// where the depth pre-pass ends them early. A walk looks for the
 // farthest mark of its tile first, because marks may have gaps where a sliver of the back lies between two pixels.
 // Needs: set_bit(word, bit).
 // SPDX-License-Identifier: Apache-2.0
@@ -11,7 +12,20 @@ layout(constant_id = 7) const uint SLICES = 32;
 layout(constant_id = 8) const uint SLICE_SCALE = 0;
 layout(constant_id = 9) const uint NEAR_MM = 500;
 layout(constant_id = 10) const uint FAR_M = 500;
+layout(constant_id = 11) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
 #include "common/slices.glsl"
+#include "lamplight/shared/tile.h"
+
+layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
+
+// Slices between the nearest and the farthest surface around a pixel; x > y: none. Without the depth pre-pass, all.
+uvec2 surface_slices(uvec2 pixel) {
+  if (EARLY_PX == 0u) return uvec2(0u, SLICES - 1u);
+  const uint side = max(EARLY_PX, 1u);
+  const uvec2 at = pixel / side;
+  const TileRanges range = ranges[at.x + (frame.size_px.x + side - 1u) / side * at.y];
+  return range.z_near[0] > range.z_far[0] ? uvec2(1u, 0u) : slices_of(range.z_near[0], range.z_far[0]);
+}
 
 uint cluster_word(uvec2 tile, uint slice) {
   const uvec2 tiles = (frame.size_px + TILE_PX - 1u) / TILE_PX;
@@ -33,10 +47,14 @@ void main() {
   const LightProxy proxy = proxies[in_light];
   const bool everywhere = reaches_everywhere();
   const vec2 depths = everywhere ? vec2(proxy.z_near, proxy.z_far) : clamp(face, proxy.z_near, proxy.z_far);
+  const uvec2 surface = surface_slices(pixel);
   uvec2 slices = slices_of(depths.x, depths.y);
   const uvec2 tile = pixel / TILE_PX;
   const uint bit = 1u << (in_light % 32u);
-  if (MODE == CLUSTERS_WALK) slices.y = farthest_mark(tile, bit, slices.x, slices_of(proxy.z_far, proxy.z_far).y);
+  if (MODE == CLUSTERS_WALK && slices.x <= surface.y)
+    slices.y = farthest_mark(tile, bit, slices.x, slices_of(proxy.z_far, proxy.z_far).y);
   if (MODE == CLUSTERS_FROM_EYE) slices.x = 0u;
+  // Marks stay where they are: a walk must not take one that is left out for a back too thin to see.
+  if (MODE != CLUSTERS_MARK) slices = uvec2(max(slices.x, surface.x), min(slices.y, surface.y));
   for (uint slice = slices.x; slice <= slices.y; ++slice) set_bit(cluster_word(tile, slice), bit);
 }

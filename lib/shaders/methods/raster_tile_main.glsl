@@ -1,6 +1,7 @@
 // A fragment of a light's proxy: sets the light's bit in its tile, if depth allows.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Conservative Rasterized
-// Culling": eye outside: front faces nearer than the surface; eye inside: back faces behind it; and depth bounds.
+// Culling": eye outside: front faces nearer than the surface; eye inside: back faces behind it; and depth bounds. In two
+// passes, eye outside: front faces set a stencil bit, then back faces behind the surface set the tile's where it is set.
 // Needs: set_bit(word, bit).
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_EXT_samplerless_texture_functions : require
@@ -9,6 +10,11 @@
 
 layout(set = 0, binding = 4) uniform texture2D depth_image;
 layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
+
+layout(set = 0, binding = 7, scalar) readonly buffer StencilBuffer { uint stencil[]; };  // read by back faces of two
+
+layout(constant_id = 6) const uint STEP = 0;  // TILES_ONE_PASS, TILES_STENCIL or TILES_BEHIND
+layout(constant_id = 7) const bool DEPTH_BOUNDS = true;
 
 const float ROUND_DEPTH = 1e-5;  // of a depth: interpolation in 32 bits
 
@@ -27,10 +33,14 @@ void main() {
   const uint tile = at.x + (frame.size_px.x + TILE_PX - 1u) / TILE_PX * at.y;
   const vec2 surface = surface_depths(pixel, tile);
   const LightProxy proxy = proxies[in_light];
-  bool meets = surface.x <= surface.y && surface.x <= proxy.z_far && surface.y >= proxy.z_near;
-  if (INSIDE == PROXIES_OUTSIDE)
+  const uint word = tile * WORDS + in_light / 32u;
+  const uint bit = 1u << (in_light % 32u);
+  bool meets = surface.x <= surface.y;
+  if (DEPTH_BOUNDS) meets = meets && surface.x <= proxy.z_far && surface.y >= proxy.z_near;
+  if (INSIDE == PROXIES_OUTSIDE && STEP != TILES_BEHIND)
     meets = meets && min(face.x, proxy.z_far) <= surface.y + ROUND_DEPTH * abs(surface.y);
   else
     meets = meets && (reaches_everywhere() || max(face.y, proxy.z_near) >= surface.x - ROUND_DEPTH * abs(surface.x));
-  if (meets) set_bit(tile * WORDS + in_light / 32u, 1u << (in_light % 32u));
+  if (STEP == TILES_BEHIND) meets = meets && (stencil[word] & bit) != 0u;
+  if (meets) set_bit(word, bit);
 }

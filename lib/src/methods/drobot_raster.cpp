@@ -36,7 +36,7 @@ Raster raster_of(Plan& plan, const Problem& problem) {
 }
 
 struct Buffers {
-  ResourceId proxies, drawn, draws, ranges, bits;
+  ResourceId proxies, drawn, draws, ranges, stencil, bits;
 };
 
 Pass proxy_pass(const Problem& problem, const Raster& raster, const Buffers& b) {
@@ -102,8 +102,29 @@ Buffers add_proxies(Plan& plan, const Problem& problem, const Raster& raster) {
   return b;
 }
 
-Plan plan_raster_tile(const Problem& problem) {
+/// A draw of tiles, and what its fragments do.
+struct TileDraw {
+  Draw draw;
+  std::uint32_t step;
+  ResourceId writes;
+};
+
+/// Draws in their order. With depth=stencil the eye's outside takes two: front faces into bits that are the stencil,
+/// kept by the tile so that one draw serves all lights, then back faces.
+std::vector<TileDraw> tile_draws(Plan& plan, const Problem& problem, Buffers& b) {
   using Cull = RasterState::Cull;
+  const char* shader = compacts(plan, problem) ? "methods/raster_tile_compact" : "methods/raster_tile";
+  const TileDraw around{
+      {"back faces around the eye", shader, shared::PROXIES_INSIDE, Cull::front}, shared::TILES_ONE_PASS, b.bits};
+  const Draw front{"front faces", shader, shared::PROXIES_OUTSIDE, Cull::back};
+  if (problem.options.word("depth") != "stencil") return {{front, shared::TILES_ONE_PASS, b.bits}, around};
+  b.stencil = plan.add({.name = "tile stencil", .bytes = plan.buffers[b.bits - PLAN_BUFFER].bytes, .zeroed = true});
+  return {{front, shared::TILES_STENCIL, b.stencil},
+          {{"back faces", shader, shared::PROXIES_OUTSIDE, Cull::front}, shared::TILES_BEHIND, b.bits},
+          around};
+}
+
+Plan plan_raster_tile(const Problem& problem) {
   const std::uint32_t tile_px = problem.options.integer("tile");
   const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
@@ -116,12 +137,14 @@ Plan plan_raster_tile(const Problem& problem) {
     b.ranges = plan.add({.name = "tile depth ranges", .bytes = tiles.count() * sizeof(shared::TileRanges)});
     plan.passes.push_back(depth_pass(tile_px, tiles, b.ranges));
   }
-  const char* shader = compacts(plan, problem) ? "methods/raster_tile_compact" : "methods/raster_tile";
-  for (const Draw& draw : {Draw{"front faces", shader, shared::PROXIES_OUTSIDE, Cull::back},
-                           Draw{"back faces around the eye", shader, shared::PROXIES_INSIDE, Cull::front}}) {
+  const std::uint32_t depth_bounds = problem.options.word("depth") == "test" ? 0 : 1;
+  for (const auto& [draw, step, writes] : tile_draws(plan, problem, b)) {
     Pass pass = draw_pass(problem, raster, b, draw);
-    pass.bindings.insert(pass.bindings.end(),
-                         {{INPUT_DEPTH}, {raster.exact() ? INPUT_FRAME : b.ranges}, {b.bits, Access::read_write}});
+    pass.constants.insert(pass.constants.end(), {step, depth_bounds});
+    pass.bindings.insert(pass.bindings.end(), {{INPUT_DEPTH},
+                                               {raster.exact() ? INPUT_FRAME : b.ranges},
+                                               {writes, Access::read_write},
+                                               {step == shared::TILES_BEHIND ? b.stencil : INPUT_FRAME}});
     plan.passes.push_back(std::move(pass));
   }
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_bits"),
@@ -129,6 +152,9 @@ Plan plan_raster_tile(const Problem& problem) {
                  .bindings = {{INPUT_FRAME}, {b.bits}, {INPUT_FRAME}}};
   return plan;
 }
+
+/// The depth pass's work groups take no larger squares.
+constexpr std::uint32_t LARGEST_RANGE_PX = 32;
 
 Plan plan_raster_cluster(const Problem& problem) {
   using Cull = RasterState::Cull;
@@ -142,6 +168,13 @@ Plan plan_raster_cluster(const Problem& problem) {
   plan.cells = clusters;
   Buffers b = add_proxies(plan, problem, raster);
   b.bits = plan.add({.name = "cluster bits", .bytes = clusters * words * 4, .zeroed = true});
+  const std::uint32_t early_px = o.word("early") == "on" ? std::min(o.integer("tile"), LARGEST_RANGE_PX) : 0;
+  if (early_px != 0) {
+    const parts::TileGrid squares = parts::tile_grid(problem, early_px);
+    b.ranges = plan.add({.name = "tile depth ranges", .bytes = squares.count() * sizeof(shared::TileRanges)});
+    plan.passes.push_back(depth_pass(early_px, squares, b.ranges));
+    plan.any_depth = false;
+  }
   const char* shader = compacts(plan, problem) ? "methods/raster_cluster_compact" : "methods/raster_cluster";
   const std::pair<Draw, std::uint32_t> draws[] = {
       {{"mark back faces", shader, shared::PROXIES_OUTSIDE, Cull::front}, shared::CLUSTERS_MARK},
@@ -151,7 +184,8 @@ Plan plan_raster_cluster(const Problem& problem) {
     Pass pass = draw_pass(problem, raster, b, draw);
     pass.constants.push_back(mode);
     pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
-    pass.bindings.push_back({b.bits, Access::read_write});
+    pass.constants.push_back(early_px);
+    pass.bindings.insert(pass.bindings.end(), {{b.bits, Access::read_write}, {early_px != 0 ? b.ranges : INPUT_FRAME}});
     plan.passes.push_back(std::move(pass));
   }
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),
@@ -192,6 +226,12 @@ Method drobot_raster_tile_method() {
       .result = "tile_bits",
       .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "8", .choices = {"8", "16", "32"}},
                   raster_option(),
+                  {.key = "depth",
+                   .help =
+                       "faces against the surface's depth; and the light's depths against it; and front and back faces "
+                       "both, in two passes with a stencil bit a tile",
+                   .fallback = "bounds",
+                   .choices = {"test", "bounds", "stencil"}},
                   compact_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_tile,
@@ -215,6 +255,10 @@ Method drobot_raster_cluster_method() {
                   parts::slice_near_option(),
                   parts::slice_far_option(),
                   raster_option(),
+                  {.key = "early",
+                   .help = "walks end at the surfaces of a depth pre-pass; then only its depths are looked up right",
+                   .fallback = "off",
+                   .choices = {"on", "off"}},
                   compact_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_cluster,

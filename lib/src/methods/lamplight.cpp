@@ -119,7 +119,9 @@ std::uint32_t lists_may_wrap(const Sizes& s) {
 
 std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t cell_pixels = s.tile_px * s.cell_tiles * s.tile_px * s.cell_tiles;
-  const std::uint32_t threads = group_threads(problem, THREADS);
+  // 65 535 groups, all that some devices have, are one short of 16 million lights.
+  const bool many_lights = parts::divide_up(parts::capacity(problem), THREADS) > problem.traits.max_groups[0];
+  const std::uint32_t threads = group_threads(problem, many_lights ? 2 * THREADS : THREADS);
   const std::uint32_t hits = s.pieces * PIECE;  // as many as entries: each becomes one
   const std::uint32_t group_hits = GROUP_HITS * threads;
   const std::uint32_t run_words = parts::divide_up(s.block, 32);

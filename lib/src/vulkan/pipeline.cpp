@@ -39,6 +39,10 @@ Result<OwnedShaderModule> make_module(const Device& device, const std::string& n
   return OwnedShaderModule(device.handle, module);
 }
 
+VkPipelineCreateFlags creation_flags(const Device& device) {
+  return device.pipeline_statistics ? VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR : 0;
+}
+
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, const OwnedShaderModule& module,
                                            const Specialization& specialization) {
   return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -171,6 +175,7 @@ Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo
   const Specialization specialization(info.constants);
   const VkComputePipelineCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+      .flags = creation_flags(device),
       .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module.value(), specialization),
       .layout = objects.layout.get()};
   VkPipeline handle = VK_NULL_HANDLE;
@@ -178,6 +183,7 @@ Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
   objects.pipeline = OwnedPipeline(device.handle, handle);
+  objects.statistics = read_statistics(device, handle);
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
   return Pipeline(std::move(objects));
 }
@@ -201,6 +207,7 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
     stages.push_back(stage_info(stage, modules.back(), specialization));
   }
   GraphicsCreate create(state);
+  create.info.flags = creation_flags(device);
   create.info.stageCount = static_cast<std::uint32_t>(stages.size());
   create.info.pStages = stages.data();
   create.info.layout = objects.layout.get();
@@ -209,6 +216,7 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
   objects.pipeline = OwnedPipeline(device.handle, handle);
+  objects.statistics = read_statistics(device, handle);
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
   return Pipeline(std::move(objects));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cstring>
 
 #include "lamplight/shader_code.h"
@@ -115,6 +116,13 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   return runner;
 }
 
+std::span<const PipelineStatistic> PlanRunner::statistics(std::string_view pass) const {
+  for (const auto* passes : {&separate_, &fused_})
+    for (const BuiltPass& built : *passes)
+      if (built.pass.name == pass) return built.pipeline.statistics();
+  return {};
+}
+
 VkBuffer PlanRunner::buffer(ResourceId id) const {
   return id < PLAN_BUFFER || id == NO_RESOURCE ? VK_NULL_HANDLE : buffers_[id - PLAN_BUFFER].handle();
 }
@@ -146,6 +154,7 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
   assert(inputs.light_count <= plan_.light_capacity && "make a plan with a larger light capacity");
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
   zero_buffers(recorder);
+  host_times_.clear();
   const bool changed = projection_changed(inputs);
   for (const BuiltPass& built : passes) {
     if (built.pass.on_projection_change) {
@@ -207,10 +216,13 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
   recorder.end_pass();
 }
 
-void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) const {
+void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) {
   std::vector<std::span<std::byte>> mapped;
   for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
+  const auto begin = std::chrono::steady_clock::now();
   pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+  host_times_.push_back({pass.name, taken.count()});
 }
 
 void PlanRunner::record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const {

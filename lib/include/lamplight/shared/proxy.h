@@ -39,6 +39,12 @@ LAMP_CONST CLUSTERS_MARK = 0u;
 LAMP_CONST CLUSTERS_WALK = 1u;
 LAMP_CONST CLUSTERS_FROM_EYE = 2u;
 
+// What fragments of a face do to tiles: set the light's bit; of two passes, set its stencil bit, then set its bit where
+// the stencil bit is set.
+LAMP_CONST TILES_ONE_PASS = 0u;
+LAMP_CONST TILES_STENCIL = 1u;
+LAMP_CONST TILES_BEHIND = 2u;
+
 struct ProxyDraw {
   uint vertices;
   uint instances;

@@ -49,6 +49,8 @@ struct Device {
   DeviceTraits traits;
   float timestamp_period_ns = 1.0F;
   PipelineStore* pipelines = nullptr;  ///< not owned; where pipelines are shared, or null: each is made anew
+  bool pipeline_statistics = false;    ///< VK_KHR_pipeline_executable_properties and its feature are enabled, and
+                                       ///< pipelines shall be compiled so that the driver can describe them
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;      ///< null without VK_EXT_debug_utils
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;          ///< null without VK_EXT_debug_utils

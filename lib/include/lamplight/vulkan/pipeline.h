@@ -12,6 +12,7 @@
 
 #include "lamplight/vulkan/device.h"
 #include "lamplight/vulkan/owned.h"
+#include "lamplight/vulkan/pipeline_statistics.h"
 
 namespace lamp::vulkan {
 
@@ -64,6 +65,10 @@ class Pipeline {
   [[nodiscard]] VkPipeline handle() const { return objects_->pipeline.get(); }
   [[nodiscard]] VkPipelineLayout layout() const { return objects_->layout.get(); }
   [[nodiscard]] VkPipelineBindPoint bind_point() const { return objects_->bind_point; }
+  /// What the driver says of it; empty unless the device has `pipeline_statistics`, or of no pipeline.
+  [[nodiscard]] std::span<const PipelineStatistic> statistics() const {
+    return objects_ ? std::span(objects_->statistics) : std::span<const PipelineStatistic>();
+  }
 
  private:
   struct Objects {
@@ -71,6 +76,7 @@ class Pipeline {
     OwnedPipelineLayout layout;
     OwnedPipeline pipeline;
     VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
+    std::vector<PipelineStatistic> statistics;
   };
   explicit Pipeline(Objects objects) : objects_(std::make_shared<const Objects>(std::move(objects))) {}
   [[nodiscard]] static std::optional<Error> make_layout(const Device& device, const PipelineInfo& info, Objects& out);

@@ -61,6 +61,14 @@ class PlanRunner {
   void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0) const;
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// A host pass of the last record(), and how long it took on the CPU.
+  struct HostTime {
+    std::string pass;
+    double ms = 0.0;
+  };
+  [[nodiscard]] std::span<const HostTime> host_times() const { return host_times_; }
+  /// What the driver says of a pass's pipeline (Pipeline::statistics); of the first pass of that name.
+  [[nodiscard]] std::span<const PipelineStatistic> statistics(std::string_view pass) const;
   /// How often passes that wait for a change of projection have been recorded.
   [[nodiscard]] std::uint64_t projection_rebuilds() const { return projection_rebuilds_; }
   [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate) const;
@@ -75,7 +83,7 @@ class PlanRunner {
   [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
   [[nodiscard]] static Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
                                                             const ShaderSource& shaders);
-  void record_host(const Pass& pass, const PlanInputs& inputs) const;
+  void record_host(const Pass& pass, const PlanInputs& inputs);
   void record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const;
   void dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
   void draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
@@ -88,6 +96,7 @@ class PlanRunner {
   std::vector<BuiltPass> fused_;
   std::optional<glm::mat4> projection_;  ///< of the last recorded frame
   std::uint64_t projection_rebuilds_ = 0;
+  std::vector<HostTime> host_times_;
 };
 
 /// The descriptor type of a plan's resource.
