@@ -65,7 +65,7 @@ nlohmann::json scenes_json() {
 }
 
 void print_scenes() {
-  for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<12} {}\n", scene.name, scene.summary);
+  for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<14} {}\n", scene.name, scene.summary);
   fmt::print("Any .gltf or .glb file is a scene too, and any capture (docs/capture.md).\n");
 }
 

@@ -32,20 +32,18 @@ constexpr double TURN = 2.0 * std::numbers::pi;
 struct Ranges {
   float min = 0.0F;
   float max = 0.0F;
-  float power = 0.0F;
+  double power = 0.0;
   float spot_reach = 1.0F;
 };
 
-// Ranges from max / ratio to max, of which about so many lie in the largest tenth, and as many overlap as everywhere.
+// Ranges from max / ratio to max, of which about LARGE lie above half of max, and as many overlap as everywhere.
 Ranges wide_ranges(double sphere_m3, double count, float ratio) {
   constexpr double LARGE = 8.0;
-  const double power = std::clamp(std::log(count / LARGE) / std::log(0.1 * ratio), 0.05, 2.0);
+  const double power = std::clamp(std::log(count / LARGE) / std::log(0.5 * ratio), 0.05, 2.0);
   const double mean_cube = power / (3.0 - power) * (std::pow(ratio, 3.0 - power) - 1.0) /
                            (1.0 - std::pow(ratio, -power));  // over the smallest range's
   const double smallest = std::cbrt(sphere_m3 / mean_cube);
-  return {.min = static_cast<float>(smallest),
-          .max = static_cast<float>(smallest * ratio),
-          .power = static_cast<float>(power)};
+  return {.min = static_cast<float>(smallest), .max = static_cast<float>(smallest * ratio), .power = power};
 }
 
 Ranges ranges_of(const OpenAir& air, const PlaceLights& how) {
@@ -70,11 +68,12 @@ Ranges ranges_of(const OpenAir& air, const PlaceLights& how) {
 float draw_range(Random& random, const Ranges& ranges) {
   const float share = random.unit();
   const float ratio = ranges.max / ranges.min;
-  const float range =
-      ranges.power > 0.0F
-          ? ranges.min * std::pow(1.0F - share * (1.0F - std::pow(ratio, -ranges.power)), -1.0F / ranges.power)
-          : ranges.min * std::pow(ratio, share);
-  return std::clamp(range, ranges.min, ranges.max);
+  float times_min = std::pow(ratio, share);
+  if (ranges.power > 0.0) {  // in 64 bits: what counts are the shares near 1
+    times_min =
+        static_cast<float>(std::pow(1.0 - share * (1.0 - std::pow(double{ratio}, -ranges.power)), -1.0 / ranges.power));
+  }
+  return std::clamp(ranges.min * times_min, ranges.min, ranges.max);
 }
 
 void check(const PlaceLights& how) {
