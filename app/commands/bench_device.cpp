@@ -42,8 +42,10 @@ View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
 
 }  // namespace
 
-BenchDevice::BenchDevice(const std::string& device, const std::string& shader_dir)
-    : shaders_(shader_dir), context_(std::make_unique<Context>(ContextInfo{.device = device})) {}
+BenchDevice::BenchDevice(const std::string& device, const std::string& shader_dir, const std::string& calibration)
+    : shaders_(shader_dir),
+      context_(std::make_unique<Context>(ContextInfo{.device = device})),
+      chooser_(*context_, shaders_, calibration) {}
 
 BenchScene& BenchDevice::scene(const std::string& name) {
   if (scene_.gpu != nullptr && scene_name_ == name) return scene_;

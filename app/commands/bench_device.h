@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/groups.h"
+#include "commands/auto_method.h"
 #include "commands/request.h"
 #include "scene/open_air.h"
 
@@ -23,17 +24,20 @@ struct BenchScene {
 
 class BenchDevice {
  public:
-  BenchDevice(const std::string& device, const std::string& shader_dir);
+  /// `calibration`: a file that `auto` goes by, or empty.
+  BenchDevice(const std::string& device, const std::string& shader_dir, const std::string& calibration);
 
   /// Loads a scene unless it is the last one's.
   [[nodiscard]] BenchScene& scene(const std::string& name);
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
+  [[nodiscard]] AutoMethod& chooser() { return chooser_; }
   [[nodiscard]] bool software() const { return context_->row().kind == "CPU"; }
 
  private:
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
+  AutoMethod chooser_;
   std::string scene_name_;
   BenchScene scene_;
 };

@@ -55,6 +55,7 @@ void print_methods() {
                m.approximate ? " [approximate]" : "", m.summary, m.source);
     for (const OptionSpec& spec : m.options) print_option(spec);
   }
+  fmt::print("--method auto, the default, takes whichever is predicted to take least time (docs/auto.md).\n");
 }
 
 nlohmann::json scenes_json() {

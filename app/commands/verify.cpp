@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "commands/auto_method.h"
 #include "commands/commands.h"
 #include "commands/stats.h"
 
@@ -20,8 +21,9 @@ struct VerifyOptions {
 
 /// A method under test: its look-ups, and what they were found to hold.
 struct Candidate {
-  Candidate(Lighting separate_lighting, std::uint32_t width)
-      : lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+  Candidate(Lighting separate_lighting, std::vector<std::string> settings, std::uint32_t width)
+      : options(std::move(settings)), lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+  std::vector<std::string> options;
   Lighting lighting;
   Verification separate;
   Verification fused;
@@ -31,14 +33,13 @@ void progress(std::string_view text) {
   if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", text);
 }
 
-std::vector<const Method*> wanted_methods(const VerifyOptions& o) {
-  std::vector<const Method*> wanted;
-  for (const std::string& name : o.methods) wanted.push_back(&parse_method(name));
+std::vector<std::string> wanted_methods(const VerifyOptions& o) {
+  std::vector<std::string> wanted = o.methods;
   if (wanted.empty())
-    for (const Method& method : methods()) wanted.push_back(&method);
+    for (const Method& method : methods()) wanted.emplace_back(method.name);
   if (wanted.size() != 1 && !o.request.options.empty())
     throw Error("--option: belongs to one method; name it with --method");
-  for (const Method* method : wanted) check_request(o.request, *method);
+  for (const std::string& method : wanted) check_request(o.request, method);
   return wanted;
 }
 
@@ -89,7 +90,7 @@ Stats render_candidate(const VerifyOptions& o, Session& session, const Setup& se
   float difference = max_abs_difference(rendered.image, reference);
   if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
     Lighting fused =
-        session.lighting(*candidate.lighting.info().method, o.request.options, ShadingPath::tiled_deferred);
+        session.lighting(*candidate.lighting.info().method, candidate.options, ShadingPath::tiled_deferred);
     difference = std::max(difference, max_abs_difference(session.renderer().render(fused).image, reference));
   }
   Stats stats = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1);
@@ -102,7 +103,7 @@ Stats render_candidate(const VerifyOptions& o, Session& session, const Setup& se
 
 Exit verify(const VerifyOptions& o) {
   const ShadingPath path = parse_path(o.request.path);
-  const std::vector<const Method*> wanted = wanted_methods(o);
+  const std::vector<std::string> wanted = wanted_methods(o);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
   Lighting brute = session.lighting(parse_method("all"), {}, path);
@@ -111,8 +112,8 @@ Exit verify(const VerifyOptions& o) {
   const std::vector<float> depth = session.renderer().read_depth();
 
   std::vector<Candidate> candidates;
-  for (const Method* method : wanted)
-    candidates.emplace_back(session.lighting(*method, o.request.options, path), setup.view.width());
+  for (const MethodChoice& chosen : chosen_methods(session, setup, o.request, wanted, o.json))
+    candidates.emplace_back(session.lighting(*chosen.method, chosen.options, path), chosen.options, setup.view.width());
   for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
                  [&](const Truth& truth) { visit_band(session, truth, candidates); });
 
@@ -145,9 +146,12 @@ Run add_verify(CLI::App& app) {
   o->request.size = "640x360";
   o->request.lights = 1024;
   add_common_options(*command, o->request);
-  command->add_option("--method", o->methods, "method to check; may be given more than once; default: all of them")
+  command
+      ->add_option("--method", o->methods,
+                   "method to check, or auto; may be given more than once; default: all of them")
       ->allow_extra_args(false);
   command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  add_auto_options(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   command->add_flag("--json", o->json, "print an array of Stats objects, one a method");
