@@ -50,7 +50,7 @@ std::vector<std::string> options_of(const AutoCandidate& candidate, const Worklo
   if (!candidate.option.empty()) options.emplace_back(candidate.option);
   if (candidate.method != "lamplight") return options;
   const TileLoad& load = load_of(candidate, workload);
-  add_room(options, "mean_cells", load.cells, 8.0);
+  add_room(options, "mean_cells", load.entries, 8.0);
   add_room(options, "mean_capacity", load.exact, 128.0);
   return options;
 }

@@ -197,25 +197,26 @@ Sums sums_of(const View& view, std::span<const float> depth, std::uint32_t px, s
     }
   }
   const auto count = static_cast<double>(sums.tiles);
-  for (double TileLoad::* value :
+  for (double TileLoad::* const value :
        {&TileLoad::column, &TileLoad::interval, &TileLoad::walked, &TileLoad::slab, &TileLoad::exact})
     sums.load.*value /= count;
   sums.reached /= count;
   return sums;
 }
 
-// Cells of `lamplight` are squares of tiles, as small as their number allows. A light is in those whose depths it
-// meets.
-double cells_a_light(const View& view, std::span<const float> depth, std::uint32_t tile_px,
-                     std::span<const Sphere> spheres, double all_lights) {
+// Cells of `lamplight` are squares of tiles, as small as their number allows.
+void add_cells(TileLoad& load, const View& view, std::span<const float> depth, std::uint32_t tile_px,
+               std::span<const Sphere> spheres, double all_lights) {
   std::uint32_t px = tile_px;
   std::uint64_t count = 0;
   do {
     px *= 2;
     count = (view.width() + px - 1ULL) / px * ((view.height() + px - 1ULL) / px);
   } while (count > MOST_CELLS);
-  const double met = sums_of(view, depth, px, spheres, all_lights).load.interval;
-  return met * static_cast<double>(count) / std::max(1.0, all_lights);
+  const TileLoad met = sums_of(view, depth, px, spheres, all_lights).load;
+  const double share = static_cast<double>(count) / std::max(1.0, all_lights);
+  load.cells = met.column * share;
+  load.entries = met.interval * share;
 }
 
 }  // namespace
@@ -225,8 +226,8 @@ Workload estimate_workload(const View& view, std::span<const float> depth, std::
   const auto all = static_cast<double>(lights.size());
   Sums fine = sums_of(view, depth, 8, spheres, all);
   Sums coarse = sums_of(view, depth, 16, spheres, all);
-  fine.load.cells = cells_a_light(view, depth, 8, spheres, all);
-  coarse.load.cells = cells_a_light(view, depth, 16, spheres, all);
+  add_cells(fine.load, view, depth, 8, spheres, all);
+  add_cells(coarse.load, view, depth, 16, spheres, all);
   return {.width = view.width(),
           .height = view.height(),
           .lights = static_cast<std::uint32_t>(lights.size()),

@@ -61,7 +61,7 @@ std::size_t candidate(const std::string& label) {
 }
 
 Workload some_workload(std::uint32_t lights) {
-  const TileLoad load{.column = 60, .interval = 30, .walked = 30, .slab = 20, .exact = 15, .cells = 3};
+  const TileLoad load{.column = 60, .interval = 30, .walked = 30, .slab = 20, .exact = 15, .cells = 3, .entries = 2};
   return {.width = 1920, .height = 1080, .lights = lights, .capacity = lights, .tile8 = load, .tile16 = load};
 }
 
@@ -88,6 +88,8 @@ TEST(Workload, CloserTestsKeepFewerLights) {
     EXPECT_GT(load.slab, load.exact);
     EXPECT_GE(load.exact, w.reached);
     EXPECT_EQ(load.interval, load.walked);
+    EXPECT_GT(load.cells, load.entries);
+    EXPECT_GT(load.entries, 0.0);
   }
   EXPECT_LT(w.tile8.interval, w.tile16.interval);
 }
@@ -242,7 +244,7 @@ TEST(Choose, GivesLamplightRoom) {
   calibration.costs[candidate("lamplight")] = {};
   Workload w = some_workload(4096);
   EXPECT_TRUE(choose(calibration, w, large_device()).options.empty());
-  w.tile16.cells = 40.0;
+  w.tile16.entries = 40.0;
   w.tile16.exact = 100.0;
   EXPECT_EQ(choose(calibration, w, large_device()).options,
             (std::vector<std::string>{"mean_cells=80", "mean_capacity=200"}));

@@ -23,7 +23,8 @@ struct TileLoad {
   double walked = 0.0;    ///< interval, but all lights where more than 512 do: tiled lists have no more places
   double slab = 0.0;      ///< of column, what spans a pixel's own depth
   double exact = 0.0;     ///< lights that reach the tile's surfaces, cones included
-  double cells = 0.0;     ///< cells that a light of any kind covers, as `lamplight` has them
+  double cells = 0.0;     ///< cells of `lamplight` whose columns a light touches, mean over all lights
+  double entries = 0.0;   ///< of those, cells whose depths it touches: it is listed there
 };
 
 /// What a frame asks of a method, as far as the cost model looks.
