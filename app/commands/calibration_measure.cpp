@@ -15,7 +15,9 @@ namespace {
 
 /// What is measured: every point of a device's plan, by every candidate.
 struct Point {
-  std::uint32_t width, height, lights;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t lights = 0;
   float range = 0.0F;  ///< m, of all lights; 0: automatic
 };
 

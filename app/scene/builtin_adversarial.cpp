@@ -123,7 +123,8 @@ void add_yard(Scene& scene, const Materials& m) {
   add_cylinder(column, 0.5F, -4.1F, 8.0F, 20);
   const std::uint32_t mesh = add_mesh(scene, column, m.metal);
   for (int i = 0; i < 35; ++i) {
-    place(scene, mesh, at(7.0F * static_cast<float>(i % 7 - 3), 0, -11.0F - 8.0F * static_cast<float>(i / 7)));
+    const int row = i / 7;
+    place(scene, mesh, at(7.0F * static_cast<float>(i % 7 - 3), 0, -11.0F - 8.0F * static_cast<float>(row)));
   }
   Geometry sheds;
   add_box(sheds, {-20.0F, -4.1F, -30.0F}, {-15.0F, 0.0F, -20.0F});
