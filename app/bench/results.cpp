@@ -63,6 +63,8 @@ constexpr std::array<const char*, 5> SPREAD{"median", "p5", "p95", "mean", "devi
 constexpr std::array<const char*, 8> FOUND{"list_mean", "list_max", "missed", "evaluations",
                                            "useful",    "waste",    "excess", "image_max_abs_diff"};
 
+constexpr std::array<const char*, 2> REGRET{"factor", "best"};
+
 json value_or_null(const json& object, const char* key) { return object.contains(key) ? object[key] : json(); }
 
 std::vector<std::string> csv_row(const json& entry) {
@@ -80,6 +82,8 @@ std::vector<std::string> csv_row(const json& entry) {
       cells.push_back(entry["times"].is_null() ? "" : csv_cell(entry["times"][time][part]));
   cells.push_back(stats.contains("bytes") ? csv_cell(stats["bytes"]["total"]) : "");
   for (const char* key : FOUND) cells.push_back(csv_cell(value_or_null(stats, key)));
+  const json regret = value_or_null(entry, "regret");
+  for (const char* key : REGRET) cells.push_back(csv_cell(regret.is_null() ? json() : regret[key]));
   return cells;
 }
 
@@ -91,6 +95,7 @@ std::vector<std::string> csv_header() {
     for (const char* part : SPREAD) names.push_back(fmt::format("{}_ms_{}", time, part));
   names.emplace_back("bytes");
   names.insert(names.end(), FOUND.begin(), FOUND.end());
+  for (const char* key : REGRET) names.push_back(fmt::format("regret_{}", key));
   return names;
 }
 

@@ -42,6 +42,15 @@ Chart parse_chart(const json& value, const std::string& where) {
   return chart;
 }
 
+/// `auto` has no options: it chooses them.
+void check_method(const SuiteMethod& method, const std::string& where) {
+  if (method.name == "auto" && method.options.empty()) return;
+  const auto known = find_method(method.name);
+  if (!known.ok()) throw Error(where + ": " + known.error().text());
+  const auto options = resolve_options(*known.value(), method.options);
+  if (!options.ok()) throw Error(fmt::format("{}: method {}: {}", where, method.name, options.error().text()));
+}
+
 SuiteMethod parse_method_entry(const json& value, const std::string& where) {
   SuiteMethod method;
   if (value.is_string()) {
@@ -54,10 +63,7 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
     object.read("path", method.path);
     object.finish();
   }
-  const auto known = find_method(method.name);
-  if (!known.ok()) throw Error(where + ": " + known.error().text());
-  const auto options = resolve_options(*known.value(), method.options);
-  if (!options.ok()) throw Error(fmt::format("{}: method {}: {}", where, method.name, options.error().text()));
+  check_method(method, where);
   if (method.label.empty()) {
     method.label = method.name;
     for (const std::string& option : method.options) method.label += " " + option;

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
+
+#include "bench/regret.h"
 
 namespace lamp::app {
 namespace {
@@ -248,6 +251,7 @@ std::vector<std::string> run_summary(const json& results) {
     sentences.push_back(
         fmt::format("{} configurations of the suite lie beyond the limits of the command line.", left_out));
   add_losses(results, sentences);
+  if (std::string words = regret_words(results); !words.empty()) sentences.push_back(std::move(words));
   add_device_notes(run, sentences);
   return sentences;
 }

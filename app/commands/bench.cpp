@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "bench/embedded_files.h"
+#include "bench/regret.h"
 #include "bench/report.h"
 #include "bench/results.h"
 #include "commands/bench_measure.h"
@@ -64,7 +65,7 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   if (names.size() != 1 && !r.options.empty()) throw Error("--option: belongs to one method; name it with --method");
   for (const std::string& name : names) {
     series.methods.push_back({.name = name, .options = r.options, .label = name});
-    static_cast<void>(parse_method(name));
+    if (!is_auto(name)) static_cast<void>(parse_method(name));
   }
   return scene_suite(std::move(series));
 }
@@ -74,7 +75,7 @@ void check_groups(const std::string& source, std::span<const Group> groups) {
   for (const Group& group : groups)
     for (const GroupEntry& entry : group.entries) {
       try {
-        check_request(request_of(group, entry), parse_method(entry.method));
+        check_request(request_of(group, entry), entry.method);
       } catch (const Error& error) {
         throw Error(fmt::format("{}: series '{}': {}", source, group.series, error.what()));
       }
@@ -97,7 +98,8 @@ double weight_of(const Group& group) {
 }
 
 /// Measures what is missing; false when the user stopped it. Writes the results after every group.
-bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Group> groups, json& results) {
+bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Group> groups, json& results,
+                 bool explain) {
   const StopSignal signal;
   Progress progress;
   double all = 0.0;
@@ -108,6 +110,10 @@ bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gr
   for (const Group& group : groups) {
     if (stopped || has_group(results, group)) continue;
     const std::string where = fmt::format("{}: {} {} {} lights: ", group.series, group.scene, group.size, group.lights);
+    const auto say = [&](const std::string& words) {
+      progress.clear();
+      fmt::print("{}\n{}", where, words);
+    };
     try {
       add_group(results, measure({.device = device,
                                   .group = group,
@@ -116,7 +122,8 @@ bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gr
                                       [&](const std::string& what, double share) {
                                         progress.show(where + what, (done + share * weight_of(group)) / all);
                                       },
-                                  .stop = StopSignal::raised}));
+                                  .stop = StopSignal::raised,
+                                  .explain = explain ? say : std::function<void(const std::string&)>{}}));
     } catch (const Interrupted&) {
       stopped = true;
       continue;
@@ -179,14 +186,16 @@ Exit bench(const BenchOptions& o) {
                              suite);
   if (fs::exists(folder / "results.json"))
     take_over(results, load_results(folder / "results.json"), (folder / "results.json").string(), expansion.groups);
-  const bool complete = measure_all(device, folder, expansion.groups, results);
+  const bool complete = measure_all(device, folder, expansion.groups, results, o.request.explain);
   results["run"]["complete"] = complete;
   results["run"]["left_out"] = expansion.left_out;
+  add_regret(results);
   write_text(folder / "results.json", results.dump(1) + "\n");
   write_text(folder / "results.csv", results_csv(results));
   const ReportRun run{.results = results, .file = folder / "results.json"};
   write_text(folder / "report.html", report_html({&run, 1}));
   const std::size_t wrong = print_wrong(results);
+  if (const std::string words = regret_words(results); !words.empty()) fmt::print("{}\n", words);
   fmt::print("{} configurations measured, {} wrong, {} beyond the limits: {}\n", results["results"].size(), wrong,
              expansion.left_out, (folder / "report.html").string());
   if (!complete) fmt::print("stopped before its end; the same command goes on\n");
@@ -224,9 +233,12 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   o->request.scene = "quick";
   add_common_options(*command, o->request);
   command->get_option("scene")->description("a suite (lamp list suites), a suite's .json file, or a scene");
-  command->add_option("--method", o->methods, "method to measure on a scene; may be given more than once; default: all")
+  command
+      ->add_option("--method", o->methods,
+                   "method to measure on a scene, or auto; may be given more than once; default: all")
       ->allow_extra_args(false);
   command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  add_auto_options(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   command->add_option("--out", o->out, "folder; results that are there already are not measured again")

@@ -45,7 +45,8 @@ View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
 BenchDevice::BenchDevice(const Request& request)
     : shaders_(request.shader_dir),
       context_(std::make_unique<Context>(
-          ContextInfo{.device = request.device, .pipeline_statistics = request.pipeline_statistics})) {}
+          ContextInfo{.device = request.device, .pipeline_statistics = request.pipeline_statistics})),
+      chooser_(*context_, shaders_, request.calibration) {}
 
 BenchScene& BenchDevice::scene(const std::string& name) {
   if (scene_.gpu != nullptr && scene_name_ == name) return scene_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/groups.h"
+#include "commands/auto_method.h"
 #include "commands/request.h"
 #include "scene/open_air.h"
 
@@ -29,11 +30,13 @@ class BenchDevice {
   [[nodiscard]] BenchScene& scene(const std::string& name);
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
+  [[nodiscard]] AutoMethod& chooser() { return chooser_; }
   [[nodiscard]] bool software() const { return context_->row().kind == "CPU"; }
 
  private:
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
+  AutoMethod chooser_;
   std::string scene_name_;
   BenchScene scene_;
 };

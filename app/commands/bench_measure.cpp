@@ -124,15 +124,37 @@ json result_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame
   return result;
 }
 
+bool asks_for_auto(const GroupEntry& entry) { return is_auto(entry.method); }
+
+/// What `auto` takes for the checked frame, if somebody wants to know.
+MethodChoice choose_for(const MeasureInfo& info, const BenchScene& scene, Renderer& renderer, const BenchFrame& frame) {
+  if (!info.explain && std::ranges::none_of(info.group.entries, asks_for_auto)) return {};
+  const MethodChoice chosen =
+      info.device.chooser().choose(renderer, {.scene = scene.scene,
+                                              .view = frame.view,
+                                              .lights = frame.lights,
+                                              .light_capacity = light_capacity(scene, info.group)});
+  if (info.explain) info.explain(info.device.chooser().explanation());
+  return chosen;
+}
+
+/// The entry with the method and options that were chosen in place of `auto`.
+GroupEntry resolved(GroupEntry entry, const MethodChoice& chosen) {
+  if (!asks_for_auto(entry)) return entry;
+  entry.method = chosen.method->name;
+  entry.options = chosen.options;
+  return entry;
+}
+
 /// Lightings of all entries; one that the device or its own options refuse stays empty, with the reason.
-std::list<Candidate> make_candidates(const MeasureInfo& info, const BenchScene& scene) {
+std::list<Candidate> make_candidates(const MeasureInfo& info, const BenchScene& scene, const MethodChoice& chosen) {
   std::list<Candidate> candidates;
   for (const GroupEntry& entry : info.group.entries) {
     Candidate& candidate = candidates.emplace_back();
     candidate.entry = &entry;
     try {
       candidate.lighting.emplace(info.device.context().device(), info.device.shaders(),
-                                 lighting_info(scene, info.group, entry));
+                                 lighting_info(scene, info.group, resolved(entry, chosen)));
     } catch (const Error& error) {
       candidate.checked = {.verdict = "impossible", .reason = error.what()};
     }
@@ -224,7 +246,7 @@ std::vector<json> measure(const MeasureInfo& info) {
     renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view.width(), frame.view.height(),
                      light_capacity(scene, info.group));
     checker.emplace(info.device, info.group, *renderer, frame);
-    candidates = make_candidates(info, scene);
+    candidates = make_candidates(info, scene, choose_for(info, scene, *renderer, frame));
   } catch (const Error& error) {
     candidates = all_impossible(info.group, error.what());
   }

@@ -22,6 +22,7 @@ struct MeasureInfo {
   std::filesystem::path folder;                                         ///< pictures go into its subfolder `pictures`
   std::function<void(const std::string& what, double share)> progress;  ///< share: of the group, 0 .. 1
   std::function<bool()> stop;                                           ///< asked between frames
+  std::function<void(const std::string& words)> explain;                ///< told what `auto` predicts; may be empty
 };
 
 /// The results of the group's entries, as results.json holds them. Throws Interrupted.

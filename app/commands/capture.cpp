@@ -42,7 +42,7 @@ bool has_glass(const Scene& scene) {
 
 Exit capture(const CaptureOptions& o) {
   const LightsFormat lights = parse_lights_as(o.lights_as);
-  check_request(o.request, parse_method(o.request.method));
+  check_request(o.request, o.request.method);
   check_capture_folder(o.out);
   const Setup setup = make_setup(o.request);
   for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);

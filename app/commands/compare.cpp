@@ -6,6 +6,7 @@
 #include <bit>
 #include <memory>
 
+#include "commands/auto_method.h"
 #include "commands/commands.h"
 #include "commands/panels.h"
 #include "commands/pictures.h"
@@ -30,8 +31,8 @@ struct Side {
   std::vector<std::uint32_t> counts;
 };
 
-Side measure(const CompareOptions& o, Session& session, const Setup& setup, const std::string& name) {
-  Lighting lighting = session.lighting(parse_method(name), {}, parse_path(o.request.path));
+Side measure(const CompareOptions& o, Session& session, const Setup& setup, const MethodChoice& chosen) {
+  Lighting lighting = session.lighting(*chosen.method, chosen.options, parse_path(o.request.path));
   Rendered rendered = session.renderer().render(lighting);
   const std::vector<gpu::Visit> visits = visit_all(session, lighting);
   HdrImage image = rendered.image;
@@ -73,11 +74,13 @@ Exit compare(const CompareOptions& o) {
   check_output("--out", o.out, PICTURES);
   if (o.panels) return compare_panels(o);
   if (o.a.empty() || o.b.empty()) throw Error("compare: expected the names of two methods, or --panels and a scene");
-  for (const std::string& name : {o.a, o.b}) check_request(o.request, parse_method(name));
+  for (const std::string& name : {o.a, o.b}) check_request(o.request, name);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
-  const Side a = measure(o, session, setup, o.a);
-  const Side b = measure(o, session, setup, o.b);
+  const std::string names[] = {o.a, o.b};
+  const std::vector<MethodChoice> chosen = chosen_methods(session, setup, o.request, names, o.json);
+  const Side a = measure(o, session, setup, chosen[0]);
+  const Side b = measure(o, session, setup, chosen[1]);
 
   const std::uint32_t scale = std::bit_ceil(std::max({1U, a.stats.findings->list_max, b.stats.findings->list_max}));
   const auto map = [&](std::span<const std::uint32_t> counts, const std::string& title) {
@@ -107,9 +110,10 @@ Run add_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Two methods side by side: heat maps, difference, numbers");
   auto o = std::make_shared<CompareOptions>();
   o->request.size = "640x360";
-  command->add_option("a", o->a, "a method; with --panels, the scene");
+  command->add_option("a", o->a, "a method, or auto; with --panels, the scene");
   command->add_option("b", o->b, "another");
   add_common_options(*command, o->request);
+  add_auto_options(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   command->add_option("--out", o->out, "picture, .png")->capture_default_str();

@@ -55,6 +55,7 @@ void print_methods() {
                m.approximate ? " [approximate]" : "", m.summary, m.source);
     for (const OptionSpec& spec : m.options) print_option(spec);
   }
+  fmt::print("--method auto, the default, takes whichever is predicted to take least time (docs/auto.md).\n");
 }
 
 nlohmann::json scenes_json() {
@@ -65,7 +66,7 @@ nlohmann::json scenes_json() {
 }
 
 void print_scenes() {
-  for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<12} {}\n", scene.name, scene.summary);
+  for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<14} {}\n", scene.name, scene.summary);
   fmt::print("Any .gltf or .glb file is a scene too, and any capture (docs/capture.md).\n");
 }
 

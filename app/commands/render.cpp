@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "commands/auto_method.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
@@ -63,12 +64,19 @@ std::string room_note(std::span<const std::pair<std::string, std::string>> fits_
   return note;
 }
 
-void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup) {
+/// "lamplight tile=8, chosen by auto", or the method's name.
+std::string method_words(const MethodChoice& chosen) {
+  if (!chosen.by_auto) return std::string(chosen.method->name);
+  return fmt::format("{}{}{}, chosen by auto", chosen.method->name, chosen.options.empty() ? "" : " ",
+                     fmt::join(chosen.options, " "));
+}
+
+void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup, const MethodChoice& chosen) {
   const auto line = [](const char* label, const std::string& text) { fmt::print("{:<10}{}\n", label, text); };
   line("device", fmt::format("{} ({})", stats.device, stats.driver));
   line("scene", fmt::format("{}, {}x{}", stats.scene, stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
-  line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", stats.method, stats.path, stats.cells,
+  line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
   for (const std::string& note : stats.notes) line("note", note);
   if (stats.findings)
@@ -106,14 +114,14 @@ std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
 Exit render(const RenderOptions& o) {
   check_outputs(o);
   const ShadingPath path = parse_path(o.request.path);
-  const Method& method = parse_method(o.request.method);
-  check_request(o.request, method);
+  check_request(o.request, o.request.method);
   const std::optional<float> exposure = parse_exposure(o.exposure);
   const Setup setup = make_setup(o.request);
   const std::uint32_t samples = sample_count(o, setup.scene);
   for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
   Session session(o.request, setup);
-  Lighting lighting = session.lighting(method, o.request.options, path);
+  const MethodChoice chosen = chosen_methods(session, setup, o.request, {&o.request.method, 1}, o.json).front();
+  Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
   const bool software = session.context().row().kind == "CPU";
   const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
   Rendered rendered = session.renderer().render(lighting, frames, software ? 0 : 3);
@@ -127,7 +135,7 @@ Exit render(const RenderOptions& o) {
   Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
   stats.findings = walked(visits, setup.view.width(), setup.view.height());
   const std::vector<std::uint32_t> counts = walked_lights(visits);
-  const std::string title = fmt::format("{}, {} lights", method.name, stats.lights);
+  const std::string title = fmt::format("{}, {} lights", chosen.method->name, stats.lights);
   if (!o.heatmap.empty()) write_png(with_folder(o.heatmap), heatmap_of(session, counts, {.title = title}));
   if (!o.overlay.empty())
     write_png(with_folder(o.overlay), heatmap_of(session, counts, {.title = title, .overlay = &toned}));
@@ -136,7 +144,7 @@ Exit render(const RenderOptions& o) {
   if (o.json)
     fmt::print("{}\n", json.dump(2));
   else
-    print_summary(o, stats, setup);
+    print_summary(o, stats, setup, chosen);
   return Exit::done;
 }
 
@@ -147,6 +155,7 @@ Run add_render(CLI::App& app) {
   auto o = std::make_shared<RenderOptions>();
   add_common_options(*command, o->request);
   add_method_options(*command, o->request);
+  add_auto_options(*command, o->request);
   command->add_option("--out", o->out, "picture, .png or .exr")->capture_default_str();
   command->add_option("--heatmap", o->heatmap, "heat map of lights a cell, .png");
   command->add_option("--overlay", o->overlay, "heat map over the picture, .png");

@@ -103,10 +103,19 @@ void add_common_options(CLI::App& command, Request& r) {
 }
 
 void add_method_options(CLI::App& command, Request& r) {
-  command.add_option("--method", r.method, "culling method (lamp list methods)")->capture_default_str();
+  command.add_option("--method", r.method, "culling method (lamp list methods), or auto: whichever takes least time")
+      ->capture_default_str();
   command.add_option("--option", r.options, "option of the method, KEY=VALUE; may be given more than once")
       ->allow_extra_args(false);
   command.add_option("--path", r.path, "forward, tiled-deferred, deferred or standard-deferred")->capture_default_str();
+}
+
+void add_auto_options(CLI::App& command, Request& r) {
+  command.add_flag("--explain", r.explain, "say what auto predicts for each candidate, and why it takes one");
+  command
+      .add_option("--calibration", r.calibration,
+                  "file of costs that auto goes by; default: measured at first use, kept in the user's cache folder")
+      ->envname("LAMPLIGHT_CALIBRATION");
 }
 
 glm::uvec2 parse_size(const std::string& text) {
@@ -170,8 +179,12 @@ std::uint64_t brute_force_pairs(const Context& context) {
 
 const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
 
-void check_request(const Request& request, const Method& method) {
-  static_cast<void>(take(resolve_options(method, request.options)));
+bool is_auto(std::string_view method) { return method == "auto"; }
+
+void check_request(const Request& request, const std::string& method) {
+  if (!is_auto(method)) static_cast<void>(take(resolve_options(parse_method(method), request.options)));
+  if (is_auto(method) && !request.options.empty())
+    throw Error("--option: belongs to one method, and auto chooses its own; name it with --method");
   static_cast<void>(parse_size(request.size));
   static_cast<void>(parse_range(request.range));
   static_cast<void>(parse_path(request.path));

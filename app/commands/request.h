@@ -25,7 +25,7 @@ struct Request {
   float spots = 0.5F;
   std::string range;  ///< "MIN:MAX", empty: automatic
   std::uint64_t seed = 1;
-  std::string method = "clustered";
+  std::string method = "auto";
   std::vector<std::string> options;
   std::string path = "deferred";
   std::string brdf = "ggx";
@@ -35,16 +35,20 @@ struct Request {
   std::string device;
   std::string shader_dir;
   bool pipeline_statistics = false;
+  std::string calibration;  ///< file that `auto` goes by; empty: the user's cache
+  bool explain = false;     ///< say what `auto` predicts
 };
 
 /// Adds the options to a command, with their defaults and examples in the help text.
 void add_common_options(CLI::App& command, Request& request);
 /// Adds `--method`, `--option` and `--path`.
 void add_method_options(CLI::App& command, Request& request);
+/// Adds `--explain` and `--calibration`.
+void add_auto_options(CLI::App& command, Request& request);
 
-/// Throws Error for whatever can be known to be wrong before a scene is loaded: options of the method, size, path,
-/// BRDF.
-void check_request(const Request& request, const Method& method);
+/// Throws Error for whatever can be known to be wrong before a scene is loaded: the method (`auto` or one of the
+/// table), its options, size, path, BRDF.
+void check_request(const Request& request, const std::string& method);
 
 /// A request made concrete on the host: nothing of it needs a device.
 struct Setup {
@@ -73,7 +77,10 @@ void add_verifier_option(CLI::App& command, std::string& verifier);
 /// Pairs of pixel and light that brute force walks in about a minute on a software device, and on a GPU in the second
 /// or two after which a desktop takes the device away.
 [[nodiscard]] std::uint64_t brute_force_pairs(const Context& context);
+/// A method of the table, by its name.
 [[nodiscard]] const Method& parse_method(const std::string& text);
+/// Whether a method's name asks for whatever suits best.
+[[nodiscard]] bool is_auto(std::string_view method);
 
 /// Device, renderer and what they need, for one Setup.
 class Session {
@@ -85,6 +92,7 @@ class Session {
                                   ShadingPath path) const;
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
   [[nodiscard]] Context& context() { return *context_; }
+  [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
 
  private:
   const Setup& setup_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "commands/auto_method.h"
 #include "commands/commands.h"
 #include "commands/stats.h"
 #include "render/gpu_verifier.h"
@@ -22,8 +23,9 @@ struct VerifyOptions {
 
 /// A method under test, and what its look-ups were found to hold.
 struct Candidate {
-  Candidate(Lighting separate_lighting, std::uint32_t width)
-      : lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+  Candidate(Lighting separate_lighting, std::vector<std::string> settings, std::uint32_t width)
+      : options(std::move(settings)), lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+  std::vector<std::string> options;
   Lighting lighting;
   Verification separate;
   Verification fused;
@@ -34,14 +36,13 @@ void progress(std::string_view text) {
   if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", text);
 }
 
-std::vector<const Method*> wanted_methods(const VerifyOptions& o) {
-  std::vector<const Method*> wanted;
-  for (const std::string& name : o.methods) wanted.push_back(&parse_method(name));
+std::vector<std::string> wanted_methods(const VerifyOptions& o) {
+  std::vector<std::string> wanted = o.methods;
   if (wanted.empty())
-    for (const Method& method : methods()) wanted.push_back(&method);
+    for (const Method& method : methods()) wanted.emplace_back(method.name);
   if (wanted.size() != 1 && !o.request.options.empty())
     throw Error("--option: belongs to one method; name it with --method");
-  for (const Method* method : wanted) check_request(o.request, *method);
+  for (const std::string& method : wanted) check_request(o.request, method);
   return wanted;
 }
 
@@ -115,7 +116,7 @@ float picture_difference(const VerifyOptions& o, Session& session, Candidate& ca
   float difference = max_abs_difference(picture, reference);
   if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
     Lighting fused =
-        session.lighting(*candidate.lighting.info().method, o.request.options, ShadingPath::tiled_deferred);
+        session.lighting(*candidate.lighting.info().method, candidate.options, ShadingPath::tiled_deferred);
     difference = std::max(difference, max_abs_difference(session.renderer().render(fused).image, reference));
   }
   return difference;
@@ -159,15 +160,15 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
 
 Exit verify(const VerifyOptions& o) {
   const ShadingPath path = parse_path(o.request.path);
-  const std::vector<const Method*> wanted = wanted_methods(o);
+  const std::vector<std::string> wanted = wanted_methods(o);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
   const std::uint64_t pairs = std::uint64_t{setup.view.width()} * setup.view.height() * setup.lights.size();
   const Verifier verifier = chosen(parse_verifier(o.verifier, session.context()), pairs);
 
   std::vector<Candidate> candidates;
-  for (const Method* method : wanted)
-    candidates.emplace_back(session.lighting(*method, o.request.options, path), setup.view.width());
+  for (const MethodChoice& chosen : chosen_methods(session, setup, o.request, wanted, o.json))
+    candidates.emplace_back(session.lighting(*chosen.method, chosen.options, path), chosen.options, setup.view.width());
   progress("verify picture: brute force");
   std::optional<HdrImage> reference;
   const bool possible = setup.lights.size() <= session.context().device().traits.max_loop_rounds;
@@ -201,9 +202,12 @@ Run add_verify(CLI::App& app) {
   o->request.size = "640x360";
   o->request.lights = 1024;
   add_common_options(*command, o->request);
-  command->add_option("--method", o->methods, "method to check; may be given more than once; default: all of them")
+  command
+      ->add_option("--method", o->methods,
+                   "method to check, or auto; may be given more than once; default: all of them")
       ->allow_extra_args(false);
   command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  add_auto_options(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   add_verifier_option(*command, o->verifier);

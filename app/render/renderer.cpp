@@ -132,12 +132,21 @@ std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
 
 std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
 
-CapturedFrame Renderer::capture() {
+void Renderer::draw_surfaces() {
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
     geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
   });
+}
+
+std::vector<float> Renderer::draw_depth() {
+  draw_surfaces();
+  return read_depth();
+}
+
+CapturedFrame Renderer::capture() {
+  draw_surfaces();
   return decode(view_, {.depth = read_depth(),
                         .base_color = read_texels<glm::u8vec4>(targets_->base_color),
                         .surface = read_texels<glm::uvec2>(targets_->surface),

@@ -69,6 +69,9 @@ class Renderer {
   /// The depth of the last frame, device depth, row by row; 0 is sky.
   [[nodiscard]] std::vector<float> read_depth();
 
+  /// Draws the surfaces of a frame, of a scene that has any, and reads their depth back.
+  [[nodiscard]] std::vector<float> draw_depth();
+
   /// Draws the surfaces of a frame and reads them back. What is blended over them is not among them.
   [[nodiscard]] CapturedFrame capture();
 
@@ -92,6 +95,7 @@ class Renderer {
   [[nodiscard]] const View& view() const { return view_; }
 
  private:
+  void draw_surfaces();
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>

@@ -11,7 +11,7 @@
 namespace lamp::app {
 
 std::span<const BuiltinScene> builtin_scenes() {
-  static constexpr std::array<BuiltinScene, 5> TABLE{{
+  static constexpr std::array<BuiltinScene, 11> TABLE{{
       {"atrium", "a colonnaded court on two storeys: near columns, far walls, banners, glass", procedural::make_atrium},
       {"blocks", "a city by night: hundreds of buildings, depths from 0.3 m to over a kilometre",
        procedural::make_blocks},
@@ -20,6 +20,16 @@ std::span<const BuiltinScene> builtin_scenes() {
       {"corridor", "rooms along a corridor: most of the scene, and most of its lights, are hidden",
        procedural::make_corridor},
       {"plane", "known answer: one grey plane under one point light", procedural::make_plane},
+      {"one-tile", "adversarial: a hall, all lights in a swarm at its far end that covers a few pixels",
+       procedural::make_one_tile, true},
+      {"near-plane", "adversarial: a kiosk, all lights around the eye, many across the near plane",
+       procedural::make_near_plane, true},
+      {"huge-and-tiny", "adversarial: a hall, ranges over four orders of magnitude", procedural::make_huge_and_tiny,
+       true},
+      {"needles", "adversarial: a hall, spots are long and of 0.5 degrees half-angle", procedural::make_needles, true},
+      {"wall", "adversarial: all lights behind a wall that fills the picture", procedural::make_wall, true},
+      {"stack", "adversarial: 32 layers of bars behind each other, a tile sees most of them", procedural::make_stack,
+       true},
   }};
   return TABLE;
 }

@@ -13,6 +13,7 @@ struct BuiltinScene {
   std::string_view name;
   std::string_view summary;  ///< one line for `lamp list scenes`
   Scene (*make)();
+  bool adversarial = false;  ///< made to be hard on culling: docs/scenes.md
 };
 
 /// Every built-in scene; the first is the default of the command line.

@@ -155,10 +155,24 @@ std::vector<std::size_t> choose(const Scene& scene, const Occupancy& grid, const
   return closet ? candidates : chosen;
 }
 
-}  // namespace
+// Cubes that fill a box but for less than one of them along each axis.
+OpenAir air_in(const Box& box) {
+  constexpr float CELLS_A_SIDE = 32.0F;  // of the longest side
+  const glm::vec3 side = box.max - box.min;
+  const float cell_m = std::min({side.x, side.y, side.z, std::max({side.x, side.y, side.z}) / CELLS_A_SIDE});
+  const glm::ivec3 count = glm::max(glm::ivec3(glm::floor(side / cell_m + 1e-3F)), glm::ivec3(1));
+  const glm::vec3 origin = 0.5F * (box.min + box.max - cell_m * glm::vec3(count));
+  OpenAir air{.cell_m = cell_m, .diagonal_m = glm::length(side)};
+  for (int i = 0; i < count.x * count.y * count.z; ++i) {
+    const glm::ivec3 cell(i % count.x, i / count.x % count.y, i / (count.x * count.y));
+    const glm::ivec3 to_border = glm::min(cell + 1, count - cell);
+    const int clearance = std::min({to_border.x, to_border.y, to_border.z});
+    air.cells.push_back({origin + cell_m * glm::vec3(cell), static_cast<std::uint32_t>(clearance)});
+  }
+  return air;
+}
 
-OpenAir find_open_air(const Scene& scene) {
-  if (scene.captured) return find_open_air(*scene.captured);
+OpenAir air_near_surfaces(const Scene& scene) {
   const Occupancy grid = find_occupancy(scene);
   const SurfaceDistance distance = find_surface_distance(grid);
   const Box box = bounds(scene);
@@ -167,6 +181,15 @@ OpenAir find_open_air(const Scene& scene) {
     result.cells.push_back({grid.origin + grid.cell_m * glm::vec3(grid.cell(i)), distance.steps[i]});
   }
   return result;
+}
+
+}  // namespace
+
+OpenAir find_open_air(const Scene& scene) {
+  if (scene.captured) return find_open_air(*scene.captured);
+  OpenAir air = scene.placement.box ? air_in(*scene.placement.box) : air_near_surfaces(scene);
+  air.placement = scene.placement;
+  return air;
 }
 
 }  // namespace lamp::app

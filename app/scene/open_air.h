@@ -22,14 +22,16 @@ struct OpenAir {
   float cell_m = 1.0F;         ///< side of a cell
   float diagonal_m = 1.0F;     ///< of the scene's bounds
   std::vector<AirCell> cells;  ///< at least one
+  LightPlacement placement;    ///< the scene's
 
   /// Cubic metres.
   [[nodiscard]] double volume() const { return static_cast<double>(cells.size()) * cell_m * cell_m * cell_m; }
 };
 
-/// The air that can be reached from the scene's cameras and the keys of its flight without passing through a surface
-/// or behind one, as far as it lies near surfaces. Where that is next to nothing: all such air near surfaces, but no
-/// air outdoors for cameras indoors. Of a captured frame: as below.
+/// The box of the scene's light placement, if it has one. Else the air that can be reached from the scene's cameras and
+/// the keys of its flight without passing through a surface or behind one, as far as it lies near surfaces. Where that
+/// is next to nothing: all such air near surfaces, but no air outdoors for cameras indoors. Of a captured frame: as
+/// below.
 [[nodiscard]] OpenAir find_open_air(const Scene& scene);
 
 /// What a captured frame sees close before its surfaces.

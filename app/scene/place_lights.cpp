@@ -27,17 +27,53 @@ constexpr float DOWNWARDS = 0.7F;    // added to a spot's unit direction: most l
 constexpr float DEGREE = std::numbers::pi_v<float> / 180.0F;
 constexpr double TURN = 2.0 * std::numbers::pi;
 
+/// What ranges are drawn from: between `min` and `max`, uniform in their logarithm, or with so many fewer large ones
+/// that the part of the lights whose range is above r falls as r^-power (Pareto's law, cut at `max`).
 struct Ranges {
   float min = 0.0F;
   float max = 0.0F;
+  double power = 0.0;
+  float spot_reach = 1.0F;
 };
 
+// Ranges from max / ratio to max, of which about LARGE lie above half of max, and as many overlap as everywhere.
+Ranges wide_ranges(double sphere_m3, double count, float ratio) {
+  constexpr double LARGE = 8.0;
+  const double power = std::clamp(std::log(count / LARGE) / std::log(0.5 * ratio), 0.05, 2.0);
+  const double mean_cube = power / (3.0 - power) * (std::pow(ratio, 3.0 - power) - 1.0) /
+                           (1.0 - std::pow(ratio, -power));  // over the smallest range's
+  const double smallest = std::cbrt(sphere_m3 / mean_cube);
+  return {.min = static_cast<float>(smallest), .max = static_cast<float>(smallest * ratio), .power = power};
+}
+
 Ranges ranges_of(const OpenAir& air, const PlaceLights& how) {
-  if (how.min_range != 0.0F || how.max_range != 0.0F) return {how.min_range, how.max_range};
-  const double volume_of_one = OVERLAP * air.volume() / std::max(how.count, 1U);
-  const double range = std::cbrt(3.0 * volume_of_one / (4.0 * std::numbers::pi));
-  const auto capped = [&](double r) { return std::min(static_cast<float>(r), std::max(air.diagonal_m, air.cell_m)); };
-  return {capped(AUTOMATIC_MIN * range), capped(AUTOMATIC_MAX * range)};
+  if (how.min_range != 0.0F || how.max_range != 0.0F) return {.min = how.min_range, .max = how.max_range};
+  const LightPlacement& placement = air.placement;
+  const double count = std::max(how.count, 1U);
+  const double cube = 3.0 * OVERLAP * air.volume() / count / (4.0 * std::numbers::pi);  // of the range
+  const double range = std::cbrt(cube);
+  float largest = std::max(air.diagonal_m, air.cell_m);
+  if (placement.max_range > 0.0F) largest = std::min(largest, placement.max_range);
+  Ranges ranges{.min = static_cast<float>(AUTOMATIC_MIN * range), .max = static_cast<float>(AUTOMATIC_MAX * range)};
+  if (placement.range_ratio > 0.0F) {
+    ranges = wide_ranges(cube, count, placement.range_ratio);
+    ranges.min = std::min(ranges.min, largest / placement.range_ratio);  // the ratio stays where the scene is too small
+  }
+  return {.min = std::min(ranges.min, largest),
+          .max = std::min(ranges.max, largest),
+          .power = ranges.power,
+          .spot_reach = placement.spot_reach};
+}
+
+float draw_range(Random& random, const Ranges& ranges) {
+  const float share = random.unit();
+  const float ratio = ranges.max / ranges.min;
+  float times_min = std::pow(ratio, share);
+  if (ranges.power > 0.0) {  // in 64 bits: what counts are the shares near 1
+    times_min =
+        static_cast<float>(std::pow(1.0 - share * (1.0 - std::pow(double{ratio}, -ranges.power)), -1.0 / ranges.power));
+  }
+  return std::clamp(ranges.min * times_min, ranges.min, ranges.max);
 }
 
 void check(const PlaceLights& how) {
@@ -100,16 +136,17 @@ glm::vec3 draw_position(Random& random, const OpenAir& air, float range, double 
 Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& ranges, std::uint32_t i) {
   Random random(seed_of(how.seed, i));
   Light light;
-  const float log_share = random.unit();
-  light.range = std::clamp(ranges.min * std::pow(ranges.max / ranges.min, log_share), ranges.min, ranges.max);
+  light.range = draw_range(random, ranges);
   light.position = draw_position(random, air, light.range, static_cast<double>(how.frame % how.frames) / how.frames);
   light.color = draw_color(random);
-  // About 9 lux at a third of the range, whatever the range.
-  light.intensity = light.range * light.range;
   light.direction = draw_direction(random);
   light.outer_angle = random.between(15.0F, 45.0F) * DEGREE;
+  if (air.placement.spot_angle > 0.0F) light.outer_angle = air.placement.spot_angle;
   light.inner_angle = light.outer_angle * random.between(0.6F, 0.9F);
   light.type = random.chance(how.spots) ? LightType::spot : LightType::point;
+  if (light.type == LightType::spot) light.range *= ranges.spot_reach;
+  // About 9 lux at a third of the range, whatever the range.
+  light.intensity = light.range * light.range;
   return light;
 }
 

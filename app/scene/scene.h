@@ -107,10 +107,20 @@ struct Flight {
   float fov_y = 1.0F;
 };
 
-/// Where generated lights may be: open air, not inside solids. Sampled by place_lights.
+/// Axis-aligned, world space, metres.
 struct Box {
   glm::vec3 min{0.0F};
   glm::vec3 max{0.0F};
+};
+
+/// How a scene wants generated lights to be, where it is not as everywhere: in open air (open_air.h), ranges close to
+/// each other, spots of ordinary angles.
+struct LightPlacement {
+  std::optional<Box> box;    ///< lights are in here, whatever else is
+  float max_range = 0.0F;    ///< m, of automatic ranges; 0: as everywhere
+  float range_ratio = 0.0F;  ///< of automatic ranges: the largest over the smallest, > 1, few large; 0: as everywhere
+  float spot_angle = 0.0F;   ///< radians, half-angle of every spot's outer cone; 0: as everywhere
+  float spot_reach = 1.0F;   ///< automatic range of a spot over that of a point light
 };
 
 struct Scene {
@@ -125,6 +135,7 @@ struct Scene {
   std::vector<DirectionalLight> directional_lights;
   std::vector<Camera> cameras;  ///< at least one after loading; the first is the default
   std::optional<Flight> flight;
+  LightPlacement placement;               ///< of generated lights
   glm::vec3 sky{0.0F};                    ///< radiance of pixels that nothing covers
   glm::vec3 ambient{0.0F};                ///< irradiance from everywhere, so that unlit surfaces are not black
   std::optional<CapturedFrame> captured;  ///< then there are no meshes, and this is the only camera's view

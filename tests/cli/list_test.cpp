@@ -70,7 +70,7 @@ TEST_F(List, Scenes) {
   const nlohmann::json scenes = json_of({"list", "scenes", "--json"});
   const std::string text = output_of({"list", "scenes"});
   ASSERT_TRUE(scenes.is_array());
-  EXPECT_EQ(scenes.size(), 5U);
+  EXPECT_EQ(scenes.size(), 11U);
   for (const nlohmann::json& scene : scenes) {
     expect_keys(scene, {"name", "summary"});
     EXPECT_NE(text.find(scene.at("name").get<std::string>()), std::string::npos);

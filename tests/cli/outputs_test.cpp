@@ -112,8 +112,8 @@ TEST_F(Outputs, VerifyTakesMethodsAndTheirOptions) {
 }
 
 TEST_F(Outputs, RenderWritesAllItIsAskedFor) {
-  const std::string text = output_of(small(
-      {"render", "--out", "new/lamp.png", "--heatmap", "heat.png", "--overlay", "over.png", "--stats", "stats.json"}));
+  const std::string text = output_of(small({"render", "--method", "clustered", "--out", "new/lamp.png", "--heatmap",
+                                            "heat.png", "--overlay", "over.png", "--stats", "stats.json"}));
   for (const char* file : {"new/lamp.png", "heat.png", "over.png", "stats.json"})
     EXPECT_NE(text.find(file), std::string::npos) << file;
   EXPECT_EQ(text.find('\033'), std::string::npos) << "escape codes in a pipe";

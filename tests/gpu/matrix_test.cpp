@@ -3,7 +3,8 @@
 // (test_scenes.h); the mix rotates with all of these, so that each method meets each count with each mix; every other
 // time the fused look-up is checked too. The scenes themselves at 257x129: half of scenes x projections, as on a
 // chessboard, with counts and mixes that rotate; at 640x360: each scene once. Each method meets all of them (checked
-// below); only brute force sits out what is too slow for it. SPDX-License-Identifier: Apache-2.0
+// below); only brute force sits out what is too slow for it. Adversarial scenes: adversarial_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
-#include "scene/builtin.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -90,7 +90,7 @@ void PrintTo(const SmallParam& param, std::ostream* out) {
 std::vector<SmallParam> small_params() {
   std::vector<SmallParam> params;
   std::size_t round = 0;
-  for (const BuiltinScene& scene : builtin_scenes()) {
+  for (const BuiltinScene& scene : ordinary_scenes()) {
     for (const std::string_view projection : tested_projections()) {
       for (const Method& method : methods()) params.push_back({scene.name, projection, &method, round});
       ++round;
@@ -153,10 +153,11 @@ std::vector<LargeParam> large_params() {
   constexpr glm::uvec2 LARGE(640, 360);
   std::vector<LargeParam> params;
   const std::vector<std::string_view> projections = tested_projections();
-  for (std::size_t s = 0; s < builtin_scenes().size(); ++s) {
+  const std::vector<BuiltinScene> scenes = ordinary_scenes();
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
     for (std::size_t p = s % 2; p < projections.size(); p += 2) {
       const std::size_t round = params.size();
-      params.push_back({builtin_scenes()[s].name, projections[p], MIDDLE, LIGHT_COUNTS[round % std::size(LIGHT_COUNTS)],
+      params.push_back({scenes[s].name, projections[p], MIDDLE, LIGHT_COUNTS[round % std::size(LIGHT_COUNTS)],
                         MIXES[round % std::size(MIXES)]});
     }
   }
@@ -197,7 +198,7 @@ TEST(MatrixDesign, EveryValueOccursAtTheLargerSizes) {
                                      std::to_string(param.count), std::string(MIX_NAMES[static_cast<int>(param.mix)])})
       met.emplace(param.size.x, value);
   for (const std::uint32_t width : {257U, 640U}) {
-    for (const BuiltinScene& scene : builtin_scenes()) EXPECT_TRUE(met.contains({width, std::string(scene.name)}));
+    for (const BuiltinScene& scene : ordinary_scenes()) EXPECT_TRUE(met.contains({width, std::string(scene.name)}));
     for (const std::string_view name : tested_projections()) EXPECT_TRUE(met.contains({width, std::string(name)}));
     for (const std::string_view mix : MIX_NAMES) EXPECT_TRUE(met.contains({width, std::string(mix)}));
   }

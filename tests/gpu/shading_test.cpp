@@ -9,7 +9,6 @@
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
-#include "scene/builtin.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -35,7 +34,7 @@ void PrintTo(const PathParam& param, std::ostream* out) { *out << name_of(param)
 
 std::vector<PathParam> scenes_and_brdfs() {
   std::vector<PathParam> params;
-  for (const BuiltinScene& scene : builtin_scenes())
+  for (const BuiltinScene& scene : ordinary_scenes())
     for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong}) params.push_back({scene.name, brdf});
   return params;
 }
@@ -43,7 +42,7 @@ std::vector<PathParam> scenes_and_brdfs() {
 /// Forward on every scene; the other paths and the other model where there is glass.
 std::vector<PathParam> scenes_and_paths() {
   std::vector<PathParam> params;
-  for (const BuiltinScene& scene : builtin_scenes()) params.push_back({scene.name, Brdf::ggx});
+  for (const BuiltinScene& scene : ordinary_scenes()) params.push_back({scene.name, Brdf::ggx});
   params.push_back({"atrium", Brdf::blinn_phong, ShadingPath::deferred});
   params.push_back({"atrium", Brdf::blinn_phong, ShadingPath::tiled_deferred});
   return params;

@@ -8,7 +8,6 @@
 #include <map>
 #include <memory>
 
-#include "scene/builtin.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -38,6 +37,18 @@ const TestScene& builtin_test_scene(std::string_view name) {
   if (scene == nullptr)
     scene = std::make_unique<TestScene>(std::ranges::find(builtin_scenes(), name, &BuiltinScene::name)->make());
   return *scene;
+}
+
+std::vector<BuiltinScene> ordinary_scenes() {
+  std::vector<BuiltinScene> rows(builtin_scenes().begin(), builtin_scenes().end());
+  std::erase_if(rows, [](const BuiltinScene& row) { return row.adversarial; });
+  return rows;
+}
+
+std::vector<BuiltinScene> adversarial_scenes() {
+  std::vector<BuiltinScene> rows(builtin_scenes().begin(), builtin_scenes().end());
+  std::erase_if(rows, [](const BuiltinScene& row) { return !row.adversarial; });
+  return rows;
 }
 
 std::vector<std::string_view> tested_projections() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/gpu_test.h"
+#include "scene/builtin.h"
 #include "scene/open_air.h"
 
 namespace lamp::app {
@@ -23,6 +24,10 @@ struct TestScene {
 };
 
 [[nodiscard]] const TestScene& builtin_test_scene(std::string_view name);
+
+/// The built-in scenes that are not adversarial, or those that are.
+[[nodiscard]] std::vector<BuiltinScene> ordinary_scenes();
+[[nodiscard]] std::vector<BuiltinScene> adversarial_scenes();
 
 /// What `--projection` offers, without "camera".
 [[nodiscard]] std::vector<std::string_view> tested_projections();

@@ -1,0 +1,133 @@
+// Reads and writes calibrations.
+// Promise: a damaged or foreign file in the cache is measured anew, never trusted. SPDX-License-Identifier: Apache-2.0
+#include "bench/calibration_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "error.h"
+
+namespace lamp::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::string_view FORMAT = "lamplight-calibration";
+constexpr int VERSION = 1;  // of the file and of the model: grows when an old file would mislead
+
+template <std::size_t COUNT>
+std::array<double, COUNT> parse_terms(const json& entry, const char* key, const std::string& where) {
+  std::array<double, COUNT> terms{};
+  const bool is_list = entry.contains(key) && entry[key].is_array() && entry[key].size() == COUNT;
+  for (std::size_t i = 0; i < COUNT; ++i) {
+    const bool is_cost = is_list && entry[key][i].is_number() && std::isfinite(entry[key][i].get<double>()) &&
+                         entry[key][i].get<double>() >= 0.0;
+    if (!is_cost) throw Error(fmt::format("{}: {}: expected {} numbers, none below 0", where, key, COUNT));
+    terms[i] = entry[key][i].get<double>();
+  }
+  return terms;
+}
+
+/// FNV-1a: file names for any device name.
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xCBF29CE484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+  return hash;
+}
+
+}  // namespace
+
+std::optional<std::string> read_text(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
+}
+
+json to_json(const Calibration& calibration) {
+  json document{{"format", FORMAT},
+                {"version", VERSION},
+                {"device", calibration.device},
+                {"driver", calibration.driver},
+                {"candidates", json::array()}};
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    document["candidates"].push_back({{"candidate", candidates[i].label()},
+                                      {"cull", calibration.costs[i].cull},
+                                      {"shade", calibration.costs[i].shade}});
+  return document;
+}
+
+Calibration parse_calibration(std::string_view text, const std::string& source) {
+  const json document = json::parse(text, nullptr, /* allow_exceptions= */ false);
+  if (!document.is_object() || document.value("format", json()) != FORMAT)
+    throw Error(source + ": is no calibration of lamp");
+  if (document.value("version", json()) != VERSION)
+    throw Error(
+        fmt::format("{}: version: expected {}, got {}", source, VERSION, document.value("version", json()).dump()));
+  Calibration calibration;
+  for (const auto& [key, out] : {std::pair{"device", &calibration.device}, {"driver", &calibration.driver}}) {
+    if (!document.contains(key) || !document[key].is_string())
+      throw Error(fmt::format("{}: {}: expected a name", source, key));
+    *out = document[key].get<std::string>();
+  }
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  const json list = document.value("candidates", json());
+  if (!list.is_array() || list.size() != candidates.size())
+    throw Error(fmt::format("{}: candidates: expected a list of {}", source, candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const std::string where = fmt::format("{}: candidates: {}", source, candidates[i].label());
+    if (!list[i].is_object() || list[i].value("candidate", json()) != candidates[i].label())
+      throw Error(where + ": is not in its place");
+    calibration.costs.push_back({.cull = parse_terms<CULL_TERMS>(list[i], "cull", where),
+                                 .shade = parse_terms<SHADE_TERMS>(list[i], "shade", where)});
+  }
+  return calibration;
+}
+
+std::string cached_calibration_file(const std::string& device, const std::string& driver) {
+  fs::path folder;
+  const char* xdg = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  if (xdg != nullptr && fs::path(xdg).is_absolute())  // a relative one is to be ignored
+    folder = xdg;
+  else if (home != nullptr && *home != '\0')
+    folder = fs::path(home) / ".cache";
+  if (folder.empty()) return {};
+  return (folder / "lamplight" / fmt::format("calibration-{:016x}.json", hash_of(device + "\n" + driver))).string();
+}
+
+std::optional<Calibration> read_cached_calibration(const std::string& file, const std::string& device,
+                                                   const std::string& driver) {
+  const auto text = file.empty() ? std::nullopt : read_text(file);
+  if (!text) return std::nullopt;
+  try {
+    Calibration calibration = parse_calibration(*text, file);
+    if (calibration.device == device && calibration.driver == driver) return calibration;
+  } catch (const Error&) {
+    return std::nullopt;  // what is no calibration is replaced by one
+  }
+  return std::nullopt;
+}
+
+std::string keep_calibration(const std::string& file, const Calibration& calibration) {
+  if (file.empty()) return "there is neither XDG_CACHE_HOME nor HOME";
+  std::error_code error;
+  fs::create_directories(fs::path(file).parent_path(), error);
+  if (error) return fmt::format("{}: {}", fs::path(file).parent_path().string(), error.message());
+  const std::string beside = fmt::format("{}.{}", file, getpid());
+  std::ofstream stream(beside, std::ios::binary);
+  stream << to_json(calibration).dump(1) << '\n';
+  stream.close();
+  if (!stream) return fmt::format("{}: cannot be written", beside);
+  fs::rename(beside, file, error);
+  return error ? fmt::format("{}: {}", file, error.message()) : "";
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,48 @@
+// Finds the calibration that `auto` goes by.
+// Promise: a damaged or foreign file in the cache is measured anew, never trusted. SPDX-License-Identifier: Apache-2.0
+#include "commands/calibration.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "bench/calibration_file.h"
+#include "error.h"
+
+namespace lamp::app {
+namespace {
+
+KnownCalibration named_calibration(const std::string& file, const DeviceRow& row) {
+  const auto text = read_text(file);
+  if (!text) throw Error(fmt::format("--calibration '{}': cannot be read", file));
+  KnownCalibration known{.calibration = parse_calibration(*text, fmt::format("--calibration '{}'", file)),
+                         .origin = file};
+  if (known.calibration.device != row.name) known.origin += fmt::format(", of {}", known.calibration.device);
+  return known;
+}
+
+}  // namespace
+
+KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders, const std::string& named) {
+  const DeviceRow& row = context.row();
+  if (!named.empty()) return named_calibration(named, row);
+  const std::string file = cached_calibration_file(row.name, row.driver);
+  if (auto cached = read_cached_calibration(file, row.name, row.driver))
+    return {.calibration = std::move(*cached), .origin = file};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) fmt::print(stderr, "auto: measures {} once ...", row.name);
+  const auto begin = std::chrono::steady_clock::now();
+  KnownCalibration known{.calibration = measure_calibration(context, shaders), .origin = {}};
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  known.origin = fmt::format("measured just now in {:.1f} s", seconds);
+  const std::string problem = keep_calibration(file, known.calibration);
+  if (problem.empty())
+    known.origin += ", kept in " + file;
+  else
+    fmt::print(stderr, "auto: the calibration could not be kept, and is measured again next time: {}\n", problem);
+  return known;
+}
+
+}  // namespace lamp::app

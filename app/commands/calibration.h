@@ -1,0 +1,24 @@
+// The calibration of `auto`: measured on the device, kept in the user's cache folder, read back only when it fits.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lamplight/choose.h"
+#include "render/renderer.h"
+
+namespace lamp::app {
+
+/// Measures every candidate on a small built-in scene: about a second on a GPU, some on a software device.
+[[nodiscard]] Calibration measure_calibration(Context& context, const ShaderLibrary& shaders);
+
+struct KnownCalibration {
+  Calibration calibration;
+  std::string origin;  ///< for `--explain`: which file, or how long it was measured
+};
+/// That of a file that the user names (throws Error when it is none), or else the cached one of the context's device,
+/// or else a new one, which is then kept. What cannot be kept is said on stderr.
+[[nodiscard]] KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders,
+                                                const std::string& named);
+
+}  // namespace lamp::app

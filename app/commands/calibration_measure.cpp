@@ -1,0 +1,113 @@
+// Measures what the cost model is fitted to: each candidate on a few sizes and counts of lights.
+// Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <vector>
+
+#include "commands/calibration.h"
+#include "commands/request.h"
+#include "gpu/check.h"
+#include "render/frame_times.h"
+#include "scene/flight.h"
+#include "scene/place_lights.h"
+
+namespace lamp::app {
+namespace {
+
+/// What is measured: every point of a device's plan, by every candidate.
+struct Point {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t lights = 0;
+  float range = 0.0F;  ///< m, of all lights; 0: automatic
+};
+
+// Small and large pictures, few and many lights, so that every term of the model leads somewhere. Without lights, and
+// with lights that reach next to nothing, pixels and lights cost what they cost alone: else lists, which grow with
+// both, would be given their part.
+constexpr float TINY = 0.02F;
+constexpr Point GPU_POINTS[] = {{480, 270, 64},     {480, 270, 4096},    {1920, 1080, 0},          {1920, 1080, 64},
+                                {1920, 1080, 2048}, {1920, 1080, 32768}, {1920, 1080, 32768, TINY}};
+constexpr Point SOFTWARE_POINTS[] = {{96, 54, 64},   {96, 54, 1024},   {256, 144, 0},
+                                     {256, 144, 64}, {256, 144, 2048}, {256, 144, 2048, TINY}};
+
+// Pairs of pixel and light that brute force is asked to walk at most.
+constexpr std::uint64_t GPU_PAIRS = 10'000'000'000;
+constexpr std::uint64_t SOFTWARE_PAIRS = 40'000'000;
+
+// A software device takes longer to compile than to run: there, plans that differ in capacity alone would be compiled
+// for every count of lights.
+constexpr std::uint32_t SOFTWARE_CAPACITY = 2048;
+
+constexpr int WARM_UP = 1;
+constexpr int GPU_FRAMES = 5;
+constexpr int SOFTWARE_FRAMES = 4;
+
+/// A hall of columns with lights everywhere, as in any scene: between open and crowded.
+Scene calibration_scene() {
+  Scene scene = load_scene("one-tile");
+  scene.placement = {};
+  return scene;
+}
+
+struct Stage {
+  Context& context;
+  const ShaderLibrary& shaders;
+  Renderer renderer;
+  int frames;
+};
+
+CostSample measure(Stage& stage, const AutoCandidate& candidate, const Workload& workload) {
+  const Method& method = parse_method(std::string(candidate.method));
+  std::vector<std::string> options;
+  if (!candidate.option.empty()) options.emplace_back(candidate.option);
+  Lighting lighting(stage.context.device(), stage.shaders,
+                    {.method = &method,
+                     .options = take(resolve_options(method, options)),
+                     .width = workload.width,
+                     .height = workload.height,
+                     .light_capacity = workload.capacity});
+  FrameTimes times;
+  for (int frame = 0; frame < WARM_UP + stage.frames; ++frame) {
+    const std::vector<vulkan::Timestamps::Time> frame_times = stage.renderer.time(lighting);
+    if (frame >= WARM_UP) times.add(frame_times, lighting);
+  }
+  // The least of each: what disturbs a frame makes it longer, never shorter.
+  const auto least = [&](double FrameTime::* part) { return std::ranges::min(times.frames(), {}, part).*part; };
+  return {.workload = workload, .cull_ms = least(&FrameTime::cull_ms), .shade_ms = least(&FrameTime::shade_ms)};
+}
+
+}  // namespace
+
+Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
+  const bool software = context.row().kind == "CPU";
+  const Scene scene = calibration_scene();
+  const OpenAir air = find_open_air(scene);
+  GpuScene gpu_scene(context, scene);
+  const std::span<const Point> points = software ? std::span<const Point>(SOFTWARE_POINTS) : GPU_POINTS;
+  const std::uint64_t most_pairs = software ? SOFTWARE_PAIRS : GPU_PAIRS;
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  std::vector<std::vector<CostSample>> samples(candidates.size());
+  for (const Point& point : points) {
+    Stage stage{
+        .context = context,
+        .shaders = shaders,
+        .renderer = {context, shaders, gpu_scene, point.width, point.height, std::max(point.lights, SOFTWARE_CAPACITY)},
+        .frames = software ? SOFTWARE_FRAMES : GPU_FRAMES};
+    const View view = view_of(scene.cameras.front(), point.width, point.height, "camera");
+    const std::vector<shared::Light> lights =
+        pack(place_lights(air, {.count = point.lights, .min_range = point.range, .max_range = point.range}));
+    stage.renderer.set_frame(view, lights);
+    Workload workload = estimate_workload(view, stage.renderer.draw_depth(), lights);
+    if (software) workload.capacity = SOFTWARE_CAPACITY;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const std::uint64_t pairs = std::uint64_t{point.width} * point.height * point.lights;
+      if (candidates[i].walk == nullptr && pairs > most_pairs) continue;
+      samples[i].push_back(measure(stage, candidates[i], workload));
+    }
+  }
+  Calibration calibration{.device = context.row().name, .driver = context.row().driver};
+  for (std::size_t i = 0; i < candidates.size(); ++i) calibration.costs.push_back(fit_cost(candidates[i], samples[i]));
+  return calibration;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,178 @@
+// The candidates of `auto`, the terms of their costs, and the choice.
+// Based on: docs/auto.md.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/choose.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+
+namespace lamp {
+namespace {
+
+// Terms are in these units, so that coefficients are of like size and print well.
+constexpr double LIGHTS = 1e4;
+constexpr double PIXELS = 1e6;
+constexpr double PAIRS = 1e7;
+
+constexpr std::uint32_t FEW_LIGHTS = 64;
+constexpr double CLEARLY_FASTER = 0.8;  // of the time of `tiled`
+constexpr double ROOM = 2.0;            // over the estimate, where the default room of lists will not do
+
+const TileLoad& load_of(const AutoCandidate& candidate, const Workload& workload) {
+  return candidate.tile_px == 8 ? workload.tile8 : workload.tile16;
+}
+
+double pixels_of(const Workload& w) { return static_cast<double>(w.width) * w.height; }
+
+double tiles_of(const AutoCandidate& candidate, const Workload& w) {
+  return std::ceil(static_cast<double>(w.width) / candidate.tile_px) *
+         std::ceil(static_cast<double>(w.height) / candidate.tile_px);
+}
+
+template <std::size_t COUNT>
+double dot(const std::array<double, COUNT>& a, const std::array<double, COUNT>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < COUNT; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// "mean_cells=N" where the room that lists have by default will not do.
+void add_room(std::vector<std::string>& options, const char* key, double estimate, double room) {
+  if (estimate <= room / ROOM) return;
+  const double wanted = std::min(std::ceil(ROOM * estimate), 4096.0);
+  options.push_back(std::string(key) + "=" + std::to_string(static_cast<int>(wanted)));
+}
+
+std::vector<std::string> options_of(const AutoCandidate& candidate, const Workload& workload) {
+  std::vector<std::string> options;
+  if (!candidate.option.empty()) options.emplace_back(candidate.option);
+  if (candidate.method != "lamplight") return options;
+  const TileLoad& load = load_of(candidate, workload);
+  add_room(options, "mean_cells", load.entries, 8.0);
+  add_room(options, "mean_capacity", load.exact, 128.0);
+  return options;
+}
+
+// Why the candidate cannot run, or nothing.
+std::string refusal(const Prediction& prediction, const Workload& workload, const DeviceTraits& traits) {
+  const auto method = find_method(prediction.method);
+  if (!method.ok()) return method.error().text();
+  auto options = resolve_options(*method.value(), prediction.options);
+  if (!options.ok()) return options.error().text();
+  const auto plan = make_plan(*method.value(), {.width = workload.width,
+                                                .height = workload.height,
+                                                .light_capacity = workload.capacity,
+                                                .options = std::move(options.value()),
+                                                .traits = traits});
+  return plan.ok() ? "" : plan.error().text();
+}
+
+std::string times(double ratio) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", ratio);
+  return text.data();
+}
+
+std::string reason_of(const Prediction& chosen, const std::vector<Prediction>& predictions, bool by_rule) {
+  if (by_rule) return "with 64 lights or fewer it is taken unless another is predicted to be clearly faster";
+  const Prediction* next = nullptr;
+  for (const Prediction& other : predictions) {
+    if (&other == &chosen || !other.refused.empty()) continue;
+    if (next == nullptr || other.ms() < next->ms()) next = &other;
+  }
+  if (next == nullptr) return "the only candidate that can run";
+  if (chosen.ms() <= 0.0) return "the least predicted time of cull and shading";
+  return "the least predicted time of cull and shading; next is " + next->label + " (" +
+         times(next->ms() / chosen.ms()) + " times)";
+}
+
+}  // namespace
+
+std::string AutoCandidate::label() const {
+  return std::string(method) + (option.empty() ? "" : " ") + std::string(option);
+}
+
+std::span<const AutoCandidate> auto_candidates() {
+  static constexpr std::array<AutoCandidate, 9> TABLE{{
+      {.method = "all"},
+      {.method = "tiled", .walk = &TileLoad::walked, .listed = &TileLoad::interval, .gathers = true},
+      {.method = "tiled",
+       .option = "tile=8",
+       .tile_px = 8,
+       .walk = &TileLoad::walked,
+       .listed = &TileLoad::interval,
+       .gathers = true},
+      {.method = "tiled-bits",
+       .walk = &TileLoad::interval,
+       .listed = &TileLoad::interval,
+       .gathers = true,
+       .bits = true},
+      {.method = "clustered", .walk = &TileLoad::slab, .listed = &TileLoad::column, .gathers = true},
+      {.method = "tight", .walk = &TileLoad::exact, .listed = &TileLoad::exact, .gathers = true, .prunes = true},
+      {.method = "lamplight", .walk = &TileLoad::exact, .listed = &TileLoad::exact},
+      {.method = "lamplight", .option = "tile=8", .tile_px = 8, .walk = &TileLoad::exact, .listed = &TileLoad::exact},
+      {.method = "drobot-zbin",
+       .tile_px = 8,
+       .walk = &TileLoad::slab,
+       .listed = &TileLoad::column,
+       .gathers = true,
+       .bits = true},
+  }};
+  return TABLE;
+}
+
+CullTerms cull_terms(const AutoCandidate& candidate, const Workload& w) {
+  if (candidate.listed == nullptr) return {};
+  const TileLoad& load = load_of(candidate, w);
+  const double tiles = tiles_of(candidate, w);
+  const double visits = candidate.gathers ? w.lights * tiles : w.lights * load.cells;
+  const double listed = load.*candidate.listed;
+  return {1.0,
+          w.lights / LIGHTS,
+          pixels_of(w) / PIXELS,
+          visits / PAIRS,
+          tiles * listed / PIXELS,
+          candidate.prunes ? pixels_of(w) * load.interval / PAIRS : 0.0};
+}
+
+ShadeTerms shade_terms(const AutoCandidate& candidate, const Workload& w) {
+  const double walked = candidate.walk == nullptr ? w.lights : load_of(candidate, w).*candidate.walk;
+  const double words = candidate.bits ? std::ceil(w.capacity / 32.0) : 0.0;
+  return {1.0, pixels_of(w) / PIXELS, pixels_of(w) * walked / PAIRS, pixels_of(w) * words / PAIRS};
+}
+
+Choice choose(const Calibration& calibration, const Workload& workload, const DeviceTraits& traits) {
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  assert(calibration.costs.size() == candidates.size() && "a calibration has one cost a candidate");
+  Choice choice;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Prediction prediction{.label = candidates[i].label(),
+                          .method = std::string(candidates[i].method),
+                          .options = options_of(candidates[i], workload),
+                          .cull_ms = dot(calibration.costs[i].cull, cull_terms(candidates[i], workload)),
+                          .shade_ms = dot(calibration.costs[i].shade, shade_terms(candidates[i], workload))};
+    prediction.refused = refusal(prediction, workload, traits);
+    choice.predictions.push_back(std::move(prediction));
+  }
+  const Prediction* best = nullptr;
+  const Prediction* tiled = nullptr;
+  for (const Prediction& prediction : choice.predictions) {
+    if (!prediction.refused.empty()) continue;
+    if (prediction.label == "tiled") tiled = &prediction;
+    if (best == nullptr || prediction.ms() < best->ms()) best = &prediction;
+  }
+  const bool by_rule =
+      tiled != nullptr && best != tiled && workload.lights <= FEW_LIGHTS && best->ms() > CLEARLY_FASTER * tiled->ms();
+  if (by_rule) best = tiled;
+  // Brute force has no buffers that a device could refuse; a picture too large for it is too large for everything.
+  if (best == nullptr) best = &choice.predictions.front();
+  choice.predicted = *best;
+  choice.method = best->method;
+  choice.options = best->options;
+  choice.reason = reason_of(*best, choice.predictions, by_rule);
+  return choice;
+}
+
+}  // namespace lamp
