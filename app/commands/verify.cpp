@@ -21,10 +21,12 @@ struct VerifyOptions {
 /// A method under test: its look-ups, and what they were found to hold.
 struct Candidate {
   Candidate(Lighting separate_lighting, std::uint32_t width)
-      : lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+      : lighting(std::move(separate_lighting)), separate(width), fused(width), decals(width), fused_decals(width) {}
   Lighting lighting;
   Verification separate;
   Verification fused;
+  Verification decals;
+  Verification fused_decals;
 };
 
 void progress(std::string_view text) {
@@ -53,6 +55,24 @@ void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& ca
   }
 }
 
+/// The same for the decals' range of ids.
+void visit_decals(Session& session, const Truth& truth, std::vector<Candidate>& candidates) {
+  using Passes = vulkan::PlanRunner::Passes;
+  constexpr Renderer::Kind DECALS = Renderer::Kind::decals;
+  for (Candidate& candidate : candidates) {
+    progress(fmt::format("verify decals: {}", candidate.lighting.info().method->name));
+    candidate.decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::separate, DECALS));
+    if (candidate.lighting.runner().plan().fused)
+      candidate.fused_decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused, DECALS));
+  }
+}
+
+Findings decal_findings_of(Candidate& candidate) {
+  Findings separate = candidate.decals.findings();
+  if (!candidate.lighting.runner().plan().fused) return separate;
+  return of_both(separate, candidate.fused_decals.findings());
+}
+
 Findings findings_of(Candidate& candidate) {
   Findings separate = candidate.separate.findings();
   if (!candidate.lighting.runner().plan().fused) return separate;
@@ -65,17 +85,25 @@ struct Row {
   bool good = false;
 };
 
+void print_decals(const Stats& s) {
+  const Findings& f = *s.decal_findings;
+  fmt::print("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
+  if (!f.first_miss.empty()) fmt::print("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
+}
+
 void print_table(std::span<const Row> rows) {
   fmt::print("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed",
              "evaluations", "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
   for (const auto& [s, good] : rows) {
     const Findings& f = *s.findings;
-    const char* verdict = !good ? "FAILED" : s.approximate && f.missed != 0 ? "approximate" : "ok";
+    const std::uint64_t missed = f.missed + (s.decal_findings ? s.decal_findings->missed : 0);
+    const char* verdict = !good ? "FAILED" : s.approximate && missed != 0 ? "approximate" : "ok";
     fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9.2f} {:>9.1f} {:>9} {:>10} {:>11.3g} {:>10.3f}  {}\n", s.method,
                f.missed, f.evaluations, f.waste(), f.excess(), f.list_mean(), f.list_max,
                s.rendered.counters.overflowed_cells, *s.image_max_abs_diff, s.rendered.cull_ms, verdict);
     for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
     if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
+    if (s.decal_findings) print_decals(s);
     if (s.ordered && f.unordered) fmt::print("  a list does not ascend\n");
     if (!s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
       fmt::print("  the picture may differ by {:.3g}\n", *s.image_tolerance);
@@ -96,6 +124,7 @@ Stats render_candidate(const VerifyOptions& o, Session& session, const Setup& se
   stats.image_max_abs_diff = difference;
   stats.image_tolerance = picture_tolerance(candidate.lighting.runner().plan(), reference);
   stats.findings = findings_of(candidate);
+  if (!setup.decals.empty()) stats.decal_findings = decal_findings_of(candidate);
   stats.verified = true;
   return stats;
 }
@@ -115,12 +144,23 @@ Exit verify(const VerifyOptions& o) {
     candidates.emplace_back(session.lighting(*method, o.request.options, path), setup.view.width());
   for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
                  [&](const Truth& truth) { visit_band(session, truth, candidates); });
+  const std::vector<shared::OrientedBox> boxes = boxes_of(setup.decals);
+  if (!boxes.empty())
+    for_each_truth({.view = setup.view,
+                    .depth = depth,
+                    .lights = {},
+                    .boxes = boxes,
+                    .first_id = static_cast<std::uint32_t>(setup.lights.size())},
+                   session.context().device().traits.max_storage_buffer_bytes,
+                   [&](const Truth& truth) { visit_decals(session, truth, candidates); });
 
   std::vector<Row> rows;
   for (Candidate& candidate : candidates) {
     Stats stats = render_candidate(o, session, setup, candidate, reference);
-    const bool good = keeps_promises(candidate.lighting.runner().plan(), *stats.findings,
-                                     {.max_abs = *stats.image_max_abs_diff, .tolerance = *stats.image_tolerance});
+    const Plan& plan = candidate.lighting.runner().plan();
+    const PictureDifference difference{.max_abs = *stats.image_max_abs_diff, .tolerance = *stats.image_tolerance};
+    const bool good = keeps_promises(plan, *stats.findings, difference) &&
+                      (!stats.decal_findings || keeps_promises(plan, *stats.decal_findings, difference));
     rows.push_back({.stats = std::move(stats), .good = good});
   }
   progress("");
@@ -145,6 +185,7 @@ Run add_verify(CLI::App& app) {
   o->request.size = "640x360";
   o->request.lights = 1024;
   add_common_options(*command, o->request);
+  add_decal_option(*command, o->request);
   command->add_option("--method", o->methods, "method to check; may be given more than once; default: all of them")
       ->allow_extra_args(false);
   command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
@@ -154,6 +195,7 @@ Run add_verify(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  lamp verify atrium --lights 8192\n"
+      "  lamp verify atrium --decals 64\n"
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic");
   return [o] { return verify(*o); };
 }

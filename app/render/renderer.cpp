@@ -31,6 +31,12 @@ vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uin
                                       .memory = vulkan::MemoryUse::readback}));
 }
 
+/// Where there are lights alone, no id is passed over: one that no light has is disorder or excess, and shall show.
+EntityRange visited_ids(const EntityRanges& entities, Renderer::Kind kind) {
+  if (kind == Renderer::Kind::decals) return entities.boxes;
+  return entities.boxes.count() == 0 ? EntityRange{0, ~0U} : entities.lights;
+}
+
 template <class T>
 std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
   std::vector<T> values(count);
@@ -47,18 +53,19 @@ Truth empty_truth(std::uint32_t width, std::uint32_t height) {
 }
 
 Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
-                   std::uint32_t height, std::uint32_t light_capacity)
+                   std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity)
     : context_(context),
       shaders_(shaders),
       scene_(scene),
       targets_(make_targets(context.device(), width, height)),
-      data_(context.device(), light_capacity),
+      data_(context.device(), light_capacity, decal_capacity),
       geometry_(context.device(), shaders),
       timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {}
 
-void Renderer::set_frame(const View& view, std::span<const shared::Light> lights) {
+void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
+                         std::span<const gpu::DecalData> decals) {
   view_ = view;
-  data_.set(view, lights);
+  data_.set(view, lights, decals);
 }
 
 LightingFrame Renderer::lighting_frame() const {
@@ -134,11 +141,14 @@ std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
 
 std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
 
-CapturedFrame Renderer::capture() {
+CapturedFrame Renderer::capture(Lighting* decals) {
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
-    geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
+    if (decals != nullptr)
+      decals->record_surfaces(recorder, lighting_frame());
+    else
+      geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
   });
   return decode(view_, {.depth = read_depth(),
                         .base_color = read_texels<glm::u8vec4>(targets_->base_color),
@@ -152,7 +162,7 @@ vulkan::Pipeline Renderer::visit_pipeline(Lighting& lighting, vulkan::PlanRunner
   const LookUp& lookup = fused ? plan.fused->lookup : plan.lookup;
   vulkan::PipelineInfo info{.name = "visit",
                             .constants = lighting.runner().lookup({}, which).constants,
-                            .push_constant_bytes = 2 * sizeof(std::uint32_t)};
+                            .push_constant_bytes = 4 * sizeof(std::uint32_t)};
   info.constants.push_back({0, fused ? plan.fused->group_width : 16U});
   info.constants.push_back({1, fused ? plan.fused->group_height : 16U});
   for (std::uint32_t i = 0; i < 5; ++i)
@@ -162,7 +172,8 @@ vulkan::Pipeline Renderer::visit_pipeline(Lighting& lighting, vulkan::PlanRunner
   return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv("visit@" + lookup.name)));
 }
 
-std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which) {
+std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which,
+                                        Kind kind) {
   const std::size_t pixels = std::size_t{targets_->width} * truth.rows;
   const vulkan::Pipeline pipeline = visit_pipeline(lighting, which);
   const vulkan::Buffer offsets =
@@ -196,8 +207,9 @@ std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, 
                     .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     recorder.begin_pass("visit", uses);
     recorder.bind(pipeline, bound);
-    const std::uint32_t rows[] = {truth.first_row, truth.rows};
-    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(rows), rows);
+    const EntityRange ids = visited_ids(data_.entities(), kind);
+    const std::uint32_t wanted[] = {truth.first_row, truth.rows, ids.first, ids.end};
+    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(wanted), wanted);
     vkCmdDispatch(commands, (targets_->width + group_width - 1) / group_width,
                   (targets_->height + group_height - 1) / group_height, 1);
     recorder.end_pass();
