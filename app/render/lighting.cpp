@@ -266,8 +266,8 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.data.frame(), COMPUTE),
                                 reads(frame.data.lights(), COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
-  // A look-up that standard deferred does not walk is bound, but nothing has filled it and nothing reads it.
-  if (info_.path != ShadingPath::standard_deferred) append(uses, lookup_uses(lookup, COMPUTE));
+  // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
+  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup_uses(lookup, COMPUTE));
   append(bound, lookup.resources);
   const std::uint32_t group_width = fused() ? runner_.plan().fused->group_width : SHADE_GROUP_PX;
   const std::uint32_t group_height = fused() ? runner_.plan().fused->group_height : SHADE_GROUP_PX;
