@@ -13,6 +13,13 @@
 namespace lamp::app {
 namespace {
 
+static_assert(static_cast<std::uint32_t>(DecalPattern::mosaic) == gpu::DECAL_MOSAIC &&
+              static_cast<std::uint32_t>(DecalPattern::painting) == gpu::DECAL_PAINTING &&
+              static_cast<std::uint32_t>(DecalPattern::crack) == gpu::DECAL_CRACK &&
+              static_cast<std::uint32_t>(DecalPattern::moss) == gpu::DECAL_MOSS &&
+              static_cast<std::uint32_t>(DecalPattern::sign) == gpu::DECAL_SIGN &&
+              static_cast<std::uint32_t>(DecalPattern::plain) == gpu::DECAL_PLAIN);
+
 GpuImage copy_target(const vulkan::Device& device, const char* name, VkFormat format, glm::uvec2 size_px) {
   return {device,
           {.name = name,

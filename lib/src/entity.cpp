@@ -19,7 +19,7 @@ bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y
 std::string fault(const shared::OrientedBox& box) {
   if (!finite(box.center)) return "center must be finite";
   const glm::vec3& half = box.half_extents;
-  if (!finite(half) || !(half.x > 0.0F && half.y > 0.0F && half.z > 0.0F))
+  if (!finite(half) || half.x <= 0.0F || half.y <= 0.0F || half.z <= 0.0F)
     return "half extents must be finite and > 0 m, got (" + std::to_string(half.x) + ", " + std::to_string(half.y) +
            ", " + std::to_string(half.z) + ")";
   const std::array axes{box.axis_x, box.axis_y, box.axis_z};

@@ -3,8 +3,8 @@
 // LOOKUP_EACH_IN(id, pixel, z_view, first, end) does so for the entities first .. end - 1 alone, which is how kinds of
 // entities are told apart. A look-up that says LOOKUP_RANGED can skip to them: its walk_begin_in holds all of them, and
 // others only where it cannot know.
-// LOOKUP_FEW_IN is for kinds of which a pixel has few: each thread walks cells by itself. A shader that walks in turns
-// twice is compiled wrong by Mesa 22.3's lavapipe: threads of other cells come back from the second walk with nothing.
+// LOOKUP_FEW_IN is for kinds of which a pixel has few: each thread walks cells by itself. A fragment shader that walks in
+// turns twice lost lights of its second walk on Mesa 22.3's lavapipe.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LOOKUP_EACH
 #define LOOKUP_EACH(light, pixel, z_view) \
