@@ -18,7 +18,7 @@ namespace {
 using procedural::Random;
 
 struct Triangle {
-  std::array<glm::vec3, 3> corners;
+  std::array<glm::vec3, 3> corners{};
   double area_before = 0.0;  ///< of this triangle and all before it
 };
 

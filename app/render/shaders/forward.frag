@@ -32,7 +32,7 @@ void main() {
   const float z_view = z_view_of(frame, gl_FragCoord.z);
   const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
   Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
-  apply_decals(s, uvec2(gl_FragCoord.xy), z_view);
+  if (BOXES) apply_decals(s, uvec2(gl_FragCoord.xy), z_view);
   const vec3 sum = shade_cell(s, uvec2(gl_FragCoord.xy), z_view);
   out_color = vec4(shade_surroundings(s, emission) + sum, max(color.a, material.least_alpha));
 }

@@ -58,7 +58,6 @@ bool apply_decals_of_any_order(inout Surface s, vec3 facing, uvec2 pixel, float 
 }
 
 bool apply_decals(inout Surface s, uvec2 pixel, float z_view) {
-  if (!BOXES) return false;
   const vec3 facing = s.normal;
   const float soft = pixel_width(z_view);
   if (!BOXES_ASCEND) return apply_decals_of_any_order(s, facing, pixel, z_view, soft);

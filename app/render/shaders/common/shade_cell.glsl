@@ -23,8 +23,10 @@ vec3 shade_cell(Surface s, uvec2 pixel, float z_view) {
   if (!walk_is_sorted(pixel, z_view)) return shade_mixed(s, pixel, z_view);
   precise vec3 sum = vec3(0.0);
   uint light;
-  for (Walk walk = walk_begin_points(pixel, z_view); walk_next(walk, light);)
-    if (!BOXES || light < first_box(frame)) sum += shade_point(s, lights[light]);  // boxes are culled as points
+  for (Walk walk = walk_begin_points(pixel, z_view); walk_next(walk, light);) {
+    if (BOXES && light >= first_box(frame)) continue;  // boxes are culled as points
+    sum += shade_point(s, lights[light]);
+  }
   for (Walk walk = walk_begin_spots(pixel, z_view); walk_next(walk, light);) sum += shade_spot(s, lights[light]);
   return sum;
 }
