@@ -138,9 +138,10 @@ MethodChoice choose_for(const MeasureInfo& info, const BenchScene& scene, Render
   return chosen;
 }
 
-/// The entry with the method and options that were chosen in place of `auto`.
+/// The entry with the method and options that were chosen in place of `auto`, if anything was.
 GroupEntry resolved(GroupEntry entry, const MethodChoice& chosen) {
   if (!asks_for_auto(entry)) return entry;
+  if (chosen.method == nullptr) throw Error("auto looks at a frame's depth, and nothing is rendered here");
   entry.method = chosen.method->name;
   entry.options = chosen.options;
   return entry;
@@ -222,7 +223,7 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
 /// Plans alone: no frame is rendered, so no picture needs room on the device.
 std::vector<json> plan_only(const MeasureInfo& info, BenchScene& scene) {
   const BenchFrame frame = bench_frame(scene, info.group, 0);
-  std::list<Candidate> candidates = make_candidates(info, scene);
+  std::list<Candidate> candidates = make_candidates(info, scene, {});
   std::vector<json> results;
   for (Candidate& candidate : candidates) {
     candidate.rendered = false;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "commands/commands.h"
 #include "commands/request.h"
@@ -47,10 +48,14 @@ Exit capture(const CaptureOptions& o) {
   const Setup setup = make_setup(o.request);
   for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
   Session session(o.request, setup);
-  const Scene frame = frame_of(setup, session.renderer().capture());
+  std::optional<Lighting> painter;  // every decal at every pixel: what a capture shows depends on no method
+  if (!setup.decals.empty()) painter = session.lighting(parse_method("all"), {}, ShadingPath::deferred);
+  const Scene frame = frame_of(setup, session.renderer().capture(painter ? &*painter : nullptr));
   write_capture(o.out, frame, lights);
   fmt::print("capture   {}, {}x{}\nlights    {}: {}\n", o.out, setup.view.width(), setup.view.height(),
              setup.lights.size(), setup.lights_note);
+  if (!setup.decals.empty())
+    fmt::print("decals    {}: {}; kept in albedo and normals\n", setup.decals.size(), setup.decals_note);
   if (has_glass(setup.scene)) fmt::print("left out  transparent surfaces\n");
   return Exit::done;
 }
@@ -61,6 +66,7 @@ Run add_capture(CLI::App& app) {
   CLI::App* command = app.add_subcommand("capture", "Write one frame as files that every command takes as a scene");
   auto o = std::make_shared<CaptureOptions>();
   add_common_options(*command, o->request);
+  add_decal_option(*command, o->request);
   command->add_option("--out", o->out, "folder: a new one, an empty one, or a capture to replace")->required();
   command->add_option("--lights-as", o->lights_as, "npy (NumPy, compact) or json (readable)")->capture_default_str();
   command->footer(

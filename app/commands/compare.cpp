@@ -114,6 +114,7 @@ Run add_compare(CLI::App& app) {
   command->add_option("b", o->b, "another");
   add_common_options(*command, o->request);
   add_auto_options(*command, o->request);
+  add_decal_option(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   command->add_option("--out", o->out, "picture, .png")->capture_default_str();

@@ -76,6 +76,7 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
   line("device", fmt::format("{} ({})", stats.device, stats.driver));
   line("scene", fmt::format("{}, {}x{}", stats.scene, stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
+  if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
   for (const std::string& note : stats.notes) line("note", note);
@@ -128,7 +129,7 @@ Exit render(const RenderOptions& o) {
 
   const std::vector<gpu::Visit> visits = visit_all(session, lighting);  // of the frame whose numbers are told
   const HdrImage image =
-      average_samples(session.renderer(), lighting, setup.lights, std::move(rendered.image), samples);
+      average_samples(session.renderer(), lighting, setup.lights, std::move(rendered.image), samples, setup.decals);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_picture(with_folder(o.out), image, toned);
@@ -156,6 +157,7 @@ Run add_render(CLI::App& app) {
   add_common_options(*command, o->request);
   add_method_options(*command, o->request);
   add_auto_options(*command, o->request);
+  add_decal_option(*command, o->request);
   command->add_option("--out", o->out, "picture, .png or .exr")->capture_default_str();
   command->add_option("--heatmap", o->heatmap, "heat map of lights a cell, .png");
   command->add_option("--overlay", o->overlay, "heat map over the picture, .png");
@@ -171,6 +173,7 @@ Run add_render(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png --heatmap heat.png\n"
+      "  lamp render atrium --frame 40 --decals 64 --method tight --out decals.png\n"
       "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
   return [o] { return render(*o); };
 }

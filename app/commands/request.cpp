@@ -14,6 +14,7 @@
 #include "scene/capture.h"
 #include "scene/flight.h"
 #include "scene/gltf.h"
+#include "scene/place_decals.h"
 #include "scene/place_lights.h"
 
 namespace lamp::app {
@@ -66,6 +67,19 @@ View requested_view(const Request& request, const Scene& scene) {
                  request.projection);
 }
 
+/// A capture holds no surfaces to lie on but those that its pixels show, with the decals that were there.
+void add_decals(const Request& request, Setup& setup) {
+  if (request.decals == 0) return;
+  if (setup.scene.captured)
+    throw Error(fmt::format("--decals {}: the capture {} has its decals in its albedo and normals, expected 0",
+                            request.decals, request.scene));
+  const std::vector<Decal> decals = place_decals(setup.scene, request.decals, request.seed);
+  setup.decals = pack(decals);
+  if (const auto error = check_boxes(boxes_of(setup.decals))) throw Error(setup.scene.name + ": " + error->text());
+  const std::size_t own = std::min(decals.size(), setup.scene.decals.size());
+  setup.decals_note = fmt::format("{} of the scene + {} generated", own, decals.size() - own);
+}
+
 }  // namespace
 
 void add_common_options(CLI::App& command, Request& r) {
@@ -116,6 +130,15 @@ void add_auto_options(CLI::App& command, Request& r) {
       .add_option("--calibration", r.calibration,
                   "file of costs that auto goes by; default: measured at first use, kept in the user's cache folder")
       ->envname("LAMPLIGHT_CALIBRATION");
+}
+
+void add_decal_option(CLI::App& command, Request& r) {
+  command
+      .add_option("--decals", r.decals,
+                  "box decals, culled and looked up as lights are: the scene's own, then generated ones; a capture has "
+                  "those it was taken with")
+      ->check(whole_number(0, 65536))
+      ->capture_default_str();
 }
 
 glm::uvec2 parse_size(const std::string& text) {
@@ -228,6 +251,7 @@ Setup make_setup(const Request& request) {
   setup.lights.insert(setup.lights.end(), packed.begin(), packed.end());
   setup.lights_note = fmt::format("{} generated{} + {} of the scene", setup.generated.size(),
                                   range_note(setup.generated), setup.scene.lights.size());
+  add_decals(request, setup);
   return setup;
 }
 
@@ -237,8 +261,9 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
       .device = request.device, .validation = validation, .pipeline_statistics = request.pipeline_statistics});
   gpu_scene_ = std::make_unique<GpuScene>(*context_, setup.scene);
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
-                                         static_cast<std::uint32_t>(setup.lights.size()));
-  renderer_->set_frame(setup.view, setup.lights);
+                                         static_cast<std::uint32_t>(setup.lights.size()),
+                                         static_cast<std::uint32_t>(setup.decals.size()));
+  renderer_->set_frame(setup.view, setup.lights, setup.decals);
 }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
@@ -248,11 +273,12 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
            .options = take(resolve_options(method, options)),
            .width = setup_.view.width(),
            .height = setup_.view.height(),
-           .light_capacity = static_cast<std::uint32_t>(setup_.lights.size()),
+           .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
            .path = path,
            .brdf = brdf_,
            .transparency = !gpu_scene_->blended().empty(),
-           .captured = setup_.scene.captured.has_value()}};
+           .captured = setup_.scene.captured.has_value(),
+           .decals = !setup_.decals.empty()}};
 }
 
 }  // namespace lamp::app

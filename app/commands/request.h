@@ -23,7 +23,8 @@ struct Request {
   std::uint32_t lights = 4096;
   bool lights_given = false;  ///< on the command line: to a capture, lights are added when asked for
   float spots = 0.5F;
-  std::string range;  ///< "MIN:MAX", empty: automatic
+  std::string range;         ///< "MIN:MAX", empty: automatic
+  std::uint32_t decals = 0;  ///< the scene's own, then generated ones
   std::uint64_t seed = 1;
   std::string method = "auto";
   std::vector<std::string> options;
@@ -45,6 +46,8 @@ void add_common_options(CLI::App& command, Request& request);
 void add_method_options(CLI::App& command, Request& request);
 /// Adds `--explain` and `--calibration`.
 void add_auto_options(CLI::App& command, Request& request);
+/// Adds `--decals`, for commands whose numbers and pictures may have them.
+void add_decal_option(CLI::App& command, Request& request);
 
 /// Throws Error for whatever can be known to be wrong before a scene is loaded: the method (`auto` or one of the
 /// table), its options, size, path, BRDF.
@@ -56,7 +59,9 @@ struct Setup {
   View view;
   std::vector<Light> generated;       ///< besides the scene's own
   std::vector<shared::Light> lights;  ///< the scene's, then the generated ones
-  std::string lights_note;            ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
+  std::vector<gpu::DecalData> decals;
+  std::string decals_note;  ///< "44 of the scene + 20 generated"
+  std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
 };
 [[nodiscard]] Setup make_setup(const Request& request);
 

@@ -38,6 +38,7 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
               .width = info.view.width(),
               .height = info.view.height(),
               .lights = info.lights,
+              .decals = info.decals,
               .frames = info.frames,
               .rendered = std::move(rendered),
               .cells = plan.cells,
@@ -57,7 +58,8 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
                      .scene = request.scene,
                      .view = setup.view,
                      .lights = setup.lights.size(),
-                     .frames = frames},
+                     .frames = frames,
+                     .decals = setup.decals.size()},
                     lighting, std::move(rendered));
 }
 
@@ -71,6 +73,7 @@ nlohmann::json to_json(const Stats& s) {
                       {"width", s.width},
                       {"height", s.height},
                       {"lights", s.lights},
+                      {"decals", s.decals},
                       {"frames", s.frames},
                       {"passes", nlohmann::json::array()},
                       {"cull_ms", s.rendered.cull_ms},
@@ -106,6 +109,10 @@ nlohmann::json to_json(const Stats& s) {
     }
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
+  if (s.decal_findings)
+    json.update({{"decals_missed", s.decal_findings->missed},
+                 {"decal_evaluations", s.decal_findings->evaluations},
+                 {"decals_useful", s.decal_findings->useful}});
   if (s.image_max_abs_diff) json["image_max_abs_diff"] = *s.image_max_abs_diff;
   if (s.image_tolerance) json["image_tolerance"] = *s.image_tolerance;
   return json;

@@ -19,16 +19,18 @@ struct Stats {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::size_t lights = 0;
+  std::size_t decals = 0;
   std::uint32_t frames = 0;
   Rendered rendered;  ///< its picture is not kept
   std::vector<std::pair<std::string, std::uint64_t>> bytes;
   std::uint64_t cells = 0;
   std::vector<std::pair<std::string, std::string>> fits_with;  ///< options with which all lists of the frame fit
   std::vector<std::string> notes;                              ///< the plan's: what is done otherwise than asked
-  std::optional<Findings> findings;
-  bool ordered = true;               ///< the plan's lists ascend
-  bool approximate = false;          ///< the plan may miss lights
-  std::optional<Verifier> verifier;  ///< whose truth the findings were held against, if any
+  std::optional<Findings> findings;                            ///< of lights
+  std::optional<Findings> decal_findings;  ///< of decals, where there are some and they were held against a truth
+  bool ordered = true;                     ///< the plan's lists ascend
+  bool approximate = false;                ///< the plan may miss lights
+  std::optional<Verifier> verifier;        ///< whose truth the findings were held against, if any
   std::optional<float> image_max_abs_diff;
   std::optional<float> image_tolerance;  ///< how large it may be
 };
@@ -40,6 +42,7 @@ struct StatsInfo {
   const View& view;
   std::size_t lights = 0;
   std::uint32_t frames = 0;
+  std::size_t decals = 0;
 };
 [[nodiscard]] Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered);
 

@@ -24,11 +24,18 @@ struct VerifyOptions {
 /// A method under test, and what its look-ups were found to hold.
 struct Candidate {
   Candidate(Lighting separate_lighting, std::vector<std::string> settings, std::uint32_t width)
-      : options(std::move(settings)), lighting(std::move(separate_lighting)), separate(width), fused(width) {}
+      : options(std::move(settings)),
+        lighting(std::move(separate_lighting)),
+        separate(width),
+        fused(width),
+        decals(width),
+        fused_decals(width) {}
   std::vector<std::string> options;
   Lighting lighting;
   Verification separate;
   Verification fused;
+  Verification decals;
+  Verification fused_decals;
   Findings findings;
 };
 
@@ -80,6 +87,38 @@ void find_by_gpu(Session& session, const Setup& setup, std::vector<Candidate>& c
   }
 }
 
+/// The same for the decals' range of ids.
+void visit_decals(Session& session, const Truth& truth, std::vector<Candidate>& candidates) {
+  using Passes = vulkan::PlanRunner::Passes;
+  constexpr Renderer::Kind DECALS = Renderer::Kind::decals;
+  for (Candidate& candidate : candidates) {
+    progress(fmt::format("verify decals: {}", candidate.lighting.info().method->name));
+    candidate.decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::separate, DECALS));
+    if (candidate.lighting.runner().plan().fused)
+      candidate.fused_decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused, DECALS));
+  }
+}
+
+Findings decal_findings_of(Candidate& candidate) {
+  Findings separate = candidate.decals.findings();
+  if (!candidate.lighting.runner().plan().fused) return separate;
+  return of_both(separate, candidate.fused_decals.findings());
+}
+
+/// Of decals there are few: always by the oracle.
+void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
+  const std::vector<shared::OrientedBox> boxes = boxes_of(setup.decals);
+  if (boxes.empty()) return;
+  const std::vector<float> depth = session.renderer().read_depth();
+  for_each_truth({.view = setup.view,
+                  .depth = depth,
+                  .lights = {},
+                  .boxes = boxes,
+                  .first_id = static_cast<std::uint32_t>(setup.lights.size())},
+                 session.context().device().traits.max_storage_buffer_bytes,
+                 [&](const Truth& truth) { visit_decals(session, truth, candidates); });
+}
+
 /// A row of the table.
 struct Row {
   Stats stats;
@@ -92,12 +131,19 @@ std::string number_or_dash(const char* format, const std::optional<Number>& numb
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
 
+void print_decals(const Stats& s) {
+  const Findings& f = *s.decal_findings;
+  fmt::print("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
+  if (!f.first_miss.empty()) fmt::print("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
+}
+
 void print_table(std::span<const Row> rows) {
   fmt::print("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed",
              "evaluations", "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
   for (const auto& [s, good] : rows) {
     const Findings& f = *s.findings;
-    const char* verdict = !good ? "FAILED" : s.approximate && f.missed != 0 ? "approximate" : "ok";
+    const std::uint64_t missed = f.missed + (s.decal_findings ? s.decal_findings->missed : 0);
+    const char* verdict = !good ? "FAILED" : s.approximate && missed != 0 ? "approximate" : "ok";
     fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
                f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
                s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
@@ -105,14 +151,14 @@ void print_table(std::span<const Row> rows) {
     for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
     if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
     if (f.repeated != 0) fmt::print("  {} reaching lights walked again\n", f.repeated);
+    if (s.decal_findings) print_decals(s);
     if (s.ordered && f.unordered) fmt::print("  a list does not ascend\n");
     if (s.image_max_abs_diff && !s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
       fmt::print("  the picture may differ by {:.3g}\n", *s.image_tolerance);
   }
 }
 
-float picture_difference(const VerifyOptions& o, Session& session, Candidate& candidate, const HdrImage& picture,
-                         const HdrImage& reference) {
+float picture_difference(Session& session, Candidate& candidate, const HdrImage& picture, const HdrImage& reference) {
   float difference = max_abs_difference(picture, reference);
   if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
     Lighting fused =
@@ -130,10 +176,14 @@ Row make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candi
   const Plan& plan = candidate.lighting.runner().plan();
   PictureDifference difference;
   if (reference)
-    difference = {.max_abs = picture_difference(o, session, candidate, rendered.image, *reference),
+    difference = {.max_abs = picture_difference(session, candidate, rendered.image, *reference),
                   .tolerance = picture_tolerance(plan, *reference)};
   Row row{.stats = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1),
           .good = keeps_promises(plan, candidate.findings, difference)};
+  if (!setup.decals.empty()) {
+    row.stats.decal_findings = decal_findings_of(candidate);
+    row.good = row.good && keeps_promises(plan, *row.stats.decal_findings, difference);
+  }
   if (reference) {
     row.stats.image_max_abs_diff = difference.max_abs;
     row.stats.image_tolerance = difference.tolerance;
@@ -158,13 +208,26 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
   print_table(rows);
 }
 
+std::uint64_t pairs_of(const Setup& setup) {
+  return std::uint64_t{setup.view.width()} * setup.view.height() * setup.lights.size();
+}
+
+/// The GPU verifier knows of lights alone.
+Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& context) {
+  const VerifierChoice choice = parse_verifier(o.verifier, context);
+  if (setup.decals.empty()) return chosen(choice, pairs_of(setup));
+  if (choice == VerifierChoice::gpu)
+    throw Error("--verifier gpu: decals are checked by the oracle alone; use --verifier oracle");
+  return Verifier::oracle;
+}
+
 Exit verify(const VerifyOptions& o) {
   const ShadingPath path = parse_path(o.request.path);
   const std::vector<std::string> wanted = wanted_methods(o);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
-  const std::uint64_t pairs = std::uint64_t{setup.view.width()} * setup.view.height() * setup.lights.size();
-  const Verifier verifier = chosen(parse_verifier(o.verifier, session.context()), pairs);
+  const std::uint64_t pairs = pairs_of(setup);
+  const Verifier verifier = verifier_of(o, setup, session.context());
 
   std::vector<Candidate> candidates;
   for (const MethodChoice& chosen : chosen_methods(session, setup, o.request, wanted, o.json))
@@ -182,6 +245,7 @@ Exit verify(const VerifyOptions& o) {
     find_by_gpu(session, setup, candidates);
   else
     find_by_oracle(session, setup, candidates);
+  find_decals(session, setup, candidates);
 
   std::vector<Row> rows;
   for (Candidate& candidate : candidates) {
@@ -202,6 +266,7 @@ Run add_verify(CLI::App& app) {
   o->request.size = "640x360";
   o->request.lights = 1024;
   add_common_options(*command, o->request);
+  add_decal_option(*command, o->request);
   command
       ->add_option("--method", o->methods,
                    "method to check, or auto; may be given more than once; default: all of them")
@@ -215,6 +280,7 @@ Run add_verify(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  lamp verify atrium --lights 8192\n"
+      "  lamp verify atrium --decals 64\n"
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic");
   return [o] { return verify(*o); };
 }

@@ -33,10 +33,10 @@ View shifted(const View& view, glm::dvec2 offset_px) {
 }
 
 HdrImage average_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights, HdrImage first,
-                         std::uint32_t samples) {
+                         std::uint32_t samples, std::span<const gpu::DecalData> decals) {
   const View view = renderer.view();
   for (std::uint32_t i = 1; i < samples; ++i) {
-    renderer.set_frame(shifted(view, sample_offset(i)), lights);
+    renderer.set_frame(shifted(view, sample_offset(i)), lights, decals);
     const HdrImage image = renderer.render(lighting).image;
     for (std::size_t p = 0; p < first.pixels.size(); ++p) first.pixels[p] += image.pixels[p];
   }

@@ -19,6 +19,7 @@ namespace lamp::app {
 /// Averages `first`, which was rendered at the pixels' centres, with `samples` - 1 more pictures of the same frame.
 /// Leaves the renderer at the last of them.
 [[nodiscard]] HdrImage average_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
-                                       HdrImage first, std::uint32_t samples);
+                                       HdrImage first, std::uint32_t samples,
+                                       std::span<const gpu::DecalData> decals = {});
 
 }  // namespace lamp::app

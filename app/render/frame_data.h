@@ -1,34 +1,41 @@
-// What changes every frame: the camera's record and the lights, on the GPU.
+// What changes every frame, on the GPU: the camera's record, the lights, and the decals behind them (entity.h).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "lamplight/entity.h"
 #include "lamplight/view.h"
 #include "lamplight/vulkan.h"
+#include "render/shaders/decal_data.h"
 
 namespace lamp::app {
 
 class FrameData {
  public:
-  FrameData(const vulkan::Device& device, std::uint32_t light_capacity);
+  FrameData(const vulkan::Device& device, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0);
 
   /// Host side; the copies are recorded by `record_upload`.
-  void set(const View& view, std::span<const shared::Light> lights);
+  void set(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
   void record_upload(vulkan::Recorder& recorder) const;
 
   [[nodiscard]] vulkan::Resource frame() const { return vulkan::Resource::storage(frame_.handle()); }
   [[nodiscard]] vulkan::Resource lights() const { return vulkan::Resource::storage(lights_.handle()); }
-  [[nodiscard]] std::uint32_t light_count() const { return host_frame_.light_count; }
+  [[nodiscard]] vulkan::Resource decals() const { return vulkan::Resource::storage(decals_.handle()); }
+  /// The ids of lights and decals.
+  [[nodiscard]] EntityRanges entities() const {
+    return entity_ranges(host_frame_.light_count - host_frame_.box_count, host_frame_.box_count);
+  }
   [[nodiscard]] vulkan::PlanInputs plan_inputs(const vulkan::Resource& depth) const;
 
  private:
   vulkan::Buffer frame_;
-  vulkan::Buffer lights_;
-  vulkan::Buffer staging_;  ///< shared::Frame, then the lights
+  vulkan::Buffer lights_;  ///< and a record for each decal
+  vulkan::Buffer decals_;
+  vulkan::Buffer staging_;  ///< shared::Frame, then the lights with the decals' records, then the decals
   shared::Frame host_frame_{};
-  std::vector<shared::Light> host_lights_;
+  std::vector<shared::Light> host_lights_;  ///< with the decals' records
 };
 
 }  // namespace lamp::app

@@ -39,6 +39,11 @@ std::vector<vulkan::Use> lookup_uses(const vulkan::BoundLookUp& lookup, VkPipeli
   return uses;
 }
 
+std::vector<vulkan::Bound> with_decals(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
+  bound.push_back({BINDING_DECALS, frame.data.decals()});
+  return bound;
+}
+
 /// The G-buffer at the bindings of common/deferred_surface.glsl.
 std::vector<vulkan::Bound> gbuffer_bound(const Targets& targets) {
   return {{1, targets.depth.sampled()},
@@ -58,7 +63,10 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
                                   const char* name) {
   const vulkan::BoundLookUp lookup = runner.lookup({});
   vulkan::PipelineInfo pipeline{.name = name, .constants = lookup.constants, .bindings = mesh_bindings()};
-  pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
+  append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
+                              {CONSTANT_BOXES, info.decals ? 1U : 0U},
+                              {CONSTANT_BOXES_ASCEND, runner.plan().ordered ? 1U : 0U}});
+  pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   append(pipeline.bindings, lookup_bindings(runner.plan().lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),
                                          shaders.spirv(variant("forward", lookup.name)), state));
@@ -109,6 +117,8 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
   runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(info, device), shaders.source()));
   build_shade(device, shaders);
   if (info.transparency) build_transparent(device, shaders);
+  if (info.decals && info.path != ShadingPath::forward)
+    decals_.emplace(device, shaders, runner_, glm::uvec2(info.width, info.height));
 }
 
 std::vector<std::pair<std::string, std::string>> Lighting::fits_with(std::span<const std::uint32_t> needed) const {
@@ -128,7 +138,10 @@ std::span<const vulkan::PipelineStatistic> Lighting::statistics(std::string_view
   return runner_.statistics(pass);
 }
 
-bool Lighting::fused() const { return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value(); }
+bool Lighting::fused() const {
+  // Decals must be in the G-buffer before it is lit, and need the cells for that: the cull comes first.
+  return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value() && !info_.decals;
+}
 
 void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& shaders) {
   if (info_.path == ShadingPath::forward && info_.captured) {
@@ -149,7 +162,8 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
                     {1, fused_lookup != nullptr ? fused_lookup->group_height : SHADE_GROUP_PX},
                     {CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)},
                     {CONSTANT_WALK, volumes ? 0U : 1U},
-                    {CONSTANT_FIRST_ROW, info_.shaded.first}};
+                    {CONSTANT_FIRST_ROW, info_.shaded.first},
+                    {CONSTANT_BOXES, info_.decals ? 1U : 0U}};
   append(info.constants, lookup.constants);
   append(info.bindings, lookup_bindings(fused_lookup != nullptr ? fused_lookup->lookup : runner_.plan().lookup));
   shade_ = take(vulkan::Pipeline::compute(device, info, shaders.spirv(variant("deferred", lookup.name))));
@@ -190,15 +204,23 @@ void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& fram
   runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()));
 }
 
+void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame) {
+  frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
+  if (!decals_) return;
+  record_cull(recorder, frame);
+  const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
+  decals_->record(recorder, frame.data, frame.targets, runner_.lookup(inputs));
+}
+
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
   if (info_.path == ShadingPath::forward)
     frame.geometry.record_depth(recorder, frame.scene, frame.data, frame.targets);
   else
-    frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
+    record_surfaces(recorder, frame);
 
   if (fused())
     runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()), Passes::fused);
-  else if (info_.path != ShadingPath::standard_deferred)
+  else if (info_.path != ShadingPath::standard_deferred && !decals_)
     record_cull(recorder, frame);
 
   if (info_.path == ShadingPath::forward && info_.captured)
@@ -218,7 +240,8 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   const vulkan::BoundLookUp lookup = runner_.lookup(frame.data.plan_inputs(frame.targets.depth.sampled()));
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, lookup_uses(lookup, GRAPHICS_SHADERS));
-  append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS)});
+  append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
+                reads(frame.data.decals(), GRAPHICS_SHADERS)});
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
@@ -226,7 +249,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
                          .frame = &frame.data,
                          .draws = frame.scene.opaque(),
                          .pipeline = &shade_,
-                         .more = lookup.resources});
+                         .more = with_decals(lookup.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }
@@ -265,8 +288,8 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.data.frame(), COMPUTE),
                                 reads(frame.data.lights(), COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
-  // A look-up that standard deferred does not walk is bound, but nothing has filled it and nothing reads it.
-  if (info_.path != ShadingPath::standard_deferred) append(uses, lookup_uses(lookup, COMPUTE));
+  // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
+  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup_uses(lookup, COMPUTE));
   append(bound, lookup.resources);
   const std::uint32_t group_width = fused() ? runner_.plan().fused->group_width : SHADE_GROUP_PX;
   const std::uint32_t group_height = fused() ? runner_.plan().fused->group_height : SHADE_GROUP_PX;
@@ -291,7 +314,8 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
   recorder.bind(volumes_, bound);
-  if (frame.data.light_count() != 0) vkCmdDraw(recorder.commands(), VOLUME_VERTICES, frame.data.light_count(), 0, 0);
+  const std::uint32_t lights = frame.data.entities().lights.count();
+  if (lights != 0) vkCmdDraw(recorder.commands(), VOLUME_VERTICES, lights, 0, 0);
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }
@@ -299,7 +323,8 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
 void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame) {
   const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
   vulkan::PlanRunner& runner = any_depth_runner_ ? *any_depth_runner_ : runner_;
-  const bool culled = !any_depth_runner_ && info_.path != ShadingPath::standard_deferred && !fused();
+  const bool walked = info_.path != ShadingPath::standard_deferred || decals_;
+  const bool culled = !any_depth_runner_ && walked && !fused();
   recorder.name_group("transparent");
   if (!culled) runner.record(recorder, inputs);
   recorder.name_group("");
@@ -314,7 +339,8 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   const vulkan::BoundLookUp lookup = runner.lookup(inputs);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, lookup_uses(lookup, GRAPHICS_SHADERS));
-  append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS)});
+  append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
+                reads(frame.data.decals(), GRAPHICS_SHADERS)});
   recorder.begin_pass("transparent", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
@@ -322,7 +348,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
                          .frame = &frame.data,
                          .draws = far_to_near,
                          .pipeline = &transparent_,
-                         .more = lookup.resources});
+                         .more = with_decals(lookup.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }

@@ -7,13 +7,14 @@
 #include <string_view>
 
 #include "lamplight/method.h"
+#include "render/decal_pass.h"
 #include "render/geometry.h"
 
 namespace lamp::app {
 
 enum class ShadingPath : std::uint8_t {
   forward,            ///< Forward+: fragments walk their cell
-  tiled_deferred,     ///< one fused dispatch where the method has one, else as `deferred`
+  tiled_deferred,     ///< one fused dispatch where the method has one and there are no decals, else as `deferred`
   deferred,           ///< cull, then shade in compute
   standard_deferred,  ///< no cull: one volume a light, added up by blending
 };
@@ -33,11 +34,12 @@ struct LightingInfo {
   Options options;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t light_capacity = 0;
+  std::uint32_t light_capacity = 0;  ///< decals included
   ShadingPath path = ShadingPath::deferred;
   Brdf brdf = Brdf::ggx;
   bool transparency = false;  ///< the scene has blended surfaces
   bool captured = false;      ///< the scene is a captured frame
+  bool decals = false;        ///< the frames have decals
   Rows shaded;                ///< what is shaded: a reference picture may need a part alone; not with a fused look-up
 };
 
@@ -57,6 +59,8 @@ class Lighting {
 
   /// Geometry, cull, shade; leaves the picture in targets.hdr and the depth in targets.depth.
   void record(vulkan::Recorder& recorder, const LightingFrame& frame);
+  /// Geometry, and the decals on it: what a deferred path lights.
+  void record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame);
   /// Only the cull, over the depth that is there.
   void record_cull(vulkan::Recorder& recorder, const LightingFrame& frame);
 
@@ -89,6 +93,7 @@ class Lighting {
   vulkan::Pipeline shade_;
   vulkan::Pipeline volumes_;
   vulkan::Pipeline transparent_;
+  std::optional<DecalPass> decals_;  ///< of the deferred paths
 };
 
 /// A method's plan for these traits, or its error thrown.

@@ -31,6 +31,12 @@ vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uin
                                       .memory = vulkan::MemoryUse::readback}));
 }
 
+/// Where there are lights alone, no id is passed over: one that no light has is disorder or excess, and shall show.
+EntityRange visited_ids(const EntityRanges& entities, Renderer::Kind kind) {
+  if (kind == Renderer::Kind::decals) return entities.boxes;
+  return entities.boxes.count() == 0 ? EntityRange{0, ~0U} : entities.lights;
+}
+
 template <class T>
 std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
   std::vector<T> values(count);
@@ -47,18 +53,19 @@ Truth empty_truth(std::uint32_t width, std::uint32_t height) {
 }
 
 Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
-                   std::uint32_t height, std::uint32_t light_capacity)
+                   std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity)
     : context_(context),
       shaders_(shaders),
       scene_(scene),
       targets_(make_targets(context.device(), width, height)),
-      data_(context.device(), light_capacity),
+      data_(context.device(), light_capacity, decal_capacity),
       geometry_(context.device(), shaders),
       timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {}
 
-void Renderer::set_frame(const View& view, std::span<const shared::Light> lights) {
+void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
+                         std::span<const gpu::DecalData> decals) {
   view_ = view;
-  data_.set(view, lights);
+  data_.set(view, lights, decals);
 }
 
 LightingFrame Renderer::lighting_frame() const {
@@ -132,11 +139,14 @@ std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
 
 std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
 
-void Renderer::draw_surfaces() {
+void Renderer::draw_surfaces(Lighting* decals) {
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
-    geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
+    if (decals != nullptr)
+      decals->record_surfaces(recorder, lighting_frame());
+    else
+      geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
   });
 }
 
@@ -145,8 +155,8 @@ std::vector<float> Renderer::draw_depth() {
   return read_depth();
 }
 
-CapturedFrame Renderer::capture() {
-  draw_surfaces();
+CapturedFrame Renderer::capture(Lighting* decals) {
+  draw_surfaces(decals);
   return decode(view_, {.depth = read_depth(),
                         .base_color = read_texels<glm::u8vec4>(targets_->base_color),
                         .surface = read_texels<glm::uvec2>(targets_->surface),
@@ -210,7 +220,8 @@ void Renderer::run(const PixelPass& pass) {
   });
 }
 
-std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which) {
+std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which,
+                                        Kind kind) {
   const std::size_t pixels = std::size_t{targets_->width} * truth.rows;
   const vulkan::Buffer offsets =
       upload_buffer(context_, "truth offsets", bytes_of(truth.offsets), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -218,13 +229,14 @@ std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, 
       upload_buffer(context_, "truth lights", bytes_of(truth.lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer found =
       readback(context_.device(), "visits", std::max<std::size_t>(1, pixels) * sizeof(gpu::Visit));
+  const EntityRange ids = visited_ids(data_.entities(), kind);
   run({.shader = "visit",
        .lighting = &lighting,
        .which = which,
        .storage = {{2, vulkan::Resource::storage(offsets.handle())},
                    {3, vulkan::Resource::storage(lights.handle())},
                    {4, vulkan::Resource::storage(found.handle()), VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}},
-       .push = {truth.first_row, truth.rows}});
+       .push = {truth.first_row, truth.rows, ids.first, ids.end}});
   for (const vulkan::Buffer* buffer : {&offsets, &lights, &found}) forget(*buffer);
   return copy_out<gpu::Visit>(found, pixels);
 }

@@ -55,10 +55,10 @@ class Renderer {
  public:
   /// Throws Error when a size is 0 or beyond the device's limits.
   Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
-           std::uint32_t height, std::uint32_t light_capacity);
+           std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0);
 
-  /// Camera and lights of the next frames.
-  void set_frame(const View& view, std::span<const shared::Light> lights);
+  /// Camera, lights and decals of the next frames. A Lighting shows decals only if it was made for them.
+  void set_frame(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
 
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
@@ -72,13 +72,16 @@ class Renderer {
   /// Draws the surfaces of a frame, of a scene that has any, and reads their depth back.
   [[nodiscard]] std::vector<float> draw_depth();
 
-  /// Draws the surfaces of a frame and reads them back. What is blended over them is not among them.
-  [[nodiscard]] CapturedFrame capture();
+  /// Draws the surfaces of a frame and reads them back. What is blended over them is not among them; decals are, if a
+  /// lighting of a deferred path paints them.
+  [[nodiscard]] CapturedFrame capture(Lighting* decals = nullptr);
 
   /// Culls the last frame's depth and walks the look-up of every pixel of the truth's rows. With `Passes::fused`, the
-  /// look-up that culls in the shader.
+  /// look-up that culls in the shader. The truth is of the lights, or of the decals alone.
+  enum class Kind : std::uint8_t { lights, decals };
   [[nodiscard]] std::vector<gpu::Visit> visit(Lighting& lighting, const Truth& truth,
-                                              vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
+                                              vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate,
+                                              Kind kind = Kind::lights);
 
   /// The same of every pixel, against nothing: for heat maps.
   [[nodiscard]] std::vector<gpu::Visit> visit_all(
@@ -93,9 +96,10 @@ class Renderer {
   [[nodiscard]] Context& context() { return context_; }
   [[nodiscard]] const vulkan::Device& device() const { return context_.device(); }
   [[nodiscard]] const View& view() const { return view_; }
+  [[nodiscard]] EntityRanges entities() const { return data_.entities(); }
 
  private:
-  void draw_surfaces();
+  void draw_surfaces(Lighting* decals = nullptr);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>

@@ -93,11 +93,20 @@ Findings Verification::findings() const {
 
 void for_each_truth(const View& view, std::span<const float> depth, std::span<const shared::Light> lights,
                     std::uint64_t max_buffer_bytes, const std::function<void(const Truth&)>& use) {
+  for_each_truth({.view = view, .depth = depth, .lights = lights}, max_buffer_bytes, use);
+}
+
+void for_each_truth(const TruthQuery& of, std::uint64_t max_buffer_bytes,
+                    const std::function<void(const Truth&)>& use) {
+  const View& view = of.view;
   const auto rows_at_most = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, BAND_PIXELS / view.width()));
   std::uint32_t rows = std::min(rows_at_most, view.height());
   for (std::uint32_t row = 0; row < view.height();) {
     rows = std::min(rows, view.height() - row);
-    const Truth band = truth({.view = view, .depth = depth, .lights = lights, .first_row = row, .rows = rows});
+    TruthQuery query = of;
+    query.first_row = row;
+    query.rows = rows;
+    const Truth band = truth(query);
     if (band.lights.size() * sizeof(std::uint32_t) > max_buffer_bytes && rows > 1) {
       rows = (rows + 1) / 2;
       continue;

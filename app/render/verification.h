@@ -71,6 +71,9 @@ class Verification {
 void for_each_truth(const View& view, std::span<const float> depth, std::span<const shared::Light> lights,
                     std::uint64_t max_buffer_bytes, const std::function<void(const Truth&)>& use);
 
+/// Likewise for any entities; rows and first row of the query are not read.
+void for_each_truth(const TruthQuery& of, std::uint64_t max_buffer_bytes, const std::function<void(const Truth&)>& use);
+
 /// How far a picture may be from brute force's: not at all where lists ascend; else, for 4096 additions in any order,
 /// by this share of one more than the largest value.
 inline constexpr float UNORDERED_TOLERANCE = 1e-4F;

@@ -47,6 +47,9 @@ void add_columns(Scene& scene, const Materials& materials);
 void add_decor(Scene& scene, const Materials& materials);
 void add_cloths(Scene& scene, const Materials& materials);
 
+/// What `--decals` shows; not drawn unless asked for.
+void add_decals(Scene& scene);
+
 inline constexpr glm::vec2 BANNER_M{1.5F, 3.6F};
 
 }  // namespace lamp::app::procedural::atrium

@@ -98,6 +98,7 @@ Scene make_atrium() {
   atrium::add_columns(scene, materials);
   atrium::add_decor(scene, materials);
   atrium::add_cloths(scene, materials);
+  atrium::add_decals(scene);
   scene.cameras = {camera_at("court", {-12.0F, 1.95F, 1.15F}, {0.0F, 3.7F, -0.7F}, 1.1F),
                    camera_at("gallery", {-8.9F, 7.4F, 5.1F}, {3.0F, 4.4F, -4.4F}, 1.1F),
                    camera_at("close", {-8.3F, 1.6F, 5.6F}, {-3.0F, 1.9F, 1.5F}, 1.0F)};

@@ -12,6 +12,7 @@
 
 #include "lamplight/light.h"
 #include "scene/captured_frame.h"
+#include "scene/decal.h"
 
 namespace lamp::app {
 
@@ -132,6 +133,7 @@ struct Scene {
   std::vector<Material> materials;  ///< at least one
   std::vector<Image> images;
   std::vector<Light> lights;  ///< point and spot lights, world space
+  std::vector<Decal> decals;  ///< shown only as far as asked for (place_decals)
   std::vector<DirectionalLight> directional_lights;
   std::vector<Camera> cameras;  ///< at least one after loading; the first is the default
   std::optional<Flight> flight;

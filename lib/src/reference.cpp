@@ -1,9 +1,10 @@
-// The oracle, the slow way: the definition of "a light reaches a position", and the truth that follows from it.
+// The oracle, the slow way: the definition of "an entity reaches a position", and the truth that follows from it.
 // Based on: the contract in reference.h; Kahan's atan2 form of the angle, which stays exact near 0 and 90 degrees.
 // Promise: double precision throughout; no bounds, no cells, no code of any method.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/reference.h"
 
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -36,12 +37,20 @@ Reach reach_of_cone(const shared::Light& light, const glm::dvec3& from_light) {
   return compare(angle, outer);
 }
 
-void append_pixel(std::span<const shared::Light> lights, const glm::dvec3& position_world, Truth& truth) {
-  for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const Reach answer = reach(lights[i], position_world);
-    if (answer == Reach::inside) truth.lights.push_back(i);
+template <class Entity>
+void append_reaching(std::span<const Entity> entities, std::uint32_t id, const glm::dvec3& position, Truth& truth) {
+  for (const Entity& entity : entities) {
+    const Reach answer = reach(entity, position);
+    if (answer == Reach::inside) truth.lights.push_back(id);
     if (answer == Reach::boundary) ++truth.boundary_pairs;
+    ++id;
   }
+}
+
+void append_pixel(const TruthQuery& query, const glm::dvec3& position_world, Truth& truth) {
+  const auto first_box = query.first_id + static_cast<std::uint32_t>(query.lights.size());
+  append_reaching(query.lights, query.first_id, position_world, truth);
+  append_reaching(query.boxes, first_box, position_world, truth);
   assert(truth.lights.size() <= std::numeric_limits<std::uint32_t>::max() && "too many pairs: ask for fewer rows");
 }
 
@@ -56,6 +65,20 @@ Reach reach(const shared::Light& light, const glm::dvec3& position_world) {
   return by_range == Reach::inside ? by_cone : Reach::boundary;
 }
 
+Reach reach(const shared::OrientedBox& box, const glm::dvec3& position_world) {
+  const glm::dvec3 from_center = position_world - glm::dvec3(box.center);
+  const glm::dvec3 half(box.half_extents);
+  Reach answer = Reach::inside;
+  const std::array axes{box.axis_x, box.axis_y, box.axis_z};
+  for (int i = 0; i < 3; ++i) {
+    const Reach along =
+        compare(std::abs(glm::dot(glm::dvec3(axes[static_cast<std::size_t>(i)]), from_center)), half[i]);
+    if (along == Reach::outside) return along;
+    if (along == Reach::boundary) answer = along;
+  }
+  return answer;
+}
+
 Truth brute_force_truth(const TruthQuery& query) {
   const View& view = query.view;
   assert(query.depth.size() == std::size_t{view.width()} * view.height() && "depth must cover the whole picture");
@@ -66,7 +89,7 @@ Truth brute_force_truth(const TruthQuery& query) {
   for (std::uint32_t y = query.first_row; y < query.first_row + query.rows; ++y) {
     for (std::uint32_t x = 0; x < view.width(); ++x) {
       const double depth = query.depth[std::size_t{y} * view.width() + x];
-      if (depth > 0.0) append_pixel(query.lights, view.world_position(x, y, depth), truth);
+      if (depth > 0.0) append_pixel(query, view.world_position(x, y, depth), truth);
       truth.offsets.push_back(static_cast<std::uint32_t>(truth.lights.size()));
     }
   }

@@ -1,6 +1,6 @@
-// The oracle, sooner: blocks of pixels hand down the lights whose sphere touches the box of their positions.
+// The oracle, sooner: blocks of pixels hand down the entities whose sphere touches the box of their positions.
 // Based on: brute_force_truth (reference.cpp), whose answer it repeats exactly; three levels of blocks.
-// Promise: a discarded light is outside, boundary band included, for every pixel of the block.
+// Promise: a discarded entity is outside, boundary band included, for every pixel of the block.
 // SPDX-License-Identifier: Apache-2.0
 #include <tbb/parallel_for.h>
 
@@ -117,13 +117,19 @@ class BlockTruth {
         if (!(depth_at(x, y) > 0.0)) continue;
         const std::size_t first = lights_.size();
         for (const std::uint32_t light : candidates) {
-          const Reach answer = reach(query_.lights[light], positions_[local(x, y)]);
-          if (answer == Reach::inside) lights_.push_back(light);
+          const Reach answer = reach_of(light, positions_[local(x, y)]);
+          if (answer == Reach::inside) lights_.push_back(query_.first_id + light);
           if (answer == Reach::boundary) ++boundary_pairs_;
         }
         spans_[local(x, y)] = {first, lights_.size() - first};
       }
     }
+  }
+
+  /// Boxes are numbered behind the lights.
+  [[nodiscard]] Reach reach_of(std::uint32_t entity, const glm::dvec3& position) const {
+    const std::size_t lights = query_.lights.size();
+    return entity < lights ? reach(query_.lights[entity], position) : reach(query_.boxes[entity - lights], position);
   }
 
   const TruthQuery& query_;
@@ -183,6 +189,12 @@ Truth truth(const TruthQuery& query) {
     const double radius = query.lights[i].range * SURELY_OUTSIDE;
     spheres.push_back({glm::dvec3(query.lights[i].position), radius * radius});
     if (radius > 0.0) candidates.push_back(i);
+  }
+  for (const shared::OrientedBox& box : query.boxes) {
+    // The axes are unit within 32-bit rounding, far less than the factor.
+    const double radius = glm::length(glm::dvec3(box.half_extents)) * SURELY_OUTSIDE;
+    candidates.push_back(static_cast<std::uint32_t>(spheres.size()));
+    spheres.push_back({glm::dvec3(box.center), radius * radius});
   }
 
   std::vector<BlockTruth> blocks;

@@ -70,6 +70,30 @@ TEST_F(Capture, TakesMoreLightsWhenAsked) {
   EXPECT_EQ(more[0].at("missed"), 0);
 }
 
+TEST_F(Capture, KeepsDecalsInItsSurfaces) {
+  const std::string text = output_of(small({"capture", "--out", "frame", "--decals", "60"}));
+  EXPECT_NE(text.find("decals    60: "), std::string::npos) << text;
+  EXPECT_NE(text.find("kept in albedo and normals"), std::string::npos) << text;
+  (void)output_of(small({"capture", "--out", "bare"}));
+  EXPECT_NE(read("frame/albedo.exr"), read("bare/albedo.exr"));
+  EXPECT_EQ(read("frame/depth.exr"), read("bare/depth.exr"));
+  expect_error(BAD_INPUT, {"render", "frame", "--decals", "3"}, {"--decals 3", "the capture frame has its decals"});
+  (void)output_of(small({"render", "--decals", "60", "--out", "scene.png", "--method", "tiled", "--samples", "1"}));
+  (void)output_of({"render", "frame", "--out", "capture.png", "--method", "tiled"});
+  EXPECT_EQ(read("capture.png"), read("scene.png"));
+}
+
+TEST_F(Capture, DecalsAreCountedInStats) {
+  const nlohmann::json stats = json_of(small({"verify", "--decals", "20", "--method", "tight", "--json"}));
+  EXPECT_EQ(stats[0].at("decals"), 20);
+  EXPECT_EQ(stats[0].at("decals_missed"), 0);
+  EXPECT_EQ(stats[0].at("missed"), 0);
+  EXPECT_GE(stats[0].at("decal_evaluations").get<int>(), stats[0].at("decals_useful").get<int>());
+  const nlohmann::json without = json_of(small({"verify", "--method", "tight", "--json"}));
+  EXPECT_EQ(without[0].at("decals"), 0);
+  EXPECT_FALSE(without[0].contains("decals_missed"));
+}
+
 TEST_F(Capture, HasOneViewAlone) {
   (void)output_of(small({"capture", "--out", "frame"}));
   expect_error(BAD_INPUT, {"render", "frame", "--size", "65x36"}, {"--size '65x36'", "the capture frame has 64x36"});

@@ -15,6 +15,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   DirectionalData directional_lights[];
 };
 #include "lookup.glsl"
+#include "common/decals.glsl"
 #include "common/shade_cell.glsl"
 #include "common/surroundings.glsl"
 #include "common/eye.glsl"
@@ -30,7 +31,8 @@ void main() {
 
   const float z_view = z_view_of(frame, gl_FragCoord.z);
   const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
-  const Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
+  Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
+  if (BOXES) apply_decals(s, uvec2(gl_FragCoord.xy), z_view);
   const vec3 sum = shade_cell(s, uvec2(gl_FragCoord.xy), z_view);
   out_color = vec4(shade_surroundings(s, emission) + sum, max(color.a, material.least_alpha));
 }

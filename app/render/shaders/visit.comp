@@ -17,6 +17,8 @@ layout(set = 0, binding = 4, scalar) writeonly buffer VisitBuffer { Visit visits
 layout(push_constant) uniform Push {
   uint first_row;  // rows to answer for
   uint rows;
+  uint first_id;  // entities to answer for
+  uint end_id;
 };
 #include "lookup.glsl"
 #include "lookup/parts/each.glsl"
@@ -29,7 +31,7 @@ const uint NONE = ~0u;
 uint walk_brings(uvec2 pixel, float z_view, uint first, uint count) {
   uint brought = 0u;
   uint light;
-  LOOKUP_EACH(light, pixel, z_view) {
+  LOOKUP_EACH_IN(light, pixel, z_view, first_id, end_id) {
     uint i = 0u;  // the last of them that is not greater, or the first
     for (uint step = 16u; step > 0u; step /= 2u)
       if (i + step < count && truth[first + i + step] <= light) i += step;
@@ -55,7 +57,7 @@ void main() {
   Visit visit = Visit(0u, lookup_cell(pixel, z_view), 0u, NONE, 0u);
   uint last = 0u;
   uint light;
-  LOOKUP_EACH(light, pixel, z_view) {
+  LOOKUP_EACH_IN(light, pixel, z_view, first_id, end_id) {
     if (visit.visited > 0u && light <= last) visit.unordered = 1u;
     last = light;
     ++visit.visited;

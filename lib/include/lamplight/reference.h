@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "lamplight/entity.h"
 #include "lamplight/light.h"
 #include "lamplight/view.h"
 
@@ -27,7 +28,11 @@ enum class Reach : std::uint8_t {
 /// A spot's own position has no angle and counts as boundary.
 [[nodiscard]] Reach reach(const shared::Light& light, const glm::dvec3& position_world);
 
-/// The lights that surely reach each pixel of some rows, pixel after pixel, ascending.
+/// A box reaches the positions inside it: along each axis, nearer to its centre than the half extent.
+[[nodiscard]] Reach reach(const shared::OrientedBox& box, const glm::dvec3& position_world);
+
+/// The entities that surely reach each pixel of some rows, pixel after pixel, ascending: lights, if nothing else is
+/// said.
 struct Truth {
   std::uint32_t first_row = 0;
   std::uint32_t rows = 0;
@@ -37,7 +42,7 @@ struct Truth {
 };
 
 /// Rows of a picture to answer for. `depth` holds device depth of the whole picture, row by row; 0 is sky and
-/// is reached by no light. An answer holds less than 2^32 pairs: rows * width * lights below that is always enough,
+/// is reached by nothing. An answer holds less than 2^32 pairs: rows * width * entities below that is always enough,
 /// ask for fewer rows at a time otherwise.
 struct TruthQuery {
   const View& view;
@@ -45,6 +50,8 @@ struct TruthQuery {
   std::span<const shared::Light> lights;
   std::uint32_t first_row = 0;
   std::uint32_t rows = 0;
+  std::span<const shared::OrientedBox> boxes;  ///< their ids follow those of the lights
+  std::uint32_t first_id = 0;                  ///< of the first light; not 0 to ask for the boxes of a frame alone
 };
 
 /// The truth, light by light and pixel by pixel. Slow: rows * width * lights.

@@ -15,6 +15,11 @@ uint lookup_cell(uvec2 pixel, float z_view) { return 0u; }
 
 Walk walk_begin(uvec2 pixel, float z_view) { return Walk(0u, lookup_frame.light_count); }
 
+#define LOOKUP_RANGED
+Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
+  return Walk(first, min(end, lookup_frame.light_count));
+}
+
 bool walk_next(inout Walk walk, out uint light) {
   light = walk.at++;
   return light < walk.end;

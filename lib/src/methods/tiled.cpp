@@ -112,7 +112,7 @@ LookUp look_up(Plan& plan, const Problem& problem, const TiledAxes& axes, const 
             .bindings = bindings};
   if (axes.order != shared::ORDER_TYPE)
     return {.name = parts::walk_lookup(plan, problem, "tile_lists"),
-            .constants = {axes.tile_px, axes.capacity, axes.ranges()},
+            .constants = {axes.tile_px, axes.capacity, axes.ranges(), plan.ordered ? 1U : 0U},
             .bindings = bindings};
   LookUp typed{.name = "tile_typed", .constants = {axes.tile_px, axes.ranges()}, .bindings = bindings};
   typed.bindings.push_back({b.headers});

@@ -1,4 +1,4 @@
-// What a frame's passes know of the camera: matrices, size, light count.
+// What a frame's passes know of the camera and the entities: matrices, size, counts.
 // Promise: 224 bytes in C++ and in GLSL; bound as a storage buffer.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_FRAME_H
@@ -15,10 +15,10 @@ struct Frame {
   mat4 view_from_world;  // rigid
   mat4 world_from_view;
   vec3 eye_world;    // m, world_from_view * (0,0,0)
-  uint light_count;  // lights of this frame, at most the plan's capacity
+  uint light_count;  // lights of this frame, at most the plan's capacity; with boxes: all entities (entity.h)
   uvec2 size_px;     // width, height
-  uint reserved0;
-  uint reserved1;
+  uint box_count;    // how many of them, the last ones, are boxes
+  uint reserved;
 };
 
 #ifdef __cplusplus

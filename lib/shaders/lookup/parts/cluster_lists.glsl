@@ -28,6 +28,21 @@ Walk walk_of_cell(uint cell) {
 
 Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
 
+#define LOOKUP_RANGED
+#include "lookup/parts/lower_bound.glsl"
+
+Walk walk_of_cell_in(uint cell, uint first, uint end) {
+  Walk walk = walk_of_cell(cell);
+  if (walk.first_word != NO_WORD) return Walk(first, min(end, walk.end), walk.first_word);
+  walk.at = lookup_lower_bound(walk.at, walk.end, first);
+  walk.end = lookup_lower_bound(walk.at, walk.end, end);
+  return walk;
+}
+
+Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
+  return walk_of_cell_in(lookup_cell(pixel, z_view), first, end);
+}
+
 // The first light from `from` on that the tile's bits name, or one past the last.
 uint lookup_next_bit(uint first_word, uint from, uint end) {
   while (from < end) {

@@ -40,3 +40,9 @@ bool walk_next_merged(inout WalkMerged walk, out uint light) {
 #define LOOKUP_EACH(light, pixel, z_view)                                        \
   for (WalkMerged lookup_walk = walk_begin_merged(walk_begin(pixel, z_view)); walk_next_merged(lookup_walk, light);) \
     if (lookup_walk.mine)
+#ifdef LOOKUP_RANGED
+#define LOOKUP_EACH_RANGED(id, pixel, z_view, first, end)                                \
+  for (WalkMerged lookup_walk = walk_begin_merged(walk_begin_in(pixel, z_view, first, end)); \
+       walk_next_merged(lookup_walk, id);)                                               \
+    if (lookup_walk.mine)
+#endif

@@ -2,9 +2,11 @@
 // wait. What is loaded of a list, and for a light, is then the same for all threads that walk.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
 // Promise: each thread walks its own cell once, whichever threads are active with it.
-// Needs: walk_of_cell, walk_nothing.
+// Needs: walk_of_cell, walk_of_cell_in, walk_nothing.
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_ballot : require
+
+#define LOOKUP_IN_TURNS
 
 struct WalkTurns {
   uint cell;  // the thread's own
@@ -30,3 +32,12 @@ Walk walk_of_turn(WalkTurns turns) {
 #define LOOKUP_EACH(light, pixel, z_view)                                                                    \
   for (WalkTurns lookup_turns = walk_begin_turns(lookup_cell(pixel, z_view)); walk_next_turn(lookup_turns);) \
     for (Walk lookup_walk = walk_of_turn(lookup_turns); walk_next(lookup_walk, light);)
+
+Walk walk_of_turn_in(WalkTurns turns, uint first, uint end) {
+  if (turns.done) return walk_of_cell_in(turns.turn, first, end);
+  return walk_nothing();
+}
+
+#define LOOKUP_EACH_RANGED(id, pixel, z_view, first, end)                                                    \
+  for (WalkTurns lookup_turns = walk_begin_turns(lookup_cell(pixel, z_view)); walk_next_turn(lookup_turns);) \
+    for (Walk lookup_walk = walk_of_turn_in(lookup_turns, first, end); walk_next(lookup_walk, id);)

@@ -19,3 +19,8 @@ void lookup_prepare() {}
 Walk walk_begin(uvec2 pixel, float z_view) {
   return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, lookup_frame.light_count);
 }
+
+#define LOOKUP_RANGED
+Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, first, min(end, lookup_frame.light_count));
+}

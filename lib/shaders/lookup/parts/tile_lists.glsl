@@ -5,6 +5,7 @@
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
 layout(constant_id = 101) const uint LOOKUP_CAPACITY = 512;
 layout(constant_id = 102) const uint LOOKUP_RANGES = 1;
+layout(constant_id = 103) const bool LOOKUP_ASCENDS = false;  // a list that ascends can be cut to a range of ids
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float lookup_splits[]; };
@@ -29,6 +30,22 @@ Walk walk_of_cell(uint cell) {
 }
 
 Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
+
+#define LOOKUP_RANGED
+#include "lookup/parts/lower_bound.glsl"
+
+Walk walk_of_cell_in(uint cell, uint first, uint end) {
+  Walk walk = walk_of_cell(cell);
+  if (walk.overflowed) return Walk(first, min(end, walk.end), true);
+  if (!LOOKUP_ASCENDS) return walk;
+  walk.at = lookup_lower_bound(walk.at, walk.end, first);
+  walk.end = lookup_lower_bound(walk.at, walk.end, end);
+  return walk;
+}
+
+Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
+  return walk_of_cell_in(lookup_cell(pixel, z_view), first, end);
+}
 
 bool walk_next(inout Walk walk, out uint light) {
   if (walk.at >= walk.end) return false;

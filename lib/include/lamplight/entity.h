@@ -1,0 +1,46 @@
+// Entities: what cells hold. Lights have the first ids, boxes (decals, reflection probes) the ids behind them, so that
+// one structure serves all and each kind is a range of ids that a shader walks alone (lookup/parts/each.glsl).
+// Promise: every method culls boxes as it culls lights, by the bounding sphere; no method knows of kinds.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lamplight/error.h"
+#include "lamplight/shared/entity.h"
+#include "lamplight/shared/light.h"
+
+namespace lamp {
+
+/// Ids first .. end - 1.
+struct EntityRange {
+  std::uint32_t first = 0;
+  std::uint32_t end = 0;
+
+  [[nodiscard]] std::uint32_t count() const { return end - first; }
+};
+
+/// The ids of a frame's entities, kind by kind.
+struct EntityRanges {
+  EntityRange lights;
+  EntityRange boxes;
+};
+[[nodiscard]] EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t box_count);
+
+/// The first box with a number that is not finite, a half extent that is not > 0, or axes that are not unit and at
+/// right angles within 1e-4, as an error that names it ("box 3: ..."); or nothing.
+[[nodiscard]] std::optional<Error> check_boxes(std::span<const shared::OrientedBox> boxes);
+
+/// The record that stands for a checked box in the light buffer: a point light of no intensity, whose range is the
+/// radius of a sphere that encloses the box and what rounding may add to it.
+[[nodiscard]] shared::Light bounding_light(const shared::OrientedBox& box);
+
+/// A frame's light buffer: the lights, then a record for each box.
+[[nodiscard]] std::vector<shared::Light> entity_records(std::span<const shared::Light> lights,
+                                                        std::span<const shared::OrientedBox> boxes);
+
+}  // namespace lamp
