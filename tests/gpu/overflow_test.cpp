@@ -107,8 +107,8 @@ TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
   };
   EXPECT_EQ(overflowed({"mean_cells=8", "mean_capacity=300"}), 0);
   EXPECT_GT(overflowed({"mean_cells=8", "mean_capacity=1"}), 0);
-  EXPECT_GT(overflowed({"mean_cells=1", "mean_capacity=300"}), 0);
-  EXPECT_GT(overflowed({"mean_cells=1", "mean_capacity=1"}), 0);
+  EXPECT_GT(overflowed({"mean_cells=0", "mean_capacity=300"}), 0);
+  EXPECT_GT(overflowed({"mean_cells=0", "mean_capacity=1"}), 0);
 }
 
 /// A row with every option that sizes a list set to its least, and lights so wide that all of them are too small.

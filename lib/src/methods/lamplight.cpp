@@ -31,8 +31,10 @@ constexpr std::uint32_t LIST_THREADS = 128;
 constexpr std::uint32_t PAIRS = 1024;               // of light and tile, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 64 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t CELL_PIECES = 2;            // for each cell, besides those of mean_cells
-constexpr std::uint64_t LIST_ROOM = 3U << 16;     // entries at most, besides those of mean_capacity: for small pictures
-constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // an entry's place has 31 bits
+constexpr std::uint64_t MEAN_CAPACITY = 32;         // default of the option
+constexpr std::uint64_t LIST_LIGHTS = 4;            // entries for each light that are room as well, within LIST_BUDGET
+constexpr std::uint64_t LIST_BUDGET = 5U << 18;     // entries, 5 MiB: what small pictures leave of it is room as well
+constexpr std::uint64_t MOST_ENTRIES = 1U << 30;    // an entry's place has 31 bits
 static_assert(LARGEST_BLOCK <= 1U << (32 - shared::HIT_CELL_BITS));
 
 /// Every size of the plan.
@@ -82,9 +84,11 @@ Sizes sizes_of(const Problem& problem) {
   const std::uint64_t room = lights * problem.options.integer("mean_cells");
   s.pieces = static_cast<std::uint32_t>(
       std::min((room + PIECE - 1) / PIECE + CELL_PIECES * s.cell_count, most_pieces(problem, s)));
+  const std::uint64_t tiles = s.tiles.count();
+  const std::uint64_t left = LIST_BUDGET - std::min(LIST_BUDGET, MEAN_CAPACITY * tiles);
   s.listed = static_cast<std::uint32_t>(
-      std::min(s.tiles.count() * problem.options.integer("mean_capacity") + std::min(3 * lights, LIST_ROOM),
-               std::min(MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 4)));
+      std::min({tiles * problem.options.integer("mean_capacity") + std::min(LIST_LIGHTS * lights, left), MOST_ENTRIES,
+                problem.traits.max_storage_buffer_bytes / 4}));
   return s;
 }
 
