@@ -169,5 +169,13 @@ TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
   EXPECT_GT(pieces->bytes / 4, 60000);
 }
 
+TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {
+  constexpr std::uint64_t MIB = 1ULL << 20;
+  const Method& method = *find_method("lamplight").value();
+  const Plan plan = make_plan(method, problem_of(method, 3840, 2160, 1U << 20, large_gpu())).value();
+  EXPECT_LE(plan.bytes(), 48 * MIB);
+  EXPECT_LE(std::ranges::find(plan.buffers, "tile lists", &BufferDesc::name)->bytes, 5 * MIB);
+}
+
 }  // namespace
 }  // namespace lamp
