@@ -11,7 +11,7 @@
 #include <set>
 
 #include "bench/embedded_files.h"
-#include "bench/json_object.h"
+#include "bench/suite_json.h"
 #include "error.h"
 #include "lamplight/method.h"
 
@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 9> AXES{"lights", "size",   "spots",     
 std::string joined(std::span<const std::string_view> words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 Chart parse_chart(const json& value, const std::string& where) {
-  JsonObject object(value, where + ": chart");
+  SuiteJson object(value, where + ": chart");
   Chart chart;
   object.read("x", chart.x);
   object.read("y", chart.y);
@@ -56,7 +56,7 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
   if (value.is_string()) {
     method.name = value.get<std::string>();
   } else {
-    JsonObject object(value, where + ": methods");
+    SuiteJson object(value, where + ": methods");
     object.require("name", method.name);
     object.read("options", method.options);
     object.read("label", method.label);
@@ -78,7 +78,7 @@ std::vector<SuiteMethod> every_method() {
   return all;
 }
 
-std::vector<SuiteMethod> parse_methods(JsonObject& object) {
+std::vector<SuiteMethod> parse_methods(SuiteJson& object) {
   if (!object.has("methods") || object.at("methods") == "all") return every_method();
   const json& list = object.at("methods");
   if (!list.is_array() || list.empty()) object.wrong("methods", "\"all\" or a list of methods");
@@ -87,32 +87,32 @@ std::vector<SuiteMethod> parse_methods(JsonObject& object) {
   return entries;
 }
 
-std::vector<std::pair<std::string, std::vector<std::string>>> parse_options(JsonObject& object) {
+std::vector<std::pair<std::string, std::vector<std::string>>> parse_options(SuiteJson& object) {
   std::vector<std::pair<std::string, std::vector<std::string>>> options;
   if (!object.has("options")) return options;
   if (!object.at("options").is_object()) object.wrong("options", "an object such as {\"tile\": [\"8\", \"16\"]}");
-  JsonObject values(object.at("options"), object.where() + ": options");
+  SuiteJson values(object.at("options"), object.where() + ": options");
   for (const auto& [key, ignored] : object.at("options").items())
     values.read(key, options.emplace_back(key, std::vector<std::string>{}).second);
   return options;
 }
 
-Verify parse_verify(JsonObject& object) {
+Verify parse_verify(SuiteJson& object) {
   if (!object.has("verify")) return {};
   const json& value = object.at("verify");
   if (value.is_boolean()) return {.what = value.get<bool>() ? Verify::What::picture : Verify::What::nothing};
   Verify verify{.what = Verify::What::rows};
   if (!value.is_object()) object.wrong("verify", "true, false or {\"rows\": N}");
-  JsonObject rows(value, object.where() + ": verify");
+  SuiteJson rows(value, object.where() + ": verify");
   rows.read("rows", verify.rows, 1, MAX_IMAGE_SIZE);
   rows.finish();
   if (verify.rows == 0) object.wrong("verify", "true, false or {\"rows\": N}");
   return verify;
 }
 
-std::optional<LightWave> parse_flight(JsonObject& object) {
+std::optional<LightWave> parse_flight(SuiteJson& object) {
   if (!object.has("flight")) return std::nullopt;
-  JsonObject flight(object.at("flight"), object.where() + ": flight");
+  SuiteJson flight(object.at("flight"), object.where() + ": flight");
   LightWave wave;
   flight.read("from", wave.from, 0, MAX_LIGHTS);
   flight.read("to", wave.to, 0, MAX_LIGHTS);
@@ -126,7 +126,7 @@ Series parse_series(const json& value, const std::string& source) {
   std::string where = source + ": series";
   if (value.is_object() && value.contains("name") && value["name"].is_string())
     where += fmt::format(" '{}'", value["name"].get<std::string>());
-  JsonObject object(value, where);
+  SuiteJson object(value, where);
   Series series;
   object.require("name", series.name);
   series.title = series.name;
@@ -186,7 +186,7 @@ Suite parse_suite(std::string_view text, const std::string& source) {
   } catch (const json::parse_error& error) {
     throw Error(fmt::format("{}: byte {}: is no JSON: {}", source, error.byte, error.what()));
   }
-  JsonObject object(document, source);
+  SuiteJson object(document, source);
   std::uint32_t version = 0;
   object.read("version", version, 0, ~0U);
   if (version != 1)

@@ -26,12 +26,6 @@ HdrImage cropped(const HdrImage& image, const Rows& rows) {
   return {image.width, rows.count, {begin, begin + static_cast<std::ptrdiff_t>(std::size_t{rows.count} * image.width)}};
 }
 
-float brightest(const HdrImage& image) {
-  float most = 0.0F;
-  for (const glm::vec4& pixel : image.pixels) most = std::max({most, pixel.r, pixel.g, pixel.b});
-  return most;
-}
-
 /// Truths of the rows, in bands whose lists fit a buffer of the device.
 std::vector<Truth> truths_of(const BenchFrame& frame, std::span<const float> depth, const Rows& rows,
                              std::uint64_t max_buffer_bytes) {
@@ -115,7 +109,8 @@ std::string Checker::fault(const Lighting& lighting, const Plan& plan, const Che
   if (checked.findings && plan.ordered && checked.findings->unordered) return "a list does not ascend";
   if (!checked.difference) return "";
   const bool ascending = plan.ordered && lighting.info().path != ShadingPath::standard_deferred;
-  const float allowed = ascending ? 0.0F : UNORDERED_TOLERANCE * (1.0F + brightest(reference(lighting.info().path)));
+  const float allowed =
+      ascending ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(reference(lighting.info().path)));
   if (*checked.difference <= allowed) return "";
   return fmt::format("the picture differs from brute force by {:.3g}, allowed {:.3g}", *checked.difference, allowed);
 }

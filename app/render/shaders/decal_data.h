@@ -10,9 +10,6 @@
 #ifdef __cplusplus
 namespace lamp::app::gpu {
 using namespace lamp::shared;
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
 
 LAMP_CONST DECAL_MOSAIC = 0u;    // a round floor of small stones
@@ -38,6 +35,5 @@ struct DecalData {
 static_assert(sizeof(DecalData) == 108);
 }  // namespace lamp::app::gpu
 #endif
-#undef LAMP_CONST
 
 #endif

@@ -8,9 +8,6 @@
 #ifdef __cplusplus
 #include "lamplight/shared/light.h"
 namespace lamp::shared {
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
 
 LAMP_CONST TOUCHES_SIDES = 1u;
@@ -33,6 +30,5 @@ struct VolumeAnswer {
 #ifdef __cplusplus
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST
 
 #endif

@@ -8,9 +8,6 @@
 
 #ifdef __cplusplus
 namespace lamp::shared {
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
 
 // What of a tile's depth culling looks at.
@@ -68,6 +65,5 @@ static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightC
               sizeof(LightTotals) == 52);
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST
 
 #endif

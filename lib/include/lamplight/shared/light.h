@@ -9,9 +9,6 @@
 
 #ifdef __cplusplus
 namespace lamp::shared {
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
 
 LAMP_CONST LIGHT_POINT = 0u;
@@ -42,6 +39,5 @@ struct LightBounds {
 static_assert(sizeof(Light) == 64 && sizeof(LightBounds) == 16);
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST
 
 #endif

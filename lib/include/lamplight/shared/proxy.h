@@ -9,9 +9,6 @@
 
 #ifdef __cplusplus
 namespace lamp::shared {
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
 
 // A profile of five points, turned around the axis in steps: ten sides, 60 triangles. A sphere's profile is half a
@@ -56,6 +53,5 @@ struct ProxyDraw {
 static_assert(sizeof(LightProxy) == 72 && sizeof(ProxyDraw) == 16);
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST
 
 #endif

@@ -9,10 +9,8 @@
 
 #ifdef __cplusplus
 namespace lamp::shared {
-#define LAMP_CONST inline constexpr uint
 #define LAMP_CONST_FLOAT inline constexpr float
 #else
-#define LAMP_CONST const uint
 #define LAMP_CONST_FLOAT const float
 #endif
 
@@ -36,7 +34,6 @@ LAMP_CONST EMPTY_BIN = 0x0000ffffu;
 #ifdef __cplusplus
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST
 #undef LAMP_CONST_FLOAT
 
 #endif

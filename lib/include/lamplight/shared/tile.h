@@ -10,9 +10,6 @@
 
 #ifdef __cplusplus
 namespace lamp::shared {
-#define LAMP_CONST inline constexpr uint
-#else
-#define LAMP_CONST const uint
 #endif
 
 // bounds: how a tile's depths are kept
@@ -62,6 +59,5 @@ struct TileCone {
 static_assert(sizeof(TileRanges) == 24 && sizeof(TilePlanes) == 64 && sizeof(TileCone) == 16);
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST
 
 #endif

@@ -10,10 +10,11 @@
 
 namespace lamp::app {
 
-class JsonObject {
+/// An object of a suite.
+class SuiteJson {
  public:
   /// `where` begins every error: "quick.json: series 'cull'". Throws Error if it is no object.
-  JsonObject(const nlohmann::json& json, std::string where);
+  SuiteJson(const nlohmann::json& json, std::string where);
 
   /// Whether the object has the key; from here on, the key is known.
   [[nodiscard]] bool has(std::string_view key);

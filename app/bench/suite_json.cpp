@@ -1,6 +1,6 @@
 // Reads values, remembers keys.
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/json_object.h"
+#include "bench/suite_json.h"
 
 #include <fmt/format.h>
 
@@ -30,71 +30,71 @@ bool is_list(const json& value, const Test& test) {
 
 }  // namespace
 
-JsonObject::JsonObject(const json& json, std::string where) : json_(json), where_(std::move(where)) {
+SuiteJson::SuiteJson(const json& json, std::string where) : json_(json), where_(std::move(where)) {
   if (!json.is_object()) throw Error(where_ + ": expected an object { ... }");
 }
 
-bool JsonObject::has(std::string_view key) {
+bool SuiteJson::has(std::string_view key) {
   known_.emplace_back(key);
   return json_.contains(key);
 }
 
-const json& JsonObject::at(std::string_view key) const { return json_.at(std::string(key)); }
+const json& SuiteJson::at(std::string_view key) const { return json_.at(std::string(key)); }
 
-void JsonObject::wrong(std::string_view key, const std::string& expected) const {
+void SuiteJson::wrong(std::string_view key, const std::string& expected) const {
   throw Error(fmt::format("{}: {}: expected {}, got {}", where_, key, expected, at(key).dump()));
 }
 
-void JsonObject::read(std::string_view key, std::string& out) {
+void SuiteJson::read(std::string_view key, std::string& out) {
   if (!has(key)) return;
   if (!at(key).is_string()) wrong(key, "a text");
   out = at(key).get<std::string>();
 }
 
-void JsonObject::require(std::string_view key, std::string& out) {
+void SuiteJson::require(std::string_view key, std::string& out) {
   read(key, out);
   if (out.empty()) throw Error(fmt::format("{}: {}: is missing; expected a text", where_, key));
 }
 
-void JsonObject::read(std::string_view key, bool& out) {
+void SuiteJson::read(std::string_view key, bool& out) {
   if (!has(key)) return;
   if (!at(key).is_boolean()) wrong(key, "true or false");
   out = at(key).get<bool>();
 }
 
-void JsonObject::read(std::string_view key, std::uint32_t& out, std::uint64_t min, std::uint64_t max) {
+void SuiteJson::read(std::string_view key, std::uint32_t& out, std::uint64_t min, std::uint64_t max) {
   if (!has(key)) return;
   if (!is_whole(at(key), min, max)) wrong(key, fmt::format("a whole number from {} to {}", min, max));
   out = at(key).get<std::uint32_t>();
 }
 
-void JsonObject::read(std::string_view key, std::uint64_t& out) {
+void SuiteJson::read(std::string_view key, std::uint64_t& out) {
   if (!has(key)) return;
   if (!at(key).is_number_unsigned()) wrong(key, "a whole number");
   out = at(key).get<std::uint64_t>();
 }
 
-void JsonObject::read(std::string_view key, std::vector<std::string>& out) {
+void SuiteJson::read(std::string_view key, std::vector<std::string>& out) {
   if (!has(key)) return;
   if (!is_list(at(key), [](const json& v) { return v.is_string(); })) wrong(key, "a list of texts");
   out = at(key).get<std::vector<std::string>>();
 }
 
-void JsonObject::read(std::string_view key, std::vector<double>& out, double min, double max) {
+void SuiteJson::read(std::string_view key, std::vector<double>& out, double min, double max) {
   if (!has(key)) return;
   if (!is_list(at(key), [&](const json& v) { return is_within(v, min, max); }))
     wrong(key, fmt::format("a list of numbers from {} to {}", min, max));
   out = at(key).get<std::vector<double>>();
 }
 
-void JsonObject::read(std::string_view key, std::vector<std::uint32_t>& out, std::uint64_t min, std::uint64_t max) {
+void SuiteJson::read(std::string_view key, std::vector<std::uint32_t>& out, std::uint64_t min, std::uint64_t max) {
   if (!has(key)) return;
   if (!is_list(at(key), [&](const json& v) { return is_whole(v, min, max); }))
     wrong(key, fmt::format("a list of whole numbers from {} to {}", min, max));
   out = at(key).get<std::vector<std::uint32_t>>();
 }
 
-void JsonObject::finish() const {
+void SuiteJson::finish() const {
   for (const auto& [key, value] : json_.items()) {
     if (std::ranges::find(known_, key) != known_.end()) continue;
     const std::vector<std::string_view> names(known_.begin(), known_.end());
