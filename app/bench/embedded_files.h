@@ -1,4 +1,4 @@
-// What the build put into the tool: suites, the report's template and chart library, the commit.
+// What the build put into the tool: suites, a calibration, the report's template and chart library, the commit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,6 +14,8 @@ struct EmbeddedFile {
 
 /// Everything in bench/suites.
 [[nodiscard]] std::span<const EmbeddedFile> suite_files();
+/// bench/calibrations/software.json: of a software device, llvmpipe on two cores.
+[[nodiscard]] std::span<const EmbeddedFile> calibration_files();
 /// Everything in bench/report, and chart.min.js.
 [[nodiscard]] std::span<const EmbeddedFile> report_files();
 

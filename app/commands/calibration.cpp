@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "bench/calibration_file.h"
+#include "bench/embedded_files.h"
 #include "error.h"
 
 namespace lamp::app {
@@ -22,14 +23,24 @@ KnownCalibration named_calibration(const std::string& file, const DeviceRow& row
   return known;
 }
 
+KnownCalibration built_in_calibration() {
+  const EmbeddedFile& file = calibration_files().front();
+  KnownCalibration known{.calibration = parse_calibration(file.text, std::string(file.name)), .origin = {}};
+  known.origin = fmt::format("built in, of {}; --calibration measure takes this machine's", known.calibration.device);
+  return known;
+}
+
 }  // namespace
 
 KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders, const std::string& named) {
   const DeviceRow& row = context.row();
-  if (!named.empty()) return named_calibration(named, row);
+  if (!named.empty() && named != MEASURE) return named_calibration(named, row);
   const std::string file = cached_calibration_file(row.name, row.driver);
-  if (auto cached = read_cached_calibration(file, row.name, row.driver))
-    return {.calibration = std::move(*cached), .origin = file};
+  if (named != MEASURE) {
+    if (auto cached = read_cached_calibration(file, row.name, row.driver))
+      return {.calibration = std::move(*cached), .origin = file};
+    if (row.kind == "CPU") return built_in_calibration();
+  }
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) fmt::print(stderr, "auto: measures {} once ...", row.name);
   const auto begin = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "lamplight/choose.h"
 #include "render/renderer.h"
@@ -16,8 +17,11 @@ struct KnownCalibration {
   Calibration calibration;
   std::string origin;  ///< for `--explain`: which file, or how long it was measured
 };
+/// Named in place of a file: measured now, and kept.
+inline constexpr std::string_view MEASURE = "measure";
 /// That of a file that the user names (throws Error when it is none), or else the cached one of the context's device,
-/// or else a new one, which is then kept. What cannot be kept is said on stderr.
+/// or else on a software device, where measuring takes long, the one that is built in, or else a new one, which is then
+/// kept. What cannot be kept is said on stderr.
 [[nodiscard]] KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders,
                                                 const std::string& named);
 

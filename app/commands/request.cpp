@@ -127,8 +127,10 @@ void add_method_options(CLI::App& command, Request& r) {
 void add_auto_options(CLI::App& command, Request& r) {
   command.add_flag("--explain", r.explain, "say what auto predicts for each candidate, and why it takes one");
   command
-      .add_option("--calibration", r.calibration,
-                  "file of costs that auto goes by; default: measured at first use, kept in the user's cache folder")
+      .add_option(
+          "--calibration", r.calibration,
+          "file of costs that auto goes by, or measure: anew, now; default: measured at a GPU's first use, kept "
+          "in the user's cache folder")
       ->envname("LAMPLIGHT_CALIBRATION");
 }
 

@@ -90,10 +90,15 @@ TEST_F(Auto, RefusesWhatMakesNoSense) {
   expect_error(BAD_INPUT, {"bench", "mine.json"}, {"mine.json", "auto"});
 }
 
-// A software device takes some ten seconds to measure: one test for all there is to see of it.
+// A software device goes by a calibration that is built in: measuring takes it some ten seconds.
 TEST_F(Auto, IsMeasuredOnceAndKept) {
   const Arguments explain = small({"render", "--explain"});
-  const Outcome first = lamp(explain, first_use("cache"));
+  const Outcome built_in = lamp(explain, first_use("cache"));
+  EXPECT_EQ(built_in.exit_code, 0) << built_in.err;
+  EXPECT_NE(built_in.out.find("calibration: built in, of "), std::string::npos) << built_in.out;
+  EXPECT_FALSE(fs::exists(path("cache/lamplight")));
+
+  const Outcome first = lamp(small({"render", "--explain", "--calibration", "measure"}), first_use("cache"));
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(first.err, "");
   expect_explained(first.out);
@@ -108,7 +113,7 @@ TEST_F(Auto, IsMeasuredOnceAndKept) {
 
 TEST_F(Auto, WorksWithoutACache) {
   write("file", "no folder");
-  const Outcome outcome = lamp(small({"render"}), first_use("file"));
+  const Outcome outcome = lamp(small({"render", "--calibration", "measure"}), first_use("file"));
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(outcome.err.starts_with("auto: the calibration could not be kept, and is measured again next time: "))
       << outcome.err;
