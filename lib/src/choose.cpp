@@ -18,7 +18,7 @@ constexpr double PAIRS = 1e7;
 
 constexpr std::uint32_t FEW_LIGHTS = 64;
 constexpr double CLEARLY_FASTER = 0.8;  // of the time of `tiled`
-constexpr double ROOM = 2.0;            // over the estimate, where the default room of lists will not do
+constexpr double ROOM = 2.0;            // over the estimate, where the room that a plan has by itself will not do
 
 const TileLoad& load_of(const AutoCandidate& candidate, const Workload& workload) {
   return candidate.tile_px == 8 ? workload.tile8 : workload.tile16;
@@ -38,34 +38,44 @@ double dot(const std::array<double, COUNT>& a, const std::array<double, COUNT>& 
   return sum;
 }
 
-// "mean_cells=N" where the room that lists have by default will not do.
-void add_room(std::vector<std::string>& options, const char* key, double estimate, double room) {
-  if (estimate <= room / ROOM) return;
-  const double wanted = std::min(std::ceil(ROOM * estimate), 4096.0);
+Result<Plan> plan_of(std::string_view name, const std::vector<std::string>& settings, const Workload& workload,
+                     const DeviceTraits& traits) {
+  const auto method = find_method(name);
+  if (!method.ok()) return method.error();
+  auto options = resolve_options(*method.value(), settings);
+  if (!options.ok()) return options.error();
+  return make_plan(*method.value(), {.width = workload.width,
+                                     .height = workload.height,
+                                     .light_capacity = workload.capacity,
+                                     .options = std::move(options.value()),
+                                     .traits = traits});
+}
+
+// "mean_cells=N" where the room that a plan has by itself will not do; `each`: estimate for each of `count`.
+void add_room(std::vector<std::string>& options, const Plan& plan, std::string_view key, double each, double count) {
+  const auto capacity = std::ranges::find(plan.capacities, key, &Capacity::option);
+  assert(capacity != plan.capacities.end() && "an option that sizes a list");
+  if (each * count <= static_cast<double>(capacity->entries)) return;
+  const double wanted = std::min(std::ceil(ROOM * each), 4096.0);
   options.push_back(std::string(key) + "=" + std::to_string(static_cast<int>(wanted)));
 }
 
-std::vector<std::string> options_of(const AutoCandidate& candidate, const Workload& workload) {
+std::vector<std::string> options_of(const AutoCandidate& candidate, const Workload& workload,
+                                    const DeviceTraits& traits) {
   std::vector<std::string> options;
   if (!candidate.option.empty()) options.emplace_back(candidate.option);
   if (candidate.method != "lamplight") return options;
+  const Result<Plan> plan = plan_of(candidate.method, options, workload, traits);
+  if (!plan.ok()) return options;
   const TileLoad& load = load_of(candidate, workload);
-  add_room(options, "mean_cells", load.entries, 8.0);
-  add_room(options, "mean_capacity", load.exact, 128.0);
+  add_room(options, plan.value(), "mean_cells", load.entries, workload.lights);
+  add_room(options, plan.value(), "mean_capacity", load.exact, tiles_of(candidate, workload));
   return options;
 }
 
 // Why the candidate cannot run, or nothing.
 std::string refusal(const Prediction& prediction, const Workload& workload, const DeviceTraits& traits) {
-  const auto method = find_method(prediction.method);
-  if (!method.ok()) return method.error().text();
-  auto options = resolve_options(*method.value(), prediction.options);
-  if (!options.ok()) return options.error().text();
-  const auto plan = make_plan(*method.value(), {.width = workload.width,
-                                                .height = workload.height,
-                                                .light_capacity = workload.capacity,
-                                                .options = std::move(options.value()),
-                                                .traits = traits});
+  const Result<Plan> plan = plan_of(prediction.method, prediction.options, workload, traits);
   return plan.ok() ? "" : plan.error().text();
 }
 
@@ -150,7 +160,7 @@ Choice choose(const Calibration& calibration, const Workload& workload, const De
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Prediction prediction{.label = candidates[i].label(),
                           .method = std::string(candidates[i].method),
-                          .options = options_of(candidates[i], workload),
+                          .options = options_of(candidates[i], workload, traits),
                           .cull_ms = dot(calibration.costs[i].cull, cull_terms(candidates[i], workload)),
                           .shade_ms = dot(calibration.costs[i].shade, shade_terms(candidates[i], workload))};
     prediction.refused = refusal(prediction, workload, traits);
