@@ -18,6 +18,11 @@ namespace {
 
 using nlohmann::json;
 
+/// An entry whose frames took the GPU this long together has had enough of them once FEWEST_FRAMES are timed: one that
+/// walks a million lights a pixel would take longer than all others together. A flight needs each of its frames.
+constexpr double LONGEST_MS = 2000.0;
+constexpr std::size_t FEWEST_FRAMES = 3;
+
 /// An entry under measurement.
 struct Candidate {
   const GroupEntry* entry = nullptr;
@@ -26,6 +31,7 @@ struct Candidate {
   FrameTimes times;
   std::vector<std::pair<std::uint32_t, std::size_t>> frames;  ///< number and lights of each timed frame
   bool rendered = true;                                       ///< false: the series asks for its plan alone
+  double spent_ms = 0.0;                                      ///< GPU time of all frames, those of the warm-up too
 
   [[nodiscard]] bool timed() const { return lighting && rendered && checked.verdict != "wrong"; }
 };
@@ -202,6 +208,11 @@ void check_all(const MeasureInfo& info, std::list<Candidate>& candidates, std::o
   }
 }
 
+bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) {
+  if (info.group.flight || info.device.software()) return false;
+  return candidate.spent_ms > LONGEST_MS && (!warm || candidate.frames.size() >= FEWEST_FRAMES);
+}
+
 void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
   const std::uint32_t rounds = info.group.warm_up + info.group.frames;
   for (std::uint32_t round = 0; round < rounds; ++round) {
@@ -211,8 +222,9 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     renderer.set_frame(frame.view, frame.lights);
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
-      if (!candidate.timed()) continue;
+      if (!candidate.timed() || has_enough(info, candidate, warm)) continue;
       const std::vector<vulkan::Timestamps::Time> times = renderer.time(*candidate.lighting);
+      candidate.spent_ms += span_ms(times, [](std::string_view) { return true; });
       if (!warm) continue;
       candidate.times.add(times, *candidate.lighting);
       candidate.frames.emplace_back(number, frame.lights.size());
