@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_WALK = 11;
 constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
-constexpr std::uint32_t SHADE_GROUP_PX = 16;  // compute shading without a fused cull: any size works
+constexpr std::uint32_t SHADE_GROUP_PX =
+    8;  // compute shading without a fused cull: a subgroup lies within the smallest tile
 constexpr std::uint32_t VOLUME_VERTICES = 60;
 
 std::vector<vulkan::DescriptorBinding> lookup_bindings(const LookUp& lookup) {
@@ -182,7 +183,7 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
 }
 
 void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders) {
-  if (!info_.method->any_depth || !runner_.plan().any_depth) {
+  if (!runner_.plan().any_depth) {
     LightingInfo clustered = info_;
     clustered.method = take(find_method("clustered"));
     clustered.options = take(resolve_options(*clustered.method, {}));

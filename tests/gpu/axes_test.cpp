@@ -73,19 +73,31 @@ TEST_F(Axes, EveryValueOfEveryOption) {
   }
 }
 
-TEST_F(Axes, RandomCombinationsOfTiledCulling) {
-  const Method& tiled = *take(find_method("tiled"));
+TEST_F(Axes, RandomCombinations) {
   std::mt19937 random(7);
-  std::uint32_t accepted = 0;
-  for (int round = 0; round < 500 && accepted < 5; ++round) {
-    std::vector<std::string> settings;
-    for (const OptionSpec& spec : tiled.options) {
-      const std::vector<std::string> values = values_of(spec);
-      settings.push_back(fmt::format("{}={}", spec.key, values[random() % values.size()]));
+  for (const char* name : {"tiled", "lamplight"}) {
+    const Method& method = *take(find_method(name));
+    std::uint32_t accepted = 0;
+    for (int round = 0; round < 500 && accepted < 5; ++round) {
+      std::vector<std::string> settings;
+      for (const OptionSpec& spec : method.options) {
+        const std::vector<std::string> values = values_of(spec);
+        settings.push_back(fmt::format("{}={}", spec.key, values[random() % values.size()]));
+      }
+      accepted += check(method, settings) ? 1 : 0;
     }
-    accepted += check(tiled, settings) ? 1 : 0;
+    EXPECT_EQ(accepted, 5U) << name;
   }
-  EXPECT_EQ(accepted, 5U);
+}
+
+// Slices and containers together, as every value by itself does not show.
+TEST_F(Axes, LamplightWithoutDepthBuffer) {
+  const Method& method = *take(find_method("lamplight"));
+  for (const char* container : {"list", "bits"})
+    for (const char* tile : {"8", "32"})
+      for (const char* scale : {"log", "linear"})
+        EXPECT_TRUE(check(method, {"depth=none", fmt::format("container={}", container), fmt::format("tile={}", tile),
+                                   fmt::format("scale={}", scale), "slices=7"}));
 }
 
 TEST_F(Axes, WithoutDepthBoundsWhateverNeedsNone) {

@@ -128,6 +128,7 @@ TEST_P(EveryMethod, PlansWithItsDefaultsAsItsRowSays) {
   EXPECT_EQ(made.value().lookup.name, method.result);
   EXPECT_EQ(made.value().ordered, method.ordered);
   EXPECT_EQ(made.value().approximate, method.approximate);
+  EXPECT_EQ(made.value().any_depth, method.any_depth);
 }
 
 TEST_P(EveryMethod, ReadsDepthExactlyIfItsRowSaysSo) {

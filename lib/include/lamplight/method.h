@@ -58,7 +58,7 @@ struct Method {
   bool ordered = true;       ///< lists ascend, with the default options (else see Plan::ordered)
   bool approximate = false;  ///< may miss lights, by the paper's design (likewise)
   bool needs_depth = true;   ///< reads the depth buffer
-  bool any_depth = false;    ///< the look-up is right for any depth of a pixel, not only the depth buffer's
+  bool any_depth = false;    ///< right for any depth of a pixel, not only the depth buffer's (likewise)
   std::vector<OptionSpec> options;
   Plan (*plan)(const Problem&) = nullptr;
   std::optional<Error> (*check)(const Problem&) = nullptr;  ///< why options or sizes do not go together; may be null

@@ -134,7 +134,7 @@ struct Plan {
   std::uint64_t cells = 1;   ///< cells of the look-up
   bool ordered = true;       ///< lists ascend
   bool approximate = false;  ///< may miss lights, by the paper's design
-  bool any_depth = true;     ///< false: of a row that says any_depth, but with options that need the depth buffer
+  bool any_depth = false;    ///< right for any depth of a pixel, not only the depth buffer's
   std::uint32_t light_capacity = 0;   ///< the problem's
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;   ///< everything that can overflow

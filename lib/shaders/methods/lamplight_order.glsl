@@ -1,7 +1,7 @@
 // Puts the lights of a piece in order. A cell's entries come as runs, one of each block and in the order of blocks, but in
 // any order within: scattering is a race. Most runs are short; then each light counts who of its run comes before it. A
 // long run is drawn as bits, one for each light of its block, and read off again.
-// Needs: BLOCK, CELLS, PIECE; `entries`, `places`, `frame`. Gives s_lights.
+// Needs: BLOCK, CELLS, RUN_WORDS; `entries`, `places`, `frame`. Gives s_lights.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_ORDER
 #define LAMP_METHODS_LAMPLIGHT_ORDER
@@ -12,7 +12,7 @@ const uint BLOCK_WORDS = (BLOCK + 31u) / 32u;
 const uint LONG_RUNS = 16u;  // in a piece, at most: PIECE / LONG_RUN and one at either end
 
 shared uint s_lights[PIECE];
-shared uint s_window[WINDOW];  // the piece's entries and MARGIN before and after
+shared uint s_window[PIECE + 2u * MARGIN];  // the piece's entries and MARGIN before and after
 shared uint s_long_runs[LONG_RUNS];
 shared uint s_long_run_count;
 shared uint s_run_bits[RUN_WORDS];

@@ -15,11 +15,11 @@ layout(local_size_x = 16, local_size_y_id = 0) in;
 layout(constant_id = 0) const uint STRIPS = 16;
 layout(constant_id = 1) const uint CELLS = 1;
 layout(constant_id = 2) const uint BLOCK = 256;
-layout(constant_id = 3) const uint PIECE = 128;   // entries
-layout(constant_id = 4) const uint PIECES = 1;    // capacity
-layout(constant_id = 5) const uint HITS = 1;      // capacity
-layout(constant_id = 6) const uint TILES = 16;    // of a cell
-layout(constant_id = 7) const uint SCATTER_THREADS = 256;
+layout(constant_id = 3) const uint PIECES = 1;  // capacity
+layout(constant_id = 4) const uint HITS = 1;    // capacity
+layout(constant_id = 5) const uint CELL_ROWS = 16;
+layout(constant_id = 6) const uint SCATTER_THREADS = 256;
+layout(constant_id = 7) const uint ROW_GROUPS = 1;  // work groups of the last pass for a piece
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]; becomes first places
@@ -55,7 +55,8 @@ void reserve_pieces(uint wanted) {
 
 // By one thread of all: what the next two passes are dispatched by, but for the pieces themselves.
 void write_group_counts() {
-  totals.one_y = totals.one_z = totals.scatter_y = totals.scatter_z = 1u;
+  totals.lists_y = ROW_GROUPS;
+  totals.lists_z = totals.scatter_y = totals.scatter_z = 1u;
   totals.scatter_x = (min(totals.hits, HITS) + SCATTER_THREADS - 1u) / SCATTER_THREADS;
 }
 
@@ -65,7 +66,7 @@ void write_cell(uint cell, uint strip, uint first_piece, uint entries, bool fits
   for (uint piece = first_piece + strip; piece < end; piece += STRIPS) piece_cells[piece] = fits ? cell : NO_CELL;
   if (strip > 0u) return;
   cells[cell] = LightCell(first_piece, fits ? pieces_of(entries) : ALL_LIGHTS, entries);
-  if (!fits) atomicAdd(counters.overflowed_cells, TILES);
+  if (!fits) atomicAdd(counters.overflowed_cells, CELL_ROWS);
 }
 
 void main() {

@@ -11,6 +11,7 @@ layout(local_size_x_id = 0) in;
 #include "common/light_bounds.glsl"
 #include "common/tile_volume.glsl"
 #include "lamplight/shared/lamplight.h"
+#include "methods/lamplight_share.glsl"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
@@ -45,10 +46,10 @@ bool in_view(LightBounds sphere, PictureSides sides) {
   return sphere.radius >= 0.0 && all(lessThanEqual(outside, sphere.radius * sides.lengths));
 }
 
-// By one thread: room for the group's lights, and work groups of the next pass, as large as this one's, for them.
+// By one thread: room for the group's lights, and work groups of the next pass for them.
 void reserve_seen() {
   const uint begin = s_seen_count == 0u ? 0u : atomicAdd(totals.seen, s_seen_count);
-  if (s_seen_count > 0u) atomicMax(totals.find_x, (begin + s_seen_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x);
+  if (s_seen_count > 0u) atomicMax(totals.find_x, groups_for(begin + s_seen_count));
   s_begin = begin;
 }
 

@@ -1,7 +1,9 @@
 // A walk over the cells that lights may reach, as far as rectangles and depths of cells tell. The cells of a subgroup's
 // lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by whichever
 // subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to write.
-// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`, `cell_depths`; flush_hits(waiting), for a subgroup together.
+// Without a depth buffer cells lie in layers, and a light's are a box of them.
+// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`; SLICED and layers_of(sphere), or `cell_depths`; flush_hits(waiting),
+// for a subgroup together.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_WALK
 #define LAMP_METHODS_LAMPLIGHT_WALK
@@ -14,8 +16,8 @@ const uint STRIP_OF_THREAD = 4u;  // cells of a strip, for each thread of the su
 
 struct CellRectangle {
   uint corner;  // first cell
-  uint columns;
-  uint cells;
+  uint size;    // columns, and above 16 bits rows
+  uint cells;   // of all layers
   float z_near;
   float z_far;
   uint light;
@@ -27,18 +29,26 @@ shared uint s_next_strip;
 
 shared LightHit s_hits[GROUP_HITS];  // a subgroup uses its own part
 
-uint cells_wide() { return (frame.size_px.x + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES); }
+uvec2 cells_across() { return (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES); }
 
 // Of the first and last tile; without tiles none.
 CellRectangle cells_of(uint light, LightBounds sphere, uvec4 tiles, bool any_tile) {
   const uvec2 first = tiles.xy / CELL_TILES;
-  const uvec2 size = any_tile ? tiles.zw / CELL_TILES + 1u - first : uvec2(1u, 0u);
-  return CellRectangle(first.x + cells_wide() * first.y, size.x, size.x * size.y, -sphere.center.z - sphere.radius,
-                       -sphere.center.z + sphere.radius, light);
+  const uvec2 size = tiles.zw / CELL_TILES + 1u - first;
+  const uvec2 across = cells_across();
+  const float z = -sphere.center.z;
+#ifdef SLICED
+  const uvec2 layers = layers_of(sphere);
+#else
+  const uvec2 layers = uvec2(0u);
+#endif
+  return CellRectangle(first.x + across.x * (first.y + across.y * layers.x), size.x | size.y << 16,
+                       any_tile ? size.x * size.y * (layers.y + 1u - layers.x) : 0u, z - sphere.radius,
+                       z + sphere.radius, light);
 }
 
 CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
-  return CellRectangle(subgroupShuffle(cells.corner, thread), subgroupShuffle(cells.columns, thread),
+  return CellRectangle(subgroupShuffle(cells.corner, thread), subgroupShuffle(cells.size, thread),
                        subgroupShuffle(cells.cells, thread), subgroupShuffle(cells.z_near, thread),
                        subgroupShuffle(cells.z_far, thread), subgroupShuffle(cells.light, thread));
 }
@@ -47,15 +57,35 @@ CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
 uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
 uint first_hit() { return gl_SubgroupID * hits_room(); }
 
+// Whole part of i / n; exact below 2^22.
+uint quotient(uint i, uint n) { return uint((float(i) + 0.5) / float(n)); }
+
+uint cell_of_rectangle(CellRectangle cells, uint i) {
+  const uvec2 across = cells_across();
+  const uint columns = cells.size & 0xffffu;
+  uint cell = cells.corner;
+#ifdef SLICED
+  const uint in_layer = columns * (cells.size >> 16);
+  const uint layer = quotient(i, in_layer);
+  i -= layer * in_layer;
+  cell += layer * across.x * across.y;
+#endif
+  return cell + i + (across.x - columns) * quotient(i, columns);
+}
+
+bool meets_cell(CellRectangle cells, uint cell) {
+#ifdef SLICED
+  return true;
+#else
+  const vec2 depths = unpackHalf2x16(cell_depths[cell]);
+  return cells.z_far >= depths.x && cells.z_near <= depths.y;
+#endif
+}
+
 // Cell i of each thread's rectangle, or none.
 void visit_cell(CellRectangle cells, uint i, bool any_cell, inout uint waiting) {
-  const uint row = uint((float(i) + 0.5) / float(cells.columns));  // exact: there are a few thousand cells
-  const uint cell = cells.corner + i + (cells_wide() - cells.columns) * row;
-  bool hit = false;
-  if (any_cell) {
-    const vec2 depths = unpackHalf2x16(cell_depths[cell]);
-    hit = cells.z_far >= depths.x && cells.z_near <= depths.y;
-  }
+  const uint cell = cell_of_rectangle(cells, i);
+  const bool hit = any_cell && meets_cell(cells, cell);
   const uvec4 those = subgroupBallot(hit);
   const uint count = subgroupBallotBitCount(those);
   if (waiting + count > hits_room()) flush_hits(waiting);

@@ -6,7 +6,7 @@ layout(local_size_x_id = 0) in;  // before anything that asks for the work group
 #define TILE_CONSTANT 1
 #define TILE_BINDING 0
 #include "methods/tile_inputs.glsl"
-#include "methods/tile_prune.glsl"
+#include "common/pixel_tests.glsl"
 
 layout(constant_id = 13) const uint WORDS = 1;  // words a cell: light capacity / 32, rounded up
 layout(set = 0, binding = 6, scalar) writeonly buffer BitBuffer { uint bits[]; };
@@ -21,15 +21,15 @@ void flag_reached(PrunePixel pixel, uint range, uint first) {
     const uint at = range * BATCH_WORDS + word;
     for (uint open = s_found[at] & ~s_kept[at]; open != 0u; open &= open - 1u) {
       const uint bit = uint(findLSB(open));
-      if (reaches_pixel(cull_lights[first + word * 32u + bit], pixel)) atomicOr(s_kept[at], 1u << bit);
+      if (reaches_pixel(cull_frame, cull_lights[first + word * 32u + bit], pixel)) atomicOr(s_kept[at], 1u << bit);
     }
   }
 }
 
 void prune_batch(uvec2 tile, TileRanges ranges, uint first) {
   for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += gl_WorkGroupSize.x) {
-    const PrunePixel pixel = prune_pixel(tile, i);
-    if (pixel.covered) flag_reached(pixel, range_of_pixel(pixel, ranges), first);
+    const PrunePixel pixel = prune_pixel(cull_frame, cull_depth, tile, i);
+    if (pixel.covered) flag_reached(pixel, range_of_depth(pixel.z_view, ranges), first);
   }
 }
 

@@ -6,7 +6,7 @@
 #ifndef LAMP_METHODS_TILE_CULL
 #define LAMP_METHODS_TILE_CULL
 #include "methods/tile_inputs.glsl"
-#include "methods/tile_prune.glsl"
+#include "common/pixel_tests.glsl"
 
 // Array sizes are plain constants: expressions of specialization constants are not safe as sizes everywhere.
 shared uint s_light_count[2];
@@ -33,7 +33,7 @@ void flag_reached(PrunePixel pixel, uint range) {
     const uint entry = range * CAPACITY + i;
     const uint bit = 1u << (entry % 32u);
     if ((s_kept[entry / 32u] & bit) != 0u) continue;
-    if (reaches_pixel(cull_lights[s_lights[entry] & ~TYPE_BIT], pixel)) atomicOr(s_kept[entry / 32u], bit);
+    if (reaches_pixel(cull_frame, cull_lights[s_lights[entry] & ~TYPE_BIT], pixel)) atomicOr(s_kept[entry / 32u], bit);
   }
 }
 
@@ -69,8 +69,8 @@ void prune_lights(uvec2 tile, TileRanges ranges) {
   for (uint word = gl_LocalInvocationIndex; word < (LIST_ENTRIES + 31u) / 32u; word += group_threads()) s_kept[word] = 0u;
   barrier();  // cleared before flags are set
   for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += group_threads()) {
-    const PrunePixel pixel = prune_pixel(tile, i);
-    flag_reached(pixel, range_of_pixel(pixel, ranges));
+    const PrunePixel pixel = prune_pixel(cull_frame, cull_depth, tile, i);
+    flag_reached(pixel, range_of_depth(pixel.z_view, ranges));
   }
   barrier();  // all flags before entries move
   for (uint range = 0u; range < RANGES; ++range)

@@ -100,6 +100,9 @@ bool touches_range(uint light, LightBounds sphere, TileTarget target, uint range
   return spot_touches_tile(cull_frame, cull_lights[light], target.sides, z_near, z_far, parts);
 }
 
+// Pixels of a tile with two ranges belong to one of them.
+uint range_of_depth(float z_view, TileRanges ranges) { return RANGES == 2u && z_view > ranges.split ? 1u : 0u; }
+
 LightBounds bounds_of(uint light) {
   if (AOS) return light_bounds(cull_frame, cull_lights[light]);
   return cull_bounds[light];

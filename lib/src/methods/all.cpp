@@ -14,6 +14,7 @@ Method all_method() {
           .any_depth = true,
           .plan = [](const Problem&) {
             Plan plan;
+            plan.any_depth = true;
             plan.lookup = {.name = "all", .bindings = {{INPUT_FRAME}}};
             return plan;
           }};

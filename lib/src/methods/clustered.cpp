@@ -98,6 +98,7 @@ Plan plan_clustered(const Problem& problem) {
   const Clusters clusters = clusters_of(problem);
   Plan plan;
   plan.cells = clusters.count;
+  plan.any_depth = true;
   const ResourceId bounds = parts::add_light_bounds(plan, problem);
   plan.passes = {parts::light_bounds_pass(bounds)};
   const bool bits = problem.options.word("container") == "bits";

@@ -168,12 +168,12 @@ Plan plan_raster_cluster(const Problem& problem) {
   plan.cells = clusters;
   Buffers b = add_proxies(plan, problem, raster);
   b.bits = plan.add({.name = "cluster bits", .bytes = clusters * words * 4, .zeroed = true});
+  plan.any_depth = o.word("early") == "off";
   const std::uint32_t early_px = o.word("early") == "on" ? std::min(o.integer("tile"), LARGEST_RANGE_PX) : 0;
   if (early_px != 0) {
     const parts::TileGrid squares = parts::tile_grid(problem, early_px);
     b.ranges = plan.add({.name = "tile depth ranges", .bytes = squares.count() * sizeof(shared::TileRanges)});
     plan.passes.push_back(depth_pass(early_px, squares, b.ranges));
-    plan.any_depth = false;
   }
   const char* shader = compacts(plan, problem) ? "methods/raster_cluster_compact" : "methods/raster_cluster";
   const std::pair<Draw, std::uint32_t> draws[] = {

@@ -138,6 +138,7 @@ Buffers add_sorted_lights(Plan& plan, const Problem& problem, const Sizes& s) {
 Plan plan_drobot_zbin(const Problem& problem) {
   const Sizes s = sizes_of(problem);
   Plan plan;
+  plan.any_depth = true;
   plan.cells = s.tiles.count() * s.bins;
   plan.ordered = false;
   Buffers b = add_sorted_lights(plan, problem, s);

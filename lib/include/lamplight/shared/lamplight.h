@@ -23,10 +23,13 @@ struct LightHit {
   uint light;
   uint place;  // cell, and above HIT_CELL_BITS the rank among the hits of the same block of lights in the same cell
 };
-LAMP_CONST HIT_CELL_BITS = 14u;  // cells of 32 x 32 tiles of 8 pixels in a picture of 32768 x 32768
+LAMP_CONST HIT_CELL_BITS = 18u;  // eight layers of cells of 32 x 32 tiles of 8 pixels in a picture of 32768 x 32768
 
-// A cell is a square of tiles. Its lights ascend through its pieces, which are culled by one work group each: piece i
-// has room for PIECE entries from i * PIECE.
+LAMP_CONST PIECE = 128u;      // entries
+LAMP_CONST PIECE_WORDS = 4u;  // a bit for each of them
+
+// A cell is a square of tiles, or without depth buffer such a square times some slices of depth. Its rows are its tiles,
+// slice after slice. Its lights ascend through its pieces: piece i has room for PIECE entries from i * PIECE.
 struct LightCell {
   uint first_piece;
   uint pieces;   // ALL_LIGHTS: its entries did not fit; walk every light
@@ -36,18 +39,18 @@ LAMP_CONST ALL_LIGHTS = 0xffffffffu;
 LAMP_CONST NO_CELL = 0xffffffffu;   // a piece of a cell that did not fit
 LAMP_CONST NO_PLACE = 0xffffffffu;  // of its entries
 
-// A tile's part of a piece.
+// A row's part of a piece, as a list. As bits it is PIECE_WORDS words.
 struct LightSpan {
   uint first;  // in the lists, or with COARSE in the lists of pieces
   uint count;
 };
-LAMP_CONST COARSE = 0x80000000u;  // the piece's lists did not fit: all lights of the piece stand for each of its tiles
+LAMP_CONST COARSE = 0x80000000u;  // the piece's lists did not fit: all lights of the piece stand for each of its rows
 
 // Zeroed at the start of every frame.
 struct LightTotals {
   uint pieces;  // these three are the group counts of the last pass
-  uint one_y;
-  uint one_z;
+  uint lists_y;
+  uint lists_z;
   uint find_x;  // and these of the pass that finds cells
   uint find_y;
   uint find_z;

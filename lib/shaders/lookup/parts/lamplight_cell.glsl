@@ -1,0 +1,50 @@
+// The cell of a pixel and its row in it: the tile, and without a depth buffer the tile in a slice of depth.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/shared/frame.h"
+#include "lamplight/shared/lamplight.h"
+
+layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
+layout(constant_id = 101) const uint LOOKUP_CELL_TILES = 4;
+layout(constant_id = 102) const uint LOOKUP_CELL_SLICES = 1;
+layout(constant_id = 103) const uint LOOKUP_SLICES = 1;
+layout(constant_id = 104) const uint LOOKUP_SLICE_SCALE = 0;
+layout(constant_id = 105) const uint LOOKUP_NEAR_MM = 500;
+layout(constant_id = 106) const uint LOOKUP_FAR_M = 500;
+layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+layout(set = 0, binding = 17, scalar) readonly buffer LookupCells { LightCell lookup_cells[]; };
+
+#define SLICES LOOKUP_SLICES
+#define SLICE_SCALE LOOKUP_SLICE_SCALE
+#define NEAR_MM LOOKUP_NEAR_MM
+#define FAR_M LOOKUP_FAR_M
+#include "common/slices.glsl"
+#undef SLICES
+#undef SLICE_SCALE
+#undef NEAR_MM
+#undef FAR_M
+
+const uint LOOKUP_TILES = LOOKUP_CELL_TILES * LOOKUP_CELL_TILES;
+const uint LOOKUP_CELL_ROWS = LOOKUP_TILES * LOOKUP_CELL_SLICES;
+
+void lookup_prepare() {}
+
+uint lookup_slice(float z_view) { return LOOKUP_SLICES == 1u ? 0u : slice_of(z_view); }
+
+uint lookup_cell(uvec2 pixel, float z_view) {
+  const uvec2 tile = pixel / LOOKUP_TILE_PX;
+  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  return tile.x + tiles.x * (tile.y + tiles.y * lookup_slice(z_view));
+}
+
+LightCell lookup_light_cell(uvec2 pixel, float z_view) {
+  const uint cell_px = LOOKUP_TILE_PX * LOOKUP_CELL_TILES;
+  const uvec2 at = pixel / cell_px;
+  const uvec2 across = (lookup_frame.size_px + cell_px - 1u) / cell_px;
+  return lookup_cells[at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES))];
+}
+
+// Among the rows of the cell.
+uint lookup_row(uvec2 pixel, float z_view) {
+  const uvec2 tile = pixel / LOOKUP_TILE_PX % LOOKUP_CELL_TILES;
+  return tile.x + LOOKUP_CELL_TILES * tile.y + LOOKUP_TILES * (lookup_slice(z_view) % LOOKUP_CELL_SLICES);
+}

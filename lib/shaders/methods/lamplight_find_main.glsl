@@ -1,0 +1,124 @@
+// Lights in view look for their cells: rectangle of tiles, a first look at the depths, then a walk over the cells of the
+// rectangle. Pairs of light and cell are counted in the matrix, where each learns its rank, and kept for scattering.
+// SPDX-License-Identifier: Apache-2.0
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint TILE_PX = 16;
+layout(constant_id = 2) const uint CELL_TILES = 4;
+layout(constant_id = 3) const uint CELLS = 1;
+layout(constant_id = 4) const uint BLOCK = 256;    // lights
+layout(constant_id = 5) const uint HITS = 1;       // capacity
+layout(constant_id = 6) const uint GROUP_HITS = 1; // that wait in shared memory
+#ifdef SLICED
+layout(constant_id = 7) const uint CELL_SLICES = 4;
+layout(constant_id = 8) const uint SLICES = 24;
+layout(constant_id = 9) const uint SLICE_SCALE = 0;
+layout(constant_id = 10) const uint NEAR_MM = 500;
+layout(constant_id = 11) const uint FAR_M = 500;
+#include "common/slices.glsl"
+#endif
+#define BOUNDS BOUNDS_MASK
+#include "common/mask_tests.glsl"
+#include "common/sphere_rectangle.glsl"
+#include "lamplight/shared/lamplight.h"
+#include "methods/lamplight_share.glsl"
+
+layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightBounds spheres[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer SeenBuffer { uint seen[]; };
+layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
+layout(set = 0, binding = 4, scalar) writeonly buffer HitBuffer { LightHit hits[]; };
+layout(set = 0, binding = 5, scalar) buffer TotalBuffer { LightTotals totals; };
+#ifndef SLICED
+layout(set = 0, binding = 6, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = 7, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+#endif
+
+// Room among all hits, by one thread. Where there is none left the total stops growing: it has 32 bits, the sum might not.
+uint reserve_hits(uint count) { return totals.hits <= HITS ? atomicAdd(totals.hits, count) : HITS; }
+
+#ifdef SLICED
+// First and last layer of cells that a sphere's depths reach.
+uvec2 layers_of(LightBounds sphere) {
+  return slices_of(-sphere.center.z - sphere.radius, -sphere.center.z + sphere.radius) / CELL_SLICES;
+}
+#endif
+
+void flush_hits(inout uint waiting);
+#include "methods/lamplight_walk.glsl"
+
+// By one subgroup: its waiting hits, to the room that begins there.
+void write_hits(uint begin, uint count) {
+  subgroupMemoryBarrierShared();
+  subgroupBarrier();  // hits are there before they are read
+  for (uint i = gl_SubgroupInvocationID; i < count; i += gl_SubgroupSize) {
+    const LightHit hit = s_hits[first_hit() + i];
+    const uint rank = atomicAdd(counts[hit.light / BLOCK * CELLS + hit.place], 1u);
+    if (begin + i < HITS) hits[begin + i] = LightHit(hit.light, hit.place | rank << HIT_CELL_BITS);
+  }
+  subgroupBarrier();  // and read before others take their place
+}
+
+void flush_hits(inout uint waiting) {
+  uint begin = 0u;
+  if (subgroupElect()) begin = reserve_hits(waiting);
+  write_hits(subgroupBroadcastFirst(begin), waiting);
+  waiting = 0u;
+}
+
+// By all subgroups: what still waits takes its room together, because the total is one number for the whole GPU.
+shared uint s_group_hits;
+shared uint s_begin;
+
+void flush_last_hits(uint waiting) {
+  uint place = 0u;
+  if (subgroupElect()) place = atomicAdd(s_group_hits, waiting);
+  barrier();  // every subgroup's hits before room is reserved
+  if (gl_LocalInvocationIndex == 0u && s_group_hits > 0u) s_begin = reserve_hits(s_group_hits);
+  barrier();  // room before it is filled
+  if (waiting > 0u) write_hits(s_begin + subgroupBroadcastFirst(place), waiting);
+}
+
+#ifdef SLICED
+bool meets_depths(LightBounds sphere, uvec4 tiles) { return true; }
+#else
+// Lights of few tiles are held against each tile's depths at once: most of them are hidden or hang in the air.
+const uint FEW_TILES = 4u;
+
+bool meets_depths(LightBounds sphere, uvec4 tiles) {
+  const uvec2 size = tiles.zw + 1u - tiles.xy;
+  if (size.x * size.y > FEW_TILES) return true;
+  const uint tiles_wide = (frame.size_px.x + TILE_PX - 1u) / TILE_PX;
+  bool meets = false;
+  [[unroll]] for (uint i = 0u; i < FEW_TILES; ++i) {  // beyond its tiles, one of them again
+    const uvec2 tile = tiles.xy + uvec2(i % size.x, min(i / size.x, size.y - 1u));
+    const TileDepths depths = tile_depths[tile.x + tiles_wide * tile.y];
+    const bool met = sphere_meets_mask(sphere, masked_range(depths.z_near, depths.z_far, depths.mask));
+    meets = meets || met;  // all looks at once: their way from memory is most of the time
+  }
+  return meets;
+}
+#endif
+
+void main() {
+  if (gl_LocalInvocationIndex == 0u) s_arrived = s_next_strip = s_group_hits = 0u;
+  barrier();  // counts of zero before they are added to
+  uint light = 0u;
+  LightBounds sphere = LightBounds(vec3(0.0), 0.0);
+  uvec4 tiles = uvec4(0u);
+  bool any_tile = false;
+  // A group's share is spread over its subgroups.
+  const uint share = lights_of_group(totals.seen);
+  const uint of_subgroup = (share + gl_NumSubgroups - 1u) / gl_NumSubgroups;
+  const uint in_share = gl_SubgroupID * of_subgroup + gl_SubgroupInvocationID;
+  const uint at = gl_WorkGroupID.x * share + in_share;
+  if (gl_SubgroupInvocationID < of_subgroup && in_share < share && at < totals.seen) {
+    light = seen[at];
+    sphere = spheres[light];
+    any_tile = tiles_of_sphere(frame, sphere, TILE_PX, tiles) && meets_depths(sphere, tiles);
+  }
+  uint waiting = 0u;  // hits of the subgroup
+  visit_cells(cells_of(light, sphere, tiles, any_tile), waiting);
+  barrier();  // the queue of large lights is complete
+  visit_waiting_cells(waiting);
+  flush_last_hits(waiting);
+}

@@ -1,0 +1,64 @@
+// The rows of a cell that a work group looks at: tiles with their depths and sides, in shared memory. Without a depth
+// buffer a row is a tile in a slice of depth.
+// Needs: TILE_PX, CELL_TILES, ROWS; `frame`; SLICED and common/slices.glsl, or `tile_depths`.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_METHODS_LAMPLIGHT_ROWS
+#define LAMP_METHODS_LAMPLIGHT_ROWS
+#include "common/tile_ranges.glsl"
+#include "common/tile_volume.glsl"
+
+const uint TILES = CELL_TILES * CELL_TILES;  // a whole number of ROWS, which are whole lines of tiles
+
+struct Cell {
+  uvec2 first_tile;
+  uint first_row;    // of the work group; its rows are of one slice
+  uint first_slice;
+};
+
+shared vec4 s_x_edges[ROWS];
+shared vec4 s_y_edges[ROWS];
+shared TileDepths s_depths[ROWS];
+
+uvec2 tile_of_row(Cell cell, uint row) {
+  const uint tile = (cell.first_row + row) % TILES;
+  return cell.first_tile + uvec2(tile % CELL_TILES, tile / CELL_TILES);
+}
+
+// The first line of tiles that the group's rows are of.
+uint first_line(Cell cell) { return cell.first_row % TILES / CELL_TILES; }
+
+TileDepths depths_of_row(Cell cell, uvec2 tile, uvec2 tiles) {
+#ifdef SLICED
+  const uint slice = cell.first_slice + cell.first_row / TILES;
+  const float begin = is_perspective(frame) ? max(slice_begin(slice), 0.0) : slice_begin(slice);
+  return slice < SLICES ? TileDepths(begin, slice_end(slice), ~0u, 0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0u, 0u);
+#else
+  return tile_depths[tile.x + tiles.x * tile.y];
+#endif
+}
+
+// By one thread a row. Rows beyond the picture stay empty.
+void load_row(Cell cell, uint row) {
+  s_depths[row] = TileDepths(EMPTY_NEAR, EMPTY_FAR, 0u, 0u);
+  const uvec2 tile = tile_of_row(cell, row);
+  const uvec2 tiles = (frame.size_px + TILE_PX - 1u) / TILE_PX;
+  if (any(greaterThanEqual(tile, tiles))) return;
+  s_depths[row] = depths_of_row(cell, tile, tiles);
+  vec4 x_edges;
+  vec4 y_edges;
+  tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
+  s_x_edges[row] = x_edges;
+  s_y_edges[row] = y_edges;
+}
+
+// The depths of a row that a sphere can reach: of a slice the part that the sphere spans, which is never infinite.
+TileRanges ranges_of_row(uint row, LightBounds sphere) {
+#ifdef SLICED
+  const float z = -sphere.center.z;
+  return masked_range(max(s_depths[row].z_near, z - sphere.radius), min(s_depths[row].z_far, z + sphere.radius), ~0u);
+#else
+  return masked_range(s_depths[row].z_near, s_depths[row].z_far, s_depths[row].mask);
+#endif
+}
+
+#endif
