@@ -105,7 +105,7 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
                             .scene = info.group.scene,
                             .view = frame.view,
                             .lights = light_capacity(info.device.scene(info.group.scene), info.group),
-                            .frames = static_cast<std::uint32_t>(candidate.times.frames().size())},
+                            .frames = static_cast<std::uint32_t>(candidate.frames.size())},
                            *candidate.lighting, std::move(rendered));
   stats.findings = candidate.checked.findings;
   if (stats.findings) stats.verifier = info.group.verify.verifier;
@@ -159,6 +159,7 @@ std::list<Candidate> make_candidates(const MeasureInfo& info, const BenchScene& 
   for (const GroupEntry& entry : info.group.entries) {
     Candidate& candidate = candidates.emplace_back();
     candidate.entry = &entry;
+    if (!info.group.flight) candidate.times = FrameTimes(info.group.frames);  // a flight needs the parts of every frame
     try {
       candidate.lighting.emplace(info.device.context().device(), info.device.shaders(),
                                  lighting_info(scene, info.group, resolved(entry, chosen)));
@@ -223,7 +224,8 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.timed() || has_enough(info, candidate, warm)) continue;
-      const std::vector<vulkan::Timestamps::Time> times = renderer.time(*candidate.lighting);
+      const std::vector<vulkan::Timestamps::Time> times =
+          renderer.time(*candidate.lighting, warm ? candidate.times.next() : Timing::parts);
       candidate.spent_ms += span_ms(times, [](std::string_view) { return true; });
       if (!warm) continue;
       candidate.times.add(times, *candidate.lighting);

@@ -66,9 +66,9 @@ CostSample measure(Stage& stage, const AutoCandidate& candidate, const Workload&
                      .width = workload.width,
                      .height = workload.height,
                      .light_capacity = workload.capacity});
-  FrameTimes times;
+  FrameTimes times(static_cast<std::size_t>(stage.frames));
   for (int frame = 0; frame < WARM_UP + stage.frames; ++frame) {
-    const std::vector<vulkan::Timestamps::Time> frame_times = stage.renderer.time(lighting);
+    const std::vector<vulkan::Timestamps::Time> frame_times = stage.renderer.time(lighting, times.next());
     if (frame >= WARM_UP) times.add(frame_times, lighting);
   }
   // The least of each: what disturbs a frame makes it longer, never shorter.

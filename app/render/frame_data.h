@@ -22,6 +22,7 @@ class FrameData {
 
   [[nodiscard]] vulkan::Resource frame() const { return vulkan::Resource::storage(frame_.handle()); }
   [[nodiscard]] vulkan::Resource lights() const { return vulkan::Resource::storage(lights_.handle()); }
+  [[nodiscard]] vulkan::Resource spheres() const { return vulkan::Resource::storage(spheres_.handle()); }
   [[nodiscard]] vulkan::Resource decals() const { return vulkan::Resource::storage(decals_.handle()); }
   /// The ids of lights and decals.
   [[nodiscard]] EntityRanges entities() const {
@@ -31,9 +32,10 @@ class FrameData {
 
  private:
   vulkan::Buffer frame_;
-  vulkan::Buffer lights_;  ///< and a record for each decal
+  vulkan::Buffer lights_;   ///< and a record for each decal
+  vulkan::Buffer spheres_;  ///< of all these
   vulkan::Buffer decals_;
-  vulkan::Buffer staging_;  ///< shared::Frame, then the lights with the decals' records, then the decals
+  vulkan::Buffer staging_;  ///< shared::Frame, then the lights with the decals' records, their spheres, the decals
   shared::Frame host_frame_{};
   std::vector<shared::Light> host_lights_;  ///< with the decals' records
 };

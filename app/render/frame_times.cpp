@@ -50,9 +50,17 @@ void FrameTimes::add_sample(const std::string& pass, bool host, double ms) {
   found->ms.push_back(ms);
 }
 
+vulkan::Timestamps::PartOf parts_of(const Lighting& lighting) {
+  return [&lighting](std::string_view pass) { return lighting.is_cull_pass(pass) ? 1 : is_shade_pass(pass) ? 2 : 0; };
+}
+
 void FrameTimes::add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
   for (const auto& [pass, ms] : lighting.runner().host_times()) add_sample(pass, /* host= */ true, ms);
-  for (const vulkan::Timestamps::Time& time : times) add_sample(time.pass, /* host= */ false, time.ms());
+  const bool has_passes = next() == Timing::passes;
+  ++added_;
+  if (has_passes)
+    for (const vulkan::Timestamps::Time& time : times) add_sample(time.pass, /* host= */ false, time.ms());
+  if (has_passes && takes_turns_) return;
   frames_.push_back({.cull_ms = span_ms(times, [&](std::string_view pass) { return lighting.is_cull_pass(pass); }),
                      .shade_ms = span_ms(times, is_shade_pass),
                      .frame_ms = span_ms(times, [](std::string_view) { return true; })});

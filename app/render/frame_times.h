@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -30,12 +32,24 @@ struct FrameTime {
   double frame_ms = 0.0;  ///< all passes
 };
 
-/// Sorts the frames' timestamps by pass.
+/// What a frame's timestamps tell: every pass, or its parts alone (cull, shading, the rest), which takes no time of
+/// the passes in between.
+enum class Timing : std::uint8_t { passes, parts };
+
+/// Which part a pass is of, for `Timestamps`.
+[[nodiscard]] vulkan::Timestamps::PartOf parts_of(const Lighting& lighting);
+
+/// Sorts the frames' timestamps by pass and by part.
 class FrameTimes {
  public:
+  /// Of many frames every fourth tells its passes, the others their parts; few frames tell both, from their passes.
+  explicit FrameTimes(std::size_t planned = 1) : takes_turns_(planned >= 4) {}
+  /// What the next frame is to tell.
+  [[nodiscard]] Timing next() const { return takes_turns_ && added_ % 4 != 1 ? Timing::parts : Timing::passes; }
   void add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting);
   /// Passes, host passes first, else in the order of the first frame, and the medians of the frames' sums.
   void fill(Rendered& rendered, const Lighting& lighting) const;
+  /// Of those frames that told their parts.
   [[nodiscard]] const std::vector<FrameTime>& frames() const { return frames_; }
 
  private:
@@ -46,6 +60,8 @@ class FrameTimes {
   };
   void add_sample(const std::string& pass, bool host, double ms);
 
+  bool takes_turns_;
+  std::size_t added_ = 0;         ///< frames
   std::vector<Samples> samples_;  ///< in the order of the first frame, host passes first
   std::vector<FrameTime> frames_;
 };

@@ -184,10 +184,10 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
 
 void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders) {
   if (!runner_.plan().any_depth) {
-    LightingInfo clustered = info_;
-    clustered.method = take(find_method("clustered"));
-    clustered.options = take(resolve_options(*clustered.method, {}));
-    any_depth_runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(clustered, device), shaders.source()));
+    LightingInfo any_depth = info_;
+    any_depth.method = take(find_method("lamplight"));
+    any_depth.options = take(resolve_options(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}));
+    any_depth_runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(any_depth, device), shaders.source()));
   }
   vulkan::GraphicsState state = mesh_state(VK_COMPARE_OP_GREATER, {VK_FORMAT_R32G32B32A32_SFLOAT});
   state.depth_write = false;

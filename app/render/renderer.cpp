@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "gpu/check.h"
-#include "render/frame_times.h"
 #include "render/gbuffer_texels.h"
 
 namespace lamp::app {
@@ -90,14 +89,16 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
   const Plan& plan = lighting.runner().plan();
   const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
-  FrameTimes times;
+  FrameTimes times(frames);
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
+    const bool parts = i >= warm_up && times.next() == Timing::parts;
     context_.submit([&](VkCommandBuffer commands) {
-      timestamps_.reset(commands);
+      timestamps_.reset(commands, parts ? parts_of(lighting) : vulkan::Timestamps::PartOf());
       vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
       data_.record_upload(recorder);
       lighting.record(recorder, lighting_frame());
+      timestamps_.finish(commands);
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
       lighting.runner().record_counts(recorder, counts);
@@ -115,12 +116,13 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   return rendered;
 }
 
-std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting) {
+std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {
   context_.submit([&](VkCommandBuffer commands) {
-    timestamps_.reset(commands);
+    timestamps_.reset(commands, timing == Timing::parts ? parts_of(lighting) : vulkan::Timestamps::PartOf());
     vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
     data_.record_upload(recorder);
     lighting.record(recorder, lighting_frame());
+    timestamps_.finish(commands);
   });
   return timestamps_.read();
 }

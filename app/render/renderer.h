@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "lamplight/reference.h"
 #include "lamplight/shared/counters.h"
+#include "render/frame_times.h"
 #include "render/lighting.h"
 
 namespace lamp::app {
@@ -63,8 +64,8 @@ class Renderer {
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
 
-  /// Records and submits one frame, reads nothing back but its times, pass by pass.
-  [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting);
+  /// Records and submits one frame, reads nothing back but its times.
+  [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 
   /// The depth of the last frame, device depth, row by row; 0 is sky.
   [[nodiscard]] std::vector<float> read_depth();

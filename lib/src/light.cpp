@@ -68,6 +68,10 @@ std::string fault(const Light& light) {
   return {};
 }
 
+// Larger than any scene, and its square is still a finite float.
+constexpr double INFINITE_RADIUS = 1e18;
+constexpr shared::LightSphere REACHES_NOTHING{.center = glm::vec3(0.0F), .radius = -1e30F};
+
 double cosine(float half_angle) { return half_angle >= RIGHT_ANGLE ? 0.0 : std::cos(static_cast<double>(half_angle)); }
 
 }  // namespace
@@ -104,6 +108,31 @@ std::vector<shared::Light> pack(std::span<const Light> lights) {
   packed.reserve(lights.size());
   for (const Light& light : lights) packed.push_back(pack(light));
   return packed;
+}
+
+shared::LightSphere bounding_sphere(const shared::Light& light) {
+  if (!(light.range > 0.0F)) return REACHES_NOTHING;
+  glm::dvec3 center(light.position);
+  double radius = std::min<double>(light.range, INFINITE_RADIUS);
+  if (light.type == shared::LIGHT_SPOT) {
+    if (light.outer_angle <= 0.0F) return REACHES_NOTHING;
+    const double cos_outer = light.cos_outer;
+    if (radius < INFINITE_RADIUS && cos_outer >= std::numbers::sqrt2 / 2.0) {
+      radius /= 2.0 * cos_outer;  // through the apex and the rim of the cone
+      center += glm::dvec3(light.direction) * radius;
+    } else if (radius < INFINITE_RADIUS) {
+      center += glm::dvec3(light.direction) * (radius * cos_outer);  // the rim is a great circle
+      radius *= std::sqrt(1.0 - cos_outer * cos_outer);
+    }
+  }
+  return {.center = glm::vec3(center), .radius = static_cast<float>(radius)};
+}
+
+std::vector<shared::LightSphere> bounding_spheres(std::span<const shared::Light> lights) {
+  std::vector<shared::LightSphere> spheres;
+  spheres.reserve(lights.size());
+  for (const shared::Light& light : lights) spheres.push_back(bounding_sphere(light));
+  return spheres;
 }
 
 }  // namespace lamp

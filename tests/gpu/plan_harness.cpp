@@ -39,6 +39,10 @@ void PlanHarness::set_lights(const std::vector<Light>& lights) {
   const std::uint64_t bytes = std::max<std::size_t>(1, lights_.size()) * sizeof(shared::Light);
   if (light_buffer_.bytes() < bytes) light_buffer_ = host_buffer("lights", bytes);
   if (!lights_.empty()) std::memcpy(light_buffer_.mapped().data(), lights_.data(), bytes);
+  const std::vector<shared::LightSphere> spheres = bounding_spheres(lights_);
+  const std::uint64_t sphere_bytes = std::max<std::size_t>(1, spheres.size()) * sizeof(shared::LightSphere);
+  if (sphere_buffer_.bytes() < sphere_bytes) sphere_buffer_ = host_buffer("spheres", sphere_bytes);
+  if (!spheres.empty()) std::memcpy(sphere_buffer_.mapped().data(), spheres.data(), sphere_bytes);
 }
 
 void PlanHarness::read_back(vulkan::Recorder& recorder, const std::vector<vulkan::Buffer>& copies) const {
@@ -64,6 +68,7 @@ std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
     vulkan::Recorder recorder(device, commands, tracker_, &timestamps_);
     runner_.record(recorder, {.frame = frame_.handle(),
                               .lights = light_buffer_.handle(),
+                              .spheres = sphere_buffer_.handle(),
                               .light_count = light_count,
                               .host_lights = lights_,
                               .host_frame = &frame});

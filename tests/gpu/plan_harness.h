@@ -42,6 +42,7 @@ class PlanHarness {
   vulkan::Timestamps timestamps_;
   vulkan::Buffer frame_;
   vulkan::Buffer light_buffer_;
+  vulkan::Buffer sphere_buffer_;
   std::optional<View> view_;
   std::vector<shared::Light> lights_;
   std::vector<vulkan::Timestamps::Time> times_;

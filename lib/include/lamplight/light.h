@@ -36,4 +36,11 @@ struct Light {
 /// `pack` for many.
 [[nodiscard]] std::vector<shared::Light> pack(std::span<const Light> lights);
 
+/// The 16-byte sphere around all that a light reaches, in world space. Source: for spots, Primal engine, Light Culling
+/// with Approximate Sphere-Cone Intersection, listing 6.
+[[nodiscard]] shared::LightSphere bounding_sphere(const shared::Light& light);
+
+/// `bounding_sphere` for many.
+[[nodiscard]] std::vector<shared::LightSphere> bounding_spheres(std::span<const shared::Light> lights);
+
 }  // namespace lamp

@@ -21,10 +21,11 @@ namespace lamp {
 /// A resource of a plan: one of the inputs below, or `PLAN_BUFFER + i` for the plan's i-th buffer.
 using ResourceId = std::uint32_t;
 
-inline constexpr ResourceId INPUT_FRAME = 0;   ///< storage buffer, one shared::Frame
-inline constexpr ResourceId INPUT_LIGHTS = 1;  ///< storage buffer, shared::Light[light capacity]
-inline constexpr ResourceId INPUT_DEPTH = 2;   ///< sampled image, device depth, one sample a pixel
-inline constexpr ResourceId PLAN_BUFFER = 3;   ///< the first buffer of the plan
+inline constexpr ResourceId INPUT_FRAME = 0;    ///< storage buffer, one shared::Frame
+inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, shared::Light[light capacity]
+inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth, one sample a pixel
+inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]
+inline constexpr ResourceId PLAN_BUFFER = 4;    ///< the first buffer of the plan
 inline constexpr ResourceId NO_RESOURCE = ~0U;
 
 enum class Access : std::uint8_t { read, write, read_write };
@@ -79,7 +80,8 @@ struct HostContext {
 };
 using HostFunction = void (*)(const HostContext&);
 
-/// One step. Barriers follow from the declared accesses; the name becomes its debug label and its row in the times.
+/// One step. Barriers follow from the declared accesses: neighbours of which neither writes what the other touches may
+/// run side by side. The name becomes its debug label and its row in the times.
 struct Pass {
   std::string name;
   PassKind kind = PassKind::compute;
@@ -131,10 +133,10 @@ struct Plan {
   std::vector<Pass> passes;
   LookUp lookup;
   std::optional<FusedLookUp> fused;
-  std::uint64_t cells = 1;   ///< cells of the look-up
-  bool ordered = true;       ///< lists ascend
-  bool approximate = false;  ///< may miss lights, by the paper's design
-  bool any_depth = false;    ///< right for any depth of a pixel, not only the depth buffer's
+  std::uint64_t cells = 1;            ///< cells of the look-up
+  bool ordered = true;                ///< lists ascend
+  bool approximate = false;           ///< may miss lights, by the paper's design
+  bool any_depth = false;             ///< right for any depth of a pixel, not only the depth buffer's
   std::uint32_t light_capacity = 0;   ///< the problem's
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;   ///< everything that can overflow

@@ -15,30 +15,34 @@ const float INFINITE_RADIUS = 1e18;  // larger than any scene, and its square is
 const float ROUND_RADIUS = 4e-6;
 const float ROUND_POSITION = 1e-6;
 
-LightBounds light_bounds(Frame frame, Light light) {
-  if (!(light.range > 0.0)) return LightBounds(vec3(0.0), REACHES_NOTHING);
-  vec3 center = light.position;
-  float radius = min(light.range, INFINITE_RADIUS);
-  if (light.type == LIGHT_SPOT) {
-    if (light.outer_angle <= 0.0) return LightBounds(vec3(0.0), REACHES_NOTHING);
-    if (radius < INFINITE_RADIUS) {
-      const float half_angle_45 = 0.70710678;
-      if (light.cos_outer >= half_angle_45) {
-        // The sphere through the apex and the rim of the cone.
-        const float r = radius / (2.0 * light.cos_outer);
-        center += light.direction * r;
-        radius = r;
-      } else {
-        // The rim is a great circle.
-        center += light.direction * (radius * light.cos_outer);
-        radius *= sqrt(1.0 - light.cos_outer * light.cos_outer);
-      }
-    }
+LightSphere light_sphere(Light light) {
+  if (!(light.range > 0.0)) return LightSphere(vec3(0.0), REACHES_NOTHING);
+  LightSphere sphere = LightSphere(light.position, min(light.range, INFINITE_RADIUS));
+  if (light.type != LIGHT_SPOT) return sphere;
+  if (light.outer_angle <= 0.0) return LightSphere(vec3(0.0), REACHES_NOTHING);
+  if (sphere.radius >= INFINITE_RADIUS) return sphere;
+  const float half_angle_45 = 0.70710678;
+  if (light.cos_outer >= half_angle_45) {
+    // The sphere through the apex and the rim of the cone.
+    sphere.radius /= 2.0 * light.cos_outer;
+    sphere.center += light.direction * sphere.radius;
+  } else {
+    // The rim is a great circle.
+    sphere.center += light.direction * (sphere.radius * light.cos_outer);
+    sphere.radius *= sqrt(1.0 - light.cos_outer * light.cos_outer);
   }
-  const vec3 view_center = (frame.view_from_world * vec4(center, 1.0)).xyz;
-  const float slack = ROUND_RADIUS * radius +
-                      ROUND_POSITION * (length(view_center) + length(light.position) + length(frame.eye_world));
-  return LightBounds(view_center, radius + slack);
+  return sphere;
 }
+
+LightBounds view_bounds(Frame frame, LightSphere sphere) {
+  if (sphere.radius < 0.0) return LightBounds(vec3(0.0), REACHES_NOTHING);
+  const vec3 center = (frame.view_from_world * vec4(sphere.center, 1.0)).xyz;
+  // A spot's tip, which rounds as well, is within two radii of the centre.
+  const float slack = (ROUND_RADIUS + 2.0 * ROUND_POSITION) * sphere.radius +
+                      ROUND_POSITION * (length(center) + length(sphere.center) + length(frame.eye_world));
+  return LightBounds(center, sphere.radius + slack);
+}
+
+LightBounds light_bounds(Frame frame, Light light) { return view_bounds(frame, light_sphere(light)); }
 
 #endif

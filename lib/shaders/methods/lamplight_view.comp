@@ -14,7 +14,7 @@ layout(local_size_x_id = 0) in;
 #include "methods/lamplight_share.glsl"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer WorldBuffer { LightSphere world_spheres[]; };
 layout(set = 0, binding = 2, scalar) buffer TotalBuffer { LightTotals totals; };
 layout(set = 0, binding = 3, scalar) writeonly buffer SphereBuffer { LightBounds spheres[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer SeenBuffer { uint seen[]; };  // lights
@@ -58,7 +58,7 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) s_seen_count = 0u;
   if (light == 0u) totals.find_y = totals.find_z = 1u;
   LightBounds sphere = LightBounds(vec3(0.0), REACHES_NOTHING);
-  if (light < frame.light_count) sphere = light_bounds(frame, lights[light]);
+  if (light < frame.light_count) sphere = view_bounds(frame, world_spheres[light]);
   const bool is_seen = in_view(sphere, picture_sides());
   const uvec4 those = subgroupBallot(is_seen);
   barrier();  // a count of zero before it is added to

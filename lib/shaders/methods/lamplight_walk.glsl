@@ -10,7 +10,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "common/subgroup_work.glsl"
 
-const uint MANY_CELLS = 256u;     // a light of more waits
+const uint MANY_CELLS = 64u;      // a light of more waits
 const uint WAITING = 64u;         // lights in the queue, at most; others are walked at once
 const uint STRIP_OF_THREAD = 4u;  // cells of a strip, for each thread of the subgroup
 

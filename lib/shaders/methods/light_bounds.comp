@@ -7,10 +7,10 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BoundsBuffer { LightBounds bounds[]; };
 
 void main() {
   const uint light = gl_GlobalInvocationID.x;
-  if (light < frame.light_count) bounds[light] = light_bounds(frame, lights[light]);
+  if (light < frame.light_count) bounds[light] = view_bounds(frame, spheres[light]);
 }

@@ -30,7 +30,7 @@ constexpr std::uint32_t LARGEST_BLOCK = 8192;  // lights
 constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
 constexpr std::uint32_t THREADS = 256;
 constexpr std::uint32_t GROUP_HITS = 4;  // for each thread of a group, in shared memory
-constexpr std::uint32_t LIST_THREADS = 128;
+constexpr std::uint32_t LIST_THREADS = 256;
 constexpr std::uint32_t PAIRS = 1024;               // of light and row, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 64 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t CELL_PIECES = 2;            // for each cell, besides those of mean_cells
@@ -176,7 +176,7 @@ Pass view_pass(std::uint32_t threads, const Buffers& b) {
           .shader = "methods/lamplight_view",
           .constants = {threads},
           .bindings = {{INPUT_FRAME},
-                       {INPUT_LIGHTS},
+                       {INPUT_SPHERES},
                        {b.totals, Access::read_write},
                        {b.spheres, Access::write},
                        {b.seen, Access::write}},

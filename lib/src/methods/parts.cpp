@@ -15,7 +15,7 @@ ResourceId add_light_bounds(Plan& plan, const Problem& problem) {
 Pass light_bounds_pass(ResourceId bounds) {
   return {.name = "light bounds",
           .shader = "methods/light_bounds",
-          .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {bounds, Access::write}},
+          .bindings = {{INPUT_FRAME}, {INPUT_SPHERES}, {bounds, Access::write}},
           .extent = {.lights_per_group = 64}};
 }
 

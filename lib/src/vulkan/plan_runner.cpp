@@ -135,6 +135,8 @@ Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs) const {
       return Resource::storage(inputs.lights);
     case INPUT_DEPTH:
       return inputs.depth;
+    case INPUT_SPHERES:
+      return Resource::storage(inputs.spheres);
     default:
       return Resource::storage(buffer(id));
   }
@@ -156,16 +158,24 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
   zero_buffers(recorder);
   host_times_.clear();
   const bool changed = projection_changed(inputs);
+  std::vector<BoundPass> together;
   for (const BuiltPass& built : passes) {
     if (built.pass.on_projection_change) {
       if (!changed) continue;
       ++projection_rebuilds_;
     }
-    if (built.pass.kind == PassKind::host)
+    if (built.pass.kind == PassKind::host) {
       record_host(built.pass, inputs);
-    else
-      record_gpu(recorder, built, inputs);
+      continue;
+    }
+    BoundPass next = bind(built, inputs);
+    if (std::ranges::any_of(together, [&](const BoundPass& one) { return depends(next, one); })) {
+      record_together(recorder, together, inputs);
+      together.clear();
+    }
+    together.push_back(std::move(next));
   }
+  record_together(recorder, together, inputs);
 }
 
 void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset) const {
@@ -225,30 +235,49 @@ void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) {
   host_times_.push_back({pass.name, taken.count()});
 }
 
-void PlanRunner::record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const {
+PlanRunner::BoundPass PlanRunner::bind(const BuiltPass& built, const PlanInputs& inputs) const {
   const Pass& pass = built.pass;
-  const bool raster = pass.kind == PassKind::raster;
   const VkPipelineStageFlags2 stages =
-      raster ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
-             : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  std::vector<Use> uses;
-  std::vector<Bound> bound;
+      pass.kind == PassKind::raster ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
+                                    : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  BoundPass bound{.built = &built};
   for (std::uint32_t i = 0; i < pass.bindings.size(); ++i) {
     const Resource used = resource(pass.bindings[i].resource, inputs);
-    uses.push_back(use_of(used, pass.bindings[i].access, stages));
-    bound.push_back({i, used});
+    bound.uses.push_back(use_of(used, pass.bindings[i].access, stages));
+    bound.resources.push_back({i, used});
   }
   if (pass.extent.indirect != NO_RESOURCE)
-    uses.push_back({.resource = resource(pass.extent.indirect, inputs),
-                    .stages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                    .access = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
-  recorder.begin_pass(pass.name, uses);
-  recorder.bind(built.pipeline, bound);
-  if (raster)
-    draw(recorder.commands(), pass, inputs);
-  else
-    dispatch(recorder.commands(), pass, inputs);
-  recorder.end_pass();
+    bound.uses.push_back({.resource = resource(pass.extent.indirect, inputs),
+                          .stages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                          .access = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+  return bound;
+}
+
+bool PlanRunner::depends(const BoundPass& later, const BoundPass& earlier) {
+  const auto writes = [](const Use& use) { return (use.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) != 0; };
+  return std::ranges::any_of(later.uses, [&](const Use& use) {
+    return std::ranges::any_of(earlier.uses, [&](const Use& other) {
+      return use.resource.buffer == other.resource.buffer && use.resource.image == other.resource.image &&
+             (writes(use) || writes(other));
+    });
+  });
+}
+
+void PlanRunner::record_together(Recorder& recorder, std::span<const BoundPass> passes,
+                                 const PlanInputs& inputs) const {
+  std::vector<Use> uses;  // before the first of them, so that no barrier keeps them apart
+  for (const BoundPass& bound : passes) uses.insert(uses.end(), bound.uses.begin(), bound.uses.end());
+  for (const BoundPass& bound : passes) {
+    const Pass& pass = bound.built->pass;
+    recorder.begin_pass(pass.name, uses);
+    uses.clear();
+    recorder.bind(bound.built->pipeline, bound.resources);
+    if (pass.kind == PassKind::raster)
+      draw(recorder.commands(), pass, inputs);
+    else
+      dispatch(recorder.commands(), pass, inputs);
+    recorder.end_pass();
+  }
 }
 
 void PlanRunner::dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const {

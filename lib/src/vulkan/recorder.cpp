@@ -3,6 +3,7 @@
 #include "lamplight/vulkan/recorder.h"
 
 #include <cassert>
+#include <utility>
 
 namespace lamp::vulkan {
 namespace {
@@ -93,19 +94,30 @@ Result<Timestamps> Timestamps::create(const Device& device, std::uint32_t max_pa
   return timestamps;
 }
 
-void Timestamps::reset(VkCommandBuffer commands) {
+void Timestamps::reset(VkCommandBuffer commands, PartOf part_of) {
   passes_.clear();
+  part_of_ = std::move(part_of);
+  open_ = false;
   vkCmdResetQueryPool(commands, pool_.get(), 0, 2 * max_passes_);
 }
 
 void Timestamps::begin(VkCommandBuffer commands, std::string_view pass) {
+  if (open_ && part_of_(passes_.back()) == part_of_(pass)) return;
+  finish(commands);
   assert(passes_.size() < max_passes_ && "create Timestamps with room for every pass of the frame");
   vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
                        static_cast<std::uint32_t>(2 * passes_.size()));
   passes_.emplace_back(pass);
+  open_ = true;
 }
 
 void Timestamps::end(VkCommandBuffer commands) {
+  if (!part_of_) finish(commands);
+}
+
+void Timestamps::finish(VkCommandBuffer commands) {
+  if (!open_) return;
+  open_ = false;
   vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
                        static_cast<std::uint32_t>(2 * passes_.size() - 1));
 }

@@ -1,6 +1,6 @@
 // A light as the GPU reads it, and its 16-byte bounds.
 // Based on: Khronos, KHR_lights_punctual (units, range window, cone).
-// Promise: Light is 64 bytes, LightBounds 16 bytes, in C++ and in GLSL.
+// Promise: Light is 64 bytes, LightSphere and LightBounds 16 bytes, in C++ and in GLSL.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_LIGHT_H
 #define LAMPLIGHT_SHARED_LIGHT_H
@@ -28,6 +28,13 @@ struct Light {
   float sin_outer;    // sin(outer_angle)
 };
 
+// World space. A sphere that encloses everything the light reaches, but for rounding: all that most of the culling reads
+// of a light.
+struct LightSphere {
+  vec3 center;   // m
+  float radius;  // m; negative: the light reaches nothing
+};
+
 // View space (looks down -Z). A sphere that encloses everything the light reaches, widened by the
 // rounding of 32-bit arithmetic so that no test against it can lose a light.
 struct LightBounds {
@@ -36,7 +43,7 @@ struct LightBounds {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Light) == 64 && sizeof(LightBounds) == 16);
+static_assert(sizeof(Light) == 64 && sizeof(LightSphere) == 16 && sizeof(LightBounds) == 16);
 }  // namespace lamp::shared
 #endif
 

@@ -18,12 +18,15 @@ struct CullerInfo {
   std::uint32_t light_capacity = 0;
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
+  bool brings_spheres = false;  ///< frames bring the lights' spheres; else they are made from the lights every frame
 };
 
-/// What a frame brings. Lights and depth must be visible to compute shaders when the recorded commands run.
+/// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run.
 struct CullerFrame {
   const View* view = nullptr;                  ///< its size must be the Culler's
   VkBuffer lights = VK_NULL_HANDLE;            ///< storage buffer of shared::Light (`lamp::pack`)
+  VkBuffer spheres = VK_NULL_HANDLE;           ///< CullerInfo::brings_spheres: storage buffer of shared::LightSphere
+                                               ///< (`lamp::bounding_spheres`), which is a quarter to read
   std::uint32_t light_count = 0;               ///< at most the capacity
   std::span<const shared::Light> host_lights;  ///< only for options that work on the CPU: the same lights
   VkImage depth_image = VK_NULL_HANDLE;        ///< only for methods that need depth: one sample, device depth
@@ -80,13 +83,16 @@ class Culler {
   };
   [[nodiscard]] FrameCounts counts_of(std::uint64_t frame) const;
   void release(std::uint64_t finished_frame);
+  void make_spheres(Recorder& recorder, const PlanInputs& inputs) const;
   [[nodiscard]] Result<Growth> grow(GrownPlan grown);
 
   Device device_;
   const Method* method_ = nullptr;
   Problem problem_;
   Buffer frame_;
-  Buffer counts_;  ///< a slot for each frame in flight
+  Buffer counts_;             ///< a slot for each frame in flight
+  Buffer spheres_;            ///< none if frames bring them
+  Pipeline sphere_pipeline_;  ///< likewise
   PlanRunner runner_;
   AccessTracker tracker_;
   std::vector<Retired> retired_;

@@ -18,9 +18,10 @@ using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::strin
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
-  VkBuffer frame = VK_NULL_HANDLE;   ///< one shared::Frame
-  VkBuffer lights = VK_NULL_HANDLE;  ///< shared::Light[light_count]
-  Resource depth;                    ///< sampled image; unset for methods that do not need it
+  VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame
+  VkBuffer lights = VK_NULL_HANDLE;   ///< shared::Light[light_count]
+  VkBuffer spheres = VK_NULL_HANDLE;  ///< shared::LightSphere[light_count]
+  Resource depth;                     ///< sampled image; unset for methods that do not need it
   std::uint32_t light_count = 0;
   std::span<const shared::Light> host_lights;  ///< for host passes
   const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`; must be set
@@ -80,11 +81,20 @@ class PlanRunner {
     Pass pass;
     Pipeline pipeline;
   };
+  /// With what it touches in this frame.
+  struct BoundPass {
+    const BuiltPass* built = nullptr;
+    std::vector<Use> uses;
+    std::vector<Bound> resources;
+  };
   [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
   [[nodiscard]] static Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
                                                             const ShaderSource& shaders);
   void record_host(const Pass& pass, const PlanInputs& inputs);
-  void record_gpu(Recorder& recorder, const BuiltPass& built, const PlanInputs& inputs) const;
+  [[nodiscard]] BoundPass bind(const BuiltPass& built, const PlanInputs& inputs) const;
+  [[nodiscard]] static bool depends(const BoundPass& later, const BoundPass& earlier);
+  /// Passes of which none waits for another: they may run side by side.
+  void record_together(Recorder& recorder, std::span<const BoundPass> passes, const PlanInputs& inputs) const;
   void dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
   void draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
   [[nodiscard]] bool projection_changed(const PlanInputs& inputs);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -66,9 +67,11 @@ class AccessTracker {
   std::map<std::uint64_t, State> states_;
 };
 
-/// Begin and end times of named passes.
+/// Begin and end times of named passes, or of runs of passes that belong together.
 class Timestamps {
  public:
+  /// Which part of the frame a pass belongs to, by any number.
+  using PartOf = std::function<int(std::string_view)>;
   struct Time {
     std::string pass;
     double begin_ms = 0.0;  ///< since the first pass began
@@ -78,9 +81,13 @@ class Timestamps {
   };
   Timestamps() = default;
   [[nodiscard]] static Result<Timestamps> create(const Device& device, std::uint32_t max_passes);
-  void reset(VkCommandBuffer commands);
+  /// With `part_of`, neighbouring passes of one part share a time, that has the first one's name: taking a time costs
+  /// a GPU about a microsecond.
+  void reset(VkCommandBuffer commands, PartOf part_of = {});
   void begin(VkCommandBuffer commands, std::string_view pass);
   void end(VkCommandBuffer commands);
+  /// After the last pass.
+  void finish(VkCommandBuffer commands);
   /// When each pass began and ended, after the work is done.
   [[nodiscard]] std::vector<Time> read() const;
 
@@ -90,6 +97,8 @@ class Timestamps {
   float period_ns_ = 1.0F;
   std::uint32_t max_passes_ = 0;
   std::vector<std::string> passes_;
+  PartOf part_of_;
+  bool open_ = false;  ///< the last time has no end yet
 };
 
 class Recorder {
