@@ -188,6 +188,10 @@ TEST_F(Bench, DrobotsTablesStandBesideOurs) {
   EXPECT_NE(read("table.md").find("| tiles | 240x135 | 1 | 1036 KB | 1036.8 KB |"), std::string::npos)
       << read("table.md");
   EXPECT_EQ(script("'" + tool + "' script.sh"), BAD_INPUT);
+  const std::string walks = (fs::path(LAMPLIGHT_SOURCE_DIR) / "docs/results/h100/drobot-scalarisation.json").string();
+  ASSERT_EQ(script("'" + tool + "' '" + walks + "' >table.md"), 0);
+  EXPECT_NE(read("table.md").find("| bits, scalar | 32 | 8 | 72 % |"), std::string::npos) << read("table.md");
+  EXPECT_EQ(read("table.md").find("| 72 % |  |"), std::string::npos) << "of a suite with several paths";
 }
 
 TEST_F(Bench, ACapturedFrameIsAScene) {
