@@ -17,13 +17,14 @@ layout(constant_id = 11) const uint FAR_M = 500;
 #include "common/slices.glsl"
 #endif
 #define BOUNDS BOUNDS_MASK
+#include "common/light_bounds.glsl"
 #include "common/mask_tests.glsl"
 #include "common/sphere_rectangle.glsl"
 #include "lamplight/shared/lamplight.h"
 #include "methods/lamplight_share.glsl"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightBounds spheres[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SeenBuffer { uint seen[]; };
 layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
 layout(set = 0, binding = 4, scalar) writeonly buffer HitBuffer { LightHit hits[]; };
@@ -113,7 +114,7 @@ void main() {
   const uint at = gl_WorkGroupID.x * share + in_share;
   if (gl_SubgroupInvocationID < of_subgroup && in_share < share && at < totals.seen) {
     light = seen[at];
-    sphere = spheres[light];
+    sphere = view_bounds(frame, spheres[light]);
     any_tile = tiles_of_sphere(frame, sphere, TILE_PX, tiles) && meets_depths(sphere, tiles);
   }
   uint waiting = 0u;  // hits of the subgroup

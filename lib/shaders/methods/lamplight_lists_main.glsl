@@ -28,26 +28,24 @@ layout(constant_id = 17) const uint FAR_M = 500;
 #define SPOT SPOT_CONE_SEGMENTS
 #include "common/sphere_tests.glsl"
 #include "common/spot_tests.glsl"
-#include "lamplight/shared/counters.h"
 #include "lamplight/shared/lamplight.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightBounds spheres[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer PieceBuffer { uint piece_cells[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
 layout(set = 0, binding = 7, scalar) buffer TotalBuffer { LightTotals totals; };
-layout(set = 0, binding = 8, scalar) buffer CounterBuffer { Counters counters; };
-layout(set = 0, binding = 9, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
-layout(set = 0, binding = 10, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
-layout(set = 0, binding = 11, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
+layout(set = 0, binding = 8, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
+layout(set = 0, binding = 9, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
+layout(set = 0, binding = 10, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
 #ifndef SLICED
-layout(set = 0, binding = 12, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = 11, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
 #endif
 #ifdef PRUNED
-layout(set = 0, binding = 13) uniform texture2D depth_image;
+layout(set = 0, binding = 12) uniform texture2D depth_image;
 #endif
 
 #include "methods/lamplight_order.glsl"
@@ -97,7 +95,7 @@ bool write_lists(Cell cell, uint begin, uint count) {
     rows[at] = fits ? s_base + s_list_begin[row] : begin | COARSE;
     rows[at + 1u] = fits ? s_list_size[row] : count;
   }
-  if (!fits && thread == 0u) atomicAdd(counters.overflowed_cells, ROWS);
+  if (!fits && thread == 0u) atomicAdd(totals.counters.overflowed_cells, ROWS);
   return fits;
 }
 

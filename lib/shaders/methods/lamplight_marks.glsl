@@ -5,6 +5,7 @@
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
 #define LAMP_METHODS_LAMPLIGHT_MARKS
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "common/light_bounds.glsl"
 #include "common/sphere_rectangle.glsl"
 #include "common/sphere_tests.glsl"
 #include "common/spot_tests.glsl"
@@ -85,7 +86,7 @@ void gather_pairs(Cell cell, uint first_entry, bool any_entry) {
   uint spot = 0u;
   if (any_entry) {
     const uint light = s_lights[entry];
-    const LightBounds sphere = spheres[light];
+    const LightBounds sphere = view_bounds(frame, spheres[light]);
     spot = lights[light].type == LIGHT_SPOT ? PAIR_OF_SPOT : 0u;
     s_spheres[entry] = sphere;
     rectangle = rectangle_in_rows(sphere, cell);

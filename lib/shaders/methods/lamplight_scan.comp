@@ -6,7 +6,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
 #include "lamplight/shared/lamplight.h"
 
@@ -26,7 +25,6 @@ layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // 
 layout(set = 0, binding = 2, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { uint piece_cells[]; };
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
-layout(set = 0, binding = 5, scalar) buffer CounterBuffer { Counters counters; };
 
 shared uint s_strips[STRIPS][COLUMNS];
 shared uint s_total[COLUMNS];
@@ -66,7 +64,7 @@ void write_cell(uint cell, uint strip, uint first_piece, uint entries, bool fits
   for (uint piece = first_piece + strip; piece < end; piece += STRIPS) piece_cells[piece] = fits ? cell : NO_CELL;
   if (strip > 0u) return;
   cells[cell] = LightCell(first_piece, fits ? pieces_of(entries) : ALL_LIGHTS, entries);
-  if (!fits) atomicAdd(counters.overflowed_cells, CELL_ROWS);
+  if (!fits) atomicAdd(totals.counters.overflowed_cells, CELL_ROWS);
 }
 
 void main() {
@@ -77,6 +75,7 @@ void main() {
   const uint height = (blocks + STRIPS - 1u) / STRIPS;
   const uint from = cell < CELLS ? min(strip * height, blocks) : 0u;
   const uint to = cell < CELLS ? min(from + height, blocks) : 0u;
+  const bool all_hits = totals.hits <= HITS;
   if (gl_WorkGroupID.x == 0u && gl_LocalInvocationIndex == 0u) write_group_counts();
 
   uint held[HELD];
@@ -96,7 +95,7 @@ void main() {
 
   if (cell >= CELLS) return;
   const uint first_piece = s_base + pieces_before(column);
-  const bool fits = totals.hits <= HITS && first_piece <= PIECES && pieces_of(s_total[column]) <= PIECES - first_piece;
+  const bool fits = all_hits && first_piece <= PIECES && pieces_of(s_total[column]) <= PIECES - first_piece;
   write_cell(cell, strip, first_piece, s_total[column], fits);
   for (uint block = from; block < to; block += HELD) {
     if (height > HELD) load_counts(cell, block, to, held);

@@ -1,6 +1,5 @@
-// Every light once: its bounding sphere in view space, and whether that meets the picture. Those that do are listed, in
-// any order.
-// Promise: the only pass that reads every light; later ones know of a light what is stored here.
+// Every light once: whether its bounding sphere meets the picture. Those that do are listed, in any order.
+// Promise: the only pass that reads every light, 16 bytes of it.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,10 +13,9 @@ layout(local_size_x_id = 0) in;
 #include "methods/lamplight_share.glsl"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer WorldBuffer { LightSphere world_spheres[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 2, scalar) buffer TotalBuffer { LightTotals totals; };
-layout(set = 0, binding = 3, scalar) writeonly buffer SphereBuffer { LightBounds spheres[]; };
-layout(set = 0, binding = 4, scalar) writeonly buffer SeenBuffer { uint seen[]; };  // lights
+layout(set = 0, binding = 3, scalar) writeonly buffer SeenBuffer { uint seen[]; };  // lights
 
 shared uint s_seen_count;
 shared uint s_begin;
@@ -58,7 +56,7 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) s_seen_count = 0u;
   if (light == 0u) totals.find_y = totals.find_z = 1u;
   LightBounds sphere = LightBounds(vec3(0.0), REACHES_NOTHING);
-  if (light < frame.light_count) sphere = view_bounds(frame, world_spheres[light]);
+  if (light < frame.light_count) sphere = view_bounds(frame, spheres[light]);
   const bool is_seen = in_view(sphere, picture_sides());
   const uvec4 those = subgroupBallot(is_seen);
   barrier();  // a count of zero before it is added to
@@ -68,7 +66,5 @@ void main() {
   barrier();  // every subgroup's count before room is reserved
   if (gl_LocalInvocationIndex == 0u) reserve_seen();
   barrier();  // room before it is filled
-  if (!is_seen) return;
-  seen[s_begin + place] = light;
-  spheres[light] = sphere;
+  if (is_seen) seen[s_begin + place] = light;
 }

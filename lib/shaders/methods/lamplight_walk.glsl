@@ -11,7 +11,7 @@
 #include "common/subgroup_work.glsl"
 
 const uint MANY_CELLS = 64u;      // a light of more waits
-const uint WAITING = 64u;         // lights in the queue, at most; others are walked at once
+const uint WAITING = 32u;         // lights in the queue, at most; others are walked at once
 const uint STRIP_OF_THREAD = 4u;  // cells of a strip, for each thread of the subgroup
 
 struct CellRectangle {

@@ -29,10 +29,10 @@ constexpr std::uint32_t WANTED_BLOCKS = 256;   // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;  // lights
 constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
 constexpr std::uint32_t THREADS = 256;
-constexpr std::uint32_t GROUP_HITS = 4;  // for each thread of a group, in shared memory
+constexpr std::uint32_t GROUP_HITS = 2;  // for each thread of a group, in shared memory
 constexpr std::uint32_t LIST_THREADS = 256;
 constexpr std::uint32_t PAIRS = 1024;               // of light and row, in shared memory
-constexpr std::uint32_t QUEUE_BYTES = 64 * 24 + 8;  // lights of many cells, in shared memory
+constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t CELL_PIECES = 2;            // for each cell, besides those of mean_cells
 constexpr std::uint64_t MEAN_CAPACITY = 32;         // default of the option
 constexpr std::uint64_t LIST_LIGHTS = 4;            // entries for each light that are room as well, within LIST_BUDGET
@@ -117,19 +117,17 @@ Sizes sizes_of(const Problem& problem) {
 }
 
 struct Buffers {
-  ResourceId counters, totals, tile_depths, cell_depths, spheres, seen, matrix, hits, cells, pieces, entries, rows,
-      lists;
+  ResourceId totals, tile_depths, cell_depths, seen, matrix, hits, cells, pieces, entries, rows, lists;
 };
 
 Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   Buffers b{};
-  b.counters = parts::add_counters(plan);
   b.totals = plan.add({.name = "totals", .bytes = sizeof(shared::LightTotals), .zeroed = true, .indirect = true});
+  plan.counters = b.totals;
   if (!s.sliced()) {
     b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
     b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
   }
-  b.spheres = plan.add({.name = "light bounds", .bytes = lights * sizeof(shared::LightBounds)});
   b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
   const std::uint64_t matrix_bytes = std::uint64_t{s.blocks} * s.cell_count * 4;
   b.matrix = plan.add({.name = "cell counts", .bytes = matrix_bytes, .zeroed = s.sliced()});
@@ -175,11 +173,7 @@ Pass view_pass(std::uint32_t threads, const Buffers& b) {
   return {.name = "lights in view",
           .shader = "methods/lamplight_view",
           .constants = {threads},
-          .bindings = {{INPUT_FRAME},
-                       {INPUT_SPHERES},
-                       {b.totals, Access::read_write},
-                       {b.spheres, Access::write},
-                       {b.seen, Access::write}},
+          .bindings = {{INPUT_FRAME}, {INPUT_SPHERES}, {b.totals, Access::read_write}, {b.seen, Access::write}},
           .extent = {.lights_per_group = threads},
           .shared_bytes = 8};
 }
@@ -191,7 +185,7 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
             .constants =
                 with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, s.block, s.hits, group_hits}, problem, s),
             .bindings = {{INPUT_FRAME},
-                         {b.spheres},
+                         {INPUT_SPHERES},
                          {b.seen},
                          {b.matrix, Access::read_write},
                          {b.hits, Access::write},
@@ -212,8 +206,7 @@ Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
                        {b.matrix, Access::read_write},
                        {b.cells, Access::write},
                        {b.pieces, Access::write},
-                       {b.totals, Access::read_write},
-                       {b.counters, Access::read_write}},
+                       {b.totals, Access::read_write}},
           .extent = {.x = parts::divide_up(s.cell_count, SCAN_COLUMNS)},
           .shared_bytes = threads * 4 + SCAN_COLUMNS * 4 + 4};
 }
@@ -240,17 +233,16 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                 problem, s),
             .bindings = {{INPUT_FRAME},
                          {INPUT_LIGHTS},
-                         {b.spheres},
+                         {INPUT_SPHERES},
                          {b.cells},
                          {b.pieces},
                          {b.entries},
                          {b.matrix},
                          {b.totals, Access::read_write},
-                         {b.counters, Access::read_write},
                          {b.rows, Access::write},
                          {b.hits, Access::write},  // free by now: lists of the pieces
                          {b.lists, Access::write}},
-            .extent = {.indirect = b.totals},
+            .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)},
             .shared_bytes = (6 * PIECE + 2 * MARGIN + run_words + PAIRS + mark_words) * 4 + s.group_rows * 56 + 84};
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
   if (pruned) pass.bindings.push_back({INPUT_DEPTH});

@@ -4,6 +4,7 @@
 #ifndef LAMPLIGHT_SHARED_LAMPLIGHT_H
 #define LAMPLIGHT_SHARED_LAMPLIGHT_H
 
+#include "counters.h"
 #include "glsl.h"
 
 #ifdef __cplusplus
@@ -48,6 +49,7 @@ LAMP_CONST COARSE = 0x80000000u;  // the piece's lists did not fit: all lights o
 
 // Zeroed at the start of every frame.
 struct LightTotals {
+  Counters counters;
   uint pieces;  // these three are the group counts of the last pass
   uint lists_y;
   uint lists_z;
@@ -65,7 +67,7 @@ struct LightTotals {
 
 #ifdef __cplusplus
 static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 && sizeof(LightSpan) == 8 &&
-              sizeof(LightTotals) == 52);
+              sizeof(LightTotals) == 68);
 }  // namespace lamp::shared
 #endif
 
