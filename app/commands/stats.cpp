@@ -106,6 +106,7 @@ nlohmann::json to_json(const Stats& s) {
           {{"verifier", name_of(*s.verifier)}, {"missed", f.missed}, {"useful", f.useful}, {"waste", f.waste()}});
       if (f.excess()) json["excess"] = *f.excess();
       if (s.verifier == Verifier::gpu) json["repeated"] = f.repeated;
+      if (f.changed_runs) json["changed_runs"] = *f.changed_runs;
     }
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }

@@ -18,6 +18,7 @@ struct VerifyOptions {
   Request request;
   std::vector<std::string> methods;
   std::string verifier = "auto";
+  std::uint32_t runs = 1;
   bool json = false;
 };
 
@@ -119,6 +120,18 @@ void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& c
                  [&](const Truth& truth) { visit_decals(session, truth, candidates); });
 }
 
+/// Makes lists again and again, and counts how often they are not the first's.
+std::uint32_t changed_runs(Session& session, Candidate& candidate, std::uint32_t runs) {
+  const auto same = [](const gpu::Visit& a, const gpu::Visit& b) { return a.visited == b.visited && a.hash == b.hash; };
+  const std::vector<gpu::Visit> first = session.renderer().visit_all(candidate.lighting);
+  std::uint32_t changed = 0;
+  for (std::uint32_t run = 1; run < runs; ++run) {
+    progress(fmt::format("verify run {} of {}: {}", run + 1, runs, candidate.lighting.info().method->name));
+    if (!std::ranges::equal(session.renderer().visit_all(candidate.lighting), first, same)) ++changed;
+  }
+  return changed;
+}
+
 /// A row of the table.
 struct Row {
   Stats stats;
@@ -151,6 +164,7 @@ void print_table(std::span<const Row> rows) {
     for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
     if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
     if (f.repeated != 0) fmt::print("  {} reaching lights walked again\n", f.repeated);
+    if (f.changed_runs.value_or(0) != 0) fmt::print("  {} of the repeated runs had other lists\n", *f.changed_runs);
     if (s.decal_findings) print_decals(s);
     if (s.ordered && f.unordered) fmt::print("  a list does not ascend\n");
     if (s.image_max_abs_diff && !s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
@@ -171,6 +185,7 @@ float picture_difference(Session& session, Candidate& candidate, const HdrImage&
 /// Without a reference, pictures are not compared.
 Row make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
              const std::optional<HdrImage>& reference) {
+  if (o.runs > 1) candidate.findings.changed_runs = changed_runs(session, candidate, o.runs);
   progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
   Rendered rendered = session.renderer().render(candidate.lighting);
   const Plan& plan = candidate.lighting.runner().plan();
@@ -276,11 +291,16 @@ Run add_verify(CLI::App& app) {
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();
   add_verifier_option(*command, o->verifier);
+  command
+      ->add_option("--runs", o->runs, "how often lists are made; those of a method whose lists ascend must be the same")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 100'000U));
   command->add_flag("--json", o->json, "print an array of Stats objects, one a method");
   command->footer(
       "Examples:\n"
       "  lamp verify atrium --lights 8192\n"
       "  lamp verify atrium --decals 64\n"
+      "  lamp verify one-tile --lights 65536 --method lamplight --runs 100\n"
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic");
   return [o] { return verify(*o); };
 }

@@ -129,6 +129,7 @@ float picture_tolerance(const Plan& plan, const HdrImage& reference) {
 bool keeps_promises(const Plan& plan, const Findings& findings, const PictureDifference& difference) {
   if (plan.ordered && findings.unordered) return false;
   if (findings.repeated != 0) return false;
+  if (plan.ordered && findings.changed_runs.value_or(0) != 0) return false;
   if (plan.approximate) return true;
   return findings.missed == 0 && std::isfinite(difference.max_abs) && difference.max_abs <= difference.tolerance;
 }

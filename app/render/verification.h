@@ -37,9 +37,11 @@ struct Findings {
   std::optional<std::uint64_t> truth_sum;  ///< per cell, the lights that reach one of its pixels; nothing: not counted
   std::uint64_t cells_seen = 0;            ///< cells that hold a pixel
   std::uint32_t list_max = 0;
-  bool unordered = false;                     ///< a list did not ascend
-  std::uint64_t repeated = 0;                 ///< reaching lights that a list brought again; the oracle does not count
-  std::string first_miss;                     ///< "pixel (12, 34): light 56", or empty
+  bool unordered = false;      ///< a list did not ascend
+  std::uint64_t repeated = 0;  ///< reaching lights that a list brought again; the oracle does not count
+  std::optional<std::uint32_t>
+      changed_runs;        ///< repeated runs with other lists than the first's; nothing: not repeated
+  std::string first_miss;  ///< "pixel (12, 34): light 56", or empty
   std::optional<std::uint64_t> missed_fused;  ///< of the fused look-up alone, where the plan has one
 
   [[nodiscard]] double waste() const;  ///< evaluations / useful; 1 when there is nothing to do and nothing done

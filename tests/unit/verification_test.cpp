@@ -69,6 +69,9 @@ TEST(Verification, MissesAndDisorderFailUnlessTheRowAllowsThem) {
   const Findings missed{.missed = 1};
   const Findings disorder{.unordered = true};
   EXPECT_FALSE(keeps_promises({.ordered = false}, {.repeated = 1}, none));
+  EXPECT_FALSE(keeps_promises({.ordered = true}, {.changed_runs = 1}, none));
+  EXPECT_TRUE(keeps_promises({.ordered = true}, {.changed_runs = 0}, none));
+  EXPECT_TRUE(keeps_promises({.ordered = false}, {.changed_runs = 1}, none));
   EXPECT_FALSE(keeps_promises({.ordered = false}, missed, none));
   EXPECT_TRUE(keeps_promises({.ordered = false, .approximate = true}, missed, {.max_abs = 1.0F}));
   EXPECT_FALSE(keeps_promises({.ordered = true}, disorder, none));

@@ -61,6 +61,7 @@ struct Visit {
   uint missed;        // lights of the truth that the walk did not bring
   uint first_missed;  // the first of them
   uint unordered;     // 1: a light did not ascend
+  uint hash;          // of the lights walked, in their order
 };
 
 #ifdef __cplusplus

@@ -48,19 +48,20 @@ void main() {
   const uint index = (pixel.y - first_row) * frame.size_px.x + pixel.x;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
   if (depth <= 0.0) {
-    visits[index] = Visit(0u, NONE, 0u, NONE, 0u);
+    visits[index] = Visit(0u, NONE, 0u, NONE, 0u, 0u);
     return;
   }
   const float z_view = z_view_of(frame, depth);
   const uint end = truth_offsets[index + 1u];
   uint next = truth_offsets[index];
-  Visit visit = Visit(0u, lookup_cell(pixel, z_view), 0u, NONE, 0u);
+  Visit visit = Visit(0u, lookup_cell(pixel, z_view), 0u, NONE, 0u, 0u);
   uint last = 0u;
   uint light;
   LOOKUP_EACH_IN(light, pixel, z_view, first_id, end_id) {
     if (visit.visited > 0u && light <= last) visit.unordered = 1u;
     last = light;
     ++visit.visited;
+    visit.hash = (visit.hash ^ light) * 16777619u;  // FNV-1a, a light at a time
     for (; next < end && truth[next] < light; ++next) {
       ++visit.missed;
       visit.first_missed = min(visit.first_missed, truth[next]);
