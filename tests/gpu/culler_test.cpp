@@ -26,6 +26,7 @@ struct EngineFrame {
   std::vector<float> depth;
   GpuImage depth_image;
   vulkan::Buffer light_buffer;
+  vulkan::Buffer sphere_buffer;
 };
 
 EngineFrame make_frame(std::string_view projection, std::uint32_t lights) {
@@ -35,7 +36,12 @@ EngineFrame make_frame(std::string_view projection, std::uint32_t lights) {
   const LitCase lit = make_case(renderer, view, test_lights(scene.air, view, {.count = lights}));
   std::vector<shared::Light> padded = lit.lights;
   padded.resize(CAPACITY);
-  return {view, lit.lights, lit.depth, depth_image(WIDTH, HEIGHT, lit.depth), host_buffer_of("engine lights", padded)};
+  return {view,
+          lit.lights,
+          lit.depth,
+          depth_image(WIDTH, HEIGHT, lit.depth),
+          host_buffer_of("engine lights", padded),
+          host_buffer_of("engine spheres", bounding_spheres(padded))};
 }
 
 vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup) {
@@ -63,6 +69,7 @@ std::vector<glm::uvec2> cull_and_walk(vulkan::Culler& culler, const EngineFrame&
   test_context().submit([&](VkCommandBuffer commands) {
     culler.record(commands, {.view = &frame.view,
                              .lights = frame.light_buffer.handle(),
+                             .spheres = frame.sphere_buffer.handle(),  // read if the Culler was told so
                              .light_count = static_cast<std::uint32_t>(frame.lights.size()),
                              .host_lights = frame.lights,
                              .depth_image = frame.depth_image.handle(),
@@ -103,12 +110,14 @@ std::uint64_t walked(const std::vector<glm::uvec2>& masks) {
   return sum;
 }
 
-Result<vulkan::Culler> make_culler(std::string method, std::vector<std::string> options = {}) {
+Result<vulkan::Culler> make_culler(std::string method, std::vector<std::string> options = {},
+                                   bool brings_spheres = false) {
   return vulkan::Culler::create(test_context().device(), {.width = WIDTH,
                                                           .height = HEIGHT,
                                                           .light_capacity = CAPACITY,
                                                           .method = std::move(method),
-                                                          .options = std::move(options)});
+                                                          .options = std::move(options),
+                                                          .brings_spheres = brings_spheres});
 }
 
 class CullerTest : public GpuTest {};
@@ -131,6 +140,20 @@ TEST_F(CullerTest, EveryMethodCullsFrameAfterFrame) {
       EXPECT_LT(sum, std::uint64_t{WIDTH} * HEIGHT * (64 + 33 + 64));
     }
     EXPECT_EQ(culler.counters().overflowed_cells, 0);
+  }
+}
+
+TEST_F(CullerTest, SpheresOfTheEngineOrOfItsOwn) {
+  const EngineFrame frame = make_frame("infinite", 64);
+  for (const char* method : {"lamplight", "tiled", "clustered"}) {
+    SCOPED_TRACE(method);
+    vulkan::Culler own = take(make_culler(method));
+    vulkan::Culler brought = take(make_culler(method, {}, /* brings_spheres= */ true));
+    const std::vector<glm::uvec2> masks = cull_and_walk(brought, frame);
+    expect_no_miss(frame, masks);
+    EXPECT_GT(walked(masks), 0);
+    EXPECT_NEAR(static_cast<double>(walked(masks)), static_cast<double>(walked(cull_and_walk(own, frame))),
+                1e-3 * static_cast<double>(walked(masks)));
   }
 }
 

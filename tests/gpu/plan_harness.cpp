@@ -64,7 +64,7 @@ std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
   std::vector<vulkan::Buffer> copies;
   for (const BufferDesc& buffer : runner_.plan().buffers) copies.push_back(host_buffer(buffer.name, buffer.bytes));
   test_context().submit([&](VkCommandBuffer commands) {
-    timestamps_.reset(commands);
+    timestamps_.reset(commands, part_of_);
     vulkan::Recorder recorder(device, commands, tracker_, &timestamps_);
     runner_.record(recorder, {.frame = frame_.handle(),
                               .lights = light_buffer_.handle(),
@@ -72,6 +72,7 @@ std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
                               .light_count = light_count,
                               .host_lights = lights_,
                               .host_frame = &frame});
+    timestamps_.finish(commands);
     read_back(recorder, copies);
   });
   times_ = timestamps_.read();

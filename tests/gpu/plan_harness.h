@@ -29,6 +29,8 @@ class PlanHarness {
   /// Before `run`, and with a light buffer large enough for all that follow.
   void set_lights(const std::vector<Light>& lights);
   void set_view(const View& view) { view_ = view; }
+  /// From now on, passes of one part share a time.
+  void time_parts(vulkan::Timestamps::PartOf part_of) { part_of_ = std::move(part_of); }
   [[nodiscard]] const std::vector<vulkan::Timestamps::Time>& times() const { return times_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   /// The device that records; tests may take features from it.
@@ -45,6 +47,7 @@ class PlanHarness {
   vulkan::Buffer sphere_buffer_;
   std::optional<View> view_;
   std::vector<shared::Light> lights_;
+  vulkan::Timestamps::PartOf part_of_;
   std::vector<vulkan::Timestamps::Time> times_;
 };
 

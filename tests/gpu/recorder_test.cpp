@@ -54,6 +54,38 @@ TEST_F(RecorderTest, ClearingHasATimeAndPassesFollowEachOther) {
   EXPECT_LE(harness.times()[1].begin_ms, harness.times()[1].end_ms);
 }
 
+TEST_F(RecorderTest, PassesOfOnePartShareATime) {
+  Plan plan = two_passes();
+  plan.passes.push_back(plan.passes[1]);
+  plan.passes[2].name = "third";
+  PlanHarness harness(plan);
+  harness.time_parts([](std::string_view pass) { return pass == "third" ? 1 : 0; });
+  EXPECT_EQ(harness.run()[0], Words(16, 45));
+  ASSERT_EQ(names(harness.times()), (std::vector<std::string>{"first", "third"}));
+  EXPECT_LE(harness.times()[0].end_ms, harness.times()[1].end_ms);
+  harness.time_parts({});
+  EXPECT_EQ(harness.run()[0][0], 45U) << "the first pass writes anew";
+  EXPECT_EQ(names(harness.times()), (std::vector<std::string>{"first", "second", "third"}));
+}
+
+// Neighbours that touch nothing of one another have no barrier between them; the third waits for both.
+TEST_F(RecorderTest, IndependentPassesAreRightSideBySide) {
+  Plan plan;
+  const ResourceId a = plan.add({.name = "a", .bytes = 1 << 16});
+  const ResourceId b = plan.add({.name = "b", .bytes = 1 << 16});
+  constexpr std::uint32_t WORDS = (1 << 16) / 4;
+  plan.passes = {words_pass("plan_write", {5, 1}, {{a, Access::write}}, WORDS),
+                 words_pass("plan_write", {7, 1}, {{b, Access::write}}, WORDS),
+                 words_pass("plan_multiply", {3}, {{a, Access::read_write}}, WORDS),
+                 words_pass("plan_multiply", {2}, {{b, Access::read_write}}, WORDS)};
+  PlanHarness harness(plan);
+  for (int frame = 0; frame < 3; ++frame) {
+    const auto words = harness.run();
+    EXPECT_EQ(words[0], Words(WORDS, 15));
+    EXPECT_EQ(words[1], Words(WORDS, 14));
+  }
+}
+
 TEST_F(RecorderTest, PassesThatAreKeptRunOnceForAProjection) {
   Plan plan = two_passes();
   plan.passes[0].on_projection_change = true;

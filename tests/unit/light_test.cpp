@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ using lamp::LightType;
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr float RIGHT_ANGLE = std::numbers::pi_v<float> / 2.0F;
+
+constexpr float DEGREE = std::numbers::pi_v<float> / 180.0F;
 
 Light spot() { return {.type = LightType::spot, .range = 5.0F, .direction = {0.0F, -2.0F, 0.0F}, .inner_angle = 0.2F}; }
 
@@ -165,6 +168,39 @@ TEST(PackLight, ManyKeepTheirOrder) {
   const auto packed = lamp::pack(lights);
   ASSERT_EQ(packed.size(), 3U);
   for (std::size_t i = 0; i < packed.size(); ++i) EXPECT_EQ(packed[i].range, static_cast<float>(i));
+}
+
+TEST(BoundingSphere, HoldsAllThatASpotReaches) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+  for (int i = 0; i < 20'000; ++i) {
+    const float angle = 0.5F * DEGREE + unit(random) * (RIGHT_ANGLE - 0.5F * DEGREE);
+    const Light light{.type = LightType::spot,
+                      .position = 100.0F * glm::vec3(unit(random), unit(random), unit(random)),
+                      .range = 0.1F + 50.0F * unit(random),
+                      .direction = glm::vec3(unit(random) - 0.5F, unit(random) - 0.5F, 0.01F + unit(random)),
+                      .outer_angle = angle};
+    const lamp::shared::Light packed = lamp::pack(light);
+    const lamp::shared::LightSphere sphere = lamp::bounding_sphere(packed);
+    // Tip, and the rim and the middle of the cap: what is farthest out.
+    const glm::vec3 axis = packed.direction;
+    const glm::vec3 side = glm::normalize(glm::cross(axis, glm::vec3(0.0F, 1.0F, 0.003F)));
+    const glm::vec3 rim = light.range * (packed.cos_outer * axis + packed.sin_outer * side);
+    for (const glm::vec3& reach : {glm::vec3(0.0F), rim, light.range * axis})
+      EXPECT_LE(glm::distance(sphere.center, light.position + reach), sphere.radius * 1.0001F + 1e-4F) << angle;
+    EXPECT_LE(sphere.radius, light.range * 1.0001F);
+  }
+}
+
+TEST(BoundingSphere, TellsNothingFromEverything) {
+  Light light;
+  EXPECT_EQ(lamp::bounding_sphere(lamp::pack(light)).radius, 1e18F) << "infinite range";
+  light.range = 0.0F;
+  EXPECT_LT(lamp::bounding_sphere(lamp::pack(light)).radius, 0.0F);
+  Light narrow = spot();
+  narrow.inner_angle = narrow.outer_angle = 0.0F;
+  EXPECT_LT(lamp::bounding_sphere(lamp::pack(narrow)).radius, 0.0F);
+  EXPECT_EQ(lamp::bounding_spheres(lamp::pack(std::vector<Light>(3))).size(), 3U);
 }
 
 }  // namespace
