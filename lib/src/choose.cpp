@@ -176,12 +176,14 @@ Choice choose(const Calibration& calibration, const Workload& workload, const De
   const bool by_rule =
       tiled != nullptr && best != tiled && workload.lights <= FEW_LIGHTS && best->ms() > CLEARLY_FASTER * tiled->ms();
   if (by_rule) best = tiled;
+  const bool nothing = workload.capacity == 0;
   // Brute force has no buffers that a device could refuse; a picture too large for it is too large for everything.
-  if (best == nullptr) best = &choice.predictions.front();
+  if (best == nullptr || nothing) best = &choice.predictions.front();
   choice.predicted = *best;
   choice.method = best->method;
   choice.options = best->options;
-  choice.reason = reason_of(*best, choice.predictions, by_rule);
+  choice.reason = nothing ? "there are no lights to cull, in this frame or another"
+                          : reason_of(*best, choice.predictions, by_rule);
   return choice;
 }
 
