@@ -182,8 +182,8 @@ Choice choose(const Calibration& calibration, const Workload& workload, const De
   choice.predicted = *best;
   choice.method = best->method;
   choice.options = best->options;
-  choice.reason = nothing ? "there are no lights to cull, in this frame or another"
-                          : reason_of(*best, choice.predictions, by_rule);
+  choice.reason =
+      nothing ? "there are no lights to cull, in this frame or another" : reason_of(*best, choice.predictions, by_rule);
   return choice;
 }
 

@@ -29,8 +29,8 @@ LAMP_CONST HIT_CELL_BITS = 18u;  // eight layers of cells of 32 x 32 tiles of 8 
 LAMP_CONST PIECE = 128u;      // entries
 LAMP_CONST PIECE_WORDS = 4u;  // a bit for each of them
 
-// A cell is a square of tiles, or without depth buffer such a square times some slices of depth. Its rows are its tiles,
-// slice after slice. Its lights ascend through its pieces: piece i has room for PIECE entries from i * PIECE.
+// A cell is a square of tiles, or without depth buffer such a square times some slices of depth. Its rows are its
+// tiles, slice after slice. Its lights ascend through its pieces: piece i has room for PIECE entries from i * PIECE.
 struct LightCell {
   uint first_piece;
   uint pieces;   // ALL_LIGHTS: its entries did not fit; walk every light

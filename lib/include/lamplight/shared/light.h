@@ -28,8 +28,8 @@ struct Light {
   float sin_outer;    // sin(outer_angle)
 };
 
-// World space. A sphere that encloses everything the light reaches, but for rounding: all that most of the culling reads
-// of a light.
+// World space. A sphere that encloses everything the light reaches, but for rounding: all that most of the culling
+// reads of a light.
 struct LightSphere {
   vec3 center;   // m
   float radius;  // m; negative: the light reaches nothing
