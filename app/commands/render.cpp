@@ -125,11 +125,12 @@ Exit render(const RenderOptions& o) {
   Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
   const bool software = session.context().row().kind == "CPU";
   const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
-  Rendered rendered = session.renderer().render(lighting, frames, software ? 0 : 3);
-
-  const std::vector<gpu::Visit> visits = visit_all(session, lighting);  // of the frame whose numbers are told
-  const HdrImage image =
-      average_samples(session.renderer(), lighting, setup.lights, std::move(rendered.image), samples, setup.decals);
+  // A device's first frame is slow: its driver is still translating shaders.
+  const std::uint32_t warm_up = !software ? 3 : samples > 1 ? 0 : 1;
+  Rendered rendered = render_samples(session.renderer(), lighting, setup.lights, setup.decals,
+                                     {.samples = samples, .frames = frames, .warm_up = warm_up});
+  const std::vector<gpu::Visit> visits = visit_all(session, lighting);
+  const HdrImage image = std::move(rendered.image);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_picture(with_folder(o.out), image, toned);

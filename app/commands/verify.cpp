@@ -122,12 +122,11 @@ void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& c
 
 /// Makes lists again and again, and counts how often they are not the first's.
 std::uint32_t changed_runs(Session& session, Candidate& candidate, std::uint32_t runs) {
-  const auto same = [](const gpu::Visit& a, const gpu::Visit& b) { return a.visited == b.visited && a.hash == b.hash; };
   const std::vector<gpu::Visit> first = session.renderer().visit_all(candidate.lighting);
   std::uint32_t changed = 0;
   for (std::uint32_t run = 1; run < runs; ++run) {
     progress(fmt::format("verify run {} of {}: {}", run + 1, runs, candidate.lighting.info().method->name));
-    if (!std::ranges::equal(session.renderer().visit_all(candidate.lighting), first, same)) ++changed;
+    if (!same_lists(session.renderer().visit_all(candidate.lighting), first)) ++changed;
   }
   return changed;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/antialias.h"
 
+#include <utility>
+
 #include "gpu/check.h"
 
 namespace lamp::app {
@@ -12,6 +14,12 @@ double radical_inverse(std::uint32_t i, std::uint32_t base) {
   double inverse = 0.0;
   for (double place = 1.0 / base; i != 0; i /= base, place /= base) inverse += place * (i % base);
   return inverse;
+}
+
+/// To nothing at first.
+void add(HdrImage& sum, HdrImage image) {
+  for (std::size_t p = 0; p < sum.pixels.size(); ++p) image.pixels[p] += sum.pixels[p];
+  sum = std::move(image);
 }
 
 }  // namespace
@@ -32,16 +40,20 @@ View shifted(const View& view, glm::dvec2 offset_px) {
   return take(View::create(view.width(), view.height(), clip_from_view, view.view_from_world()));
 }
 
-HdrImage average_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights, HdrImage first,
-                         std::uint32_t samples, std::span<const gpu::DecalData> decals) {
+Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
+                        std::span<const gpu::DecalData> decals, const Sampling& sampling) {
   const View view = renderer.view();
-  for (std::uint32_t i = 1; i < samples; ++i) {
+  HdrImage sum;
+  for (std::uint32_t i = 1; i < sampling.samples; ++i) {
     renderer.set_frame(shifted(view, sample_offset(i)), lights, decals);
-    const HdrImage image = renderer.render(lighting).image;
-    for (std::size_t p = 0; p < first.pixels.size(); ++p) first.pixels[p] += image.pixels[p];
+    add(sum, renderer.render(lighting).image);
   }
-  for (glm::vec4& pixel : first.pixels) pixel /= static_cast<float>(samples);
-  return first;
+  if (sampling.samples > 1) renderer.set_frame(view, lights, decals);
+  Rendered rendered = renderer.render(lighting, sampling.frames, sampling.warm_up);
+  add(sum, std::move(rendered.image));
+  for (glm::vec4& pixel : sum.pixels) pixel /= static_cast<float>(sampling.samples);
+  rendered.image = std::move(sum);
+  return rendered;
 }
 
 }  // namespace lamp::app

@@ -16,10 +16,16 @@ namespace lamp::app {
 /// The view whose pixel centres lie `offset_px` beside those of `view`.
 [[nodiscard]] View shifted(const View& view, glm::dvec2 offset_px);
 
-/// Averages `first`, which was rendered at the pixels' centres, with `samples` - 1 more pictures of the same frame.
-/// Leaves the renderer at the last of them.
-[[nodiscard]] HdrImage average_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
-                                       HdrImage first, std::uint32_t samples,
-                                       std::span<const gpu::DecalData> decals = {});
+/// What is averaged and what is timed.
+struct Sampling {
+  std::uint32_t samples = 1;  ///< of the picture, a pixel
+  std::uint32_t frames = 1;   ///< that are timed, at the pixels' centres
+  std::uint32_t warm_up = 0;  ///< frames before those, besides the other samples
+};
+
+/// Renders the renderer's frame: first the samples beside the pixels' centres, then the timed frames at the centres,
+/// whose numbers these are. The picture is the average of all samples. `lights` and `decals` are the frame's.
+[[nodiscard]] Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
+                                      std::span<const gpu::DecalData> decals, const Sampling& sampling);
 
 }  // namespace lamp::app

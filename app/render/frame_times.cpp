@@ -50,7 +50,8 @@ void FrameTimes::add_sample(const std::string& pass, bool host, double ms) {
   found->ms.push_back(ms);
 }
 
-vulkan::Timestamps::PartOf parts_of(const Lighting& lighting) {
+vulkan::Timestamps::PartOf parts_of(const Lighting& lighting, Timing timing) {
+  if (timing == Timing::passes) return {};
   return [&lighting](std::string_view pass) { return lighting.is_cull_pass(pass) ? 1 : is_shade_pass(pass) ? 2 : 0; };
 }
 

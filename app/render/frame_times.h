@@ -36,8 +36,8 @@ struct FrameTime {
 /// the passes in between.
 enum class Timing : std::uint8_t { passes, parts };
 
-/// Which part a pass is of, for `Timestamps`.
-[[nodiscard]] vulkan::Timestamps::PartOf parts_of(const Lighting& lighting);
+/// Which part a pass is of, for `Timestamps`; nothing if every pass is to be told.
+[[nodiscard]] vulkan::Timestamps::PartOf parts_of(const Lighting& lighting, Timing timing);
 
 /// Sorts the frames' timestamps by pass and by part.
 class FrameTimes {

@@ -13,8 +13,7 @@ namespace {
 constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_WALK = 11;
 constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
-constexpr std::uint32_t SHADE_GROUP_PX =
-    8;  // compute shading without a fused cull: a subgroup lies within the smallest tile
+constexpr std::uint32_t SHADE_GROUP_PX = 8;  // without a fused cull: a subgroup lies within the smallest tile
 constexpr std::uint32_t VOLUME_VERTICES = 60;
 
 std::vector<vulkan::DescriptorBinding> lookup_bindings(const LookUp& lookup) {

@@ -92,9 +92,9 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
   FrameTimes times(frames);
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
-    const bool parts = i >= warm_up && times.next() == Timing::parts;
+    const Timing timing = i >= warm_up ? times.next() : Timing::passes;
     context_.submit([&](VkCommandBuffer commands) {
-      timestamps_.reset(commands, parts ? parts_of(lighting) : vulkan::Timestamps::PartOf());
+      timestamps_.reset(commands, parts_of(lighting, timing));
       vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
       data_.record_upload(recorder);
       lighting.record(recorder, lighting_frame());
@@ -118,7 +118,7 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
 
 std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {
   context_.submit([&](VkCommandBuffer commands) {
-    timestamps_.reset(commands, timing == Timing::parts ? parts_of(lighting) : vulkan::Timestamps::PartOf());
+    timestamps_.reset(commands, parts_of(lighting, timing));
     vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
     data_.record_upload(recorder);
     lighting.record(recorder, lighting_frame());

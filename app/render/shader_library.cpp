@@ -3,7 +3,6 @@
 #include "render/shader_library.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include <iterator>
 
 #include "error.h"
+#include "temporary_folder.h"
 
 namespace lamp::app {
 namespace {
@@ -27,22 +27,6 @@ std::string read_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
-
-/// A folder that goes away with its owner.
-struct TemporaryFolder {
-  fs::path path;
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "lamp-shader-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error("no temporary folder can be made in " + name);
-    path = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
 
 /// "methods/tiled" of ".../lib/shaders/methods/tiled.comp" becomes TREE/lib/shaders/methods/tiled.comp.
 fs::path source_in(const fs::path& tree, const ShaderCode& code) {
@@ -65,12 +49,12 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
     const fs::path shaders = source_tree_ / "lib/shaders";
     fs::path lookup = fmt::format("lookup/{}.glsl", code.lookup);
     if (!fs::exists(shaders / lookup)) lookup = fmt::format("lookup/fused/{}.glsl", code.lookup);
-    std::ofstream(folder.path / "lookup.glsl") << fmt::format("#include \"{}\"\n", lookup.string());
+    std::ofstream(folder.path() / "lookup.glsl") << fmt::format("#include \"{}\"\n", lookup.string());
   }
-  const fs::path out = folder.path / "out.spv";
-  const fs::path log = folder.path / "log.txt";
+  const fs::path out = folder.path() / "out.spv";
+  const fs::path log = folder.path() / "log.txt";
   const std::string command =
-      fmt::format("glslc --target-env=vulkan1.3 -O -I{} -I{} -I{} -I{} {} -o {} 2> {}", quoted(folder.path),
+      fmt::format("glslc --target-env=vulkan1.3 -O -I{} -I{} -I{} -I{} {} -o {} 2> {}", quoted(folder.path()),
                   quoted(source_tree_ / "lib/shaders"), quoted(source_tree_ / "lib/include"),
                   quoted(source_tree_ / "app/render/shaders"), quoted(source), quoted(out), quoted(log));
   if (std::system(command.c_str()) != 0) {

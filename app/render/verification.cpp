@@ -42,6 +42,11 @@ Verifier chosen(VerifierChoice choice, std::uint64_t pairs) {
   return choice == VerifierChoice::gpu ? Verifier::gpu : Verifier::oracle;
 }
 
+bool same_lists(std::span<const gpu::Visit> a, std::span<const gpu::Visit> b) {
+  const auto same = [](const gpu::Visit& x, const gpu::Visit& y) { return x.visited == y.visited && x.hash == y.hash; };
+  return std::ranges::equal(a, b, same);
+}
+
 Findings of_both(Findings separate, const Findings& fused) {
   separate.missed_fused = fused.missed;
   separate.missed = std::max(separate.missed, fused.missed);

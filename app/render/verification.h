@@ -53,6 +53,9 @@ struct Findings {
 /// the misses of the worse of the two, so that a pair that both miss counts once, and with the disorder of either.
 [[nodiscard]] Findings of_both(Findings separate, const Findings& fused);
 
+/// Whether every pixel of two runs walked the same lights in the same order, as far as a hash tells.
+[[nodiscard]] bool same_lists(std::span<const gpu::Visit> a, std::span<const gpu::Visit> b);
+
 /// Collects findings over the bands of a picture.
 class Verification {
  public:

@@ -1,11 +1,13 @@
 // Lights: the check of what a user gave, and the packing for the GPU.
 // Based on: Khronos, KHR_lights_punctual (units, cone).
-// Promise: what passes `check_lights` packs without a NaN; derived numbers are computed in double and rounded once.
-// SPDX-License-Identifier: Apache-2.0
+// Promise: what passes `check_lights` packs without a NaN; derived numbers of a packed light are computed in double and
+// rounded once. SPDX-License-Identifier: Apache-2.0
 #include "lamplight/light.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -68,9 +70,15 @@ std::string fault(const Light& light) {
   return {};
 }
 
-// Larger than any scene, and its square is still a finite float.
-constexpr double INFINITE_RADIUS = 1e18;
-constexpr shared::LightSphere REACHES_NOTHING{.center = glm::vec3(0.0F), .radius = -1e30F};
+constexpr shared::LightSphere NO_SPHERE{.center = glm::vec3(0.0F), .radius = shared::REACHES_NOTHING};
+constexpr float COS_45 = 0.70710678F;
+
+/// `value` or `other`, without a branch: points and spots come in no order that a processor could foresee.
+float choose(bool first, float value, float other) {
+  const std::uint32_t mask = -static_cast<std::uint32_t>(first);
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) & mask) |
+                              (std::bit_cast<std::uint32_t>(other) & ~mask));
+}
 
 double cosine(float half_angle) { return half_angle >= RIGHT_ANGLE ? 0.0 : std::cos(static_cast<double>(half_angle)); }
 
@@ -110,22 +118,20 @@ std::vector<shared::Light> pack(std::span<const Light> lights) {
   return packed;
 }
 
+/// A narrow cone's goes through the apex and the rim, a wide one's has the rim as a great circle: `shift` to the centre
+/// and the radius are the lesser and the greater of both, and a point light is the widest.
 shared::LightSphere bounding_sphere(const shared::Light& light) {
-  if (!(light.range > 0.0F)) return REACHES_NOTHING;
-  glm::dvec3 center(light.position);
-  double radius = std::min<double>(light.range, INFINITE_RADIUS);
-  if (light.type == shared::LIGHT_SPOT) {
-    if (light.outer_angle <= 0.0F) return REACHES_NOTHING;
-    const double cos_outer = light.cos_outer;
-    if (radius < INFINITE_RADIUS && cos_outer >= std::numbers::sqrt2 / 2.0) {
-      radius /= 2.0 * cos_outer;  // through the apex and the rim of the cone
-      center += glm::dvec3(light.direction) * radius;
-    } else if (radius < INFINITE_RADIUS) {
-      center += glm::dvec3(light.direction) * (radius * cos_outer);  // the rim is a great circle
-      radius *= std::sqrt(1.0 - cos_outer * cos_outer);
-    }
-  }
-  return {.center = glm::vec3(center), .radius = static_cast<float>(radius)};
+  const bool spot = light.type == shared::LIGHT_SPOT;
+  const bool dark = !(light.range > 0.0F);
+  if (dark | (spot & (light.outer_angle <= 0.0F))) return NO_SPHERE;
+  const float range = std::min(light.range, shared::INFINITE_RADIUS);
+  const bool cone = spot & (range < shared::INFINITE_RADIUS);
+  const float cosine = choose(cone, light.cos_outer, 0.0F);
+  const float sine = choose(cone, light.sin_outer, 1.0F);
+  const float shift = std::min(range * cosine, range / (2.0F * std::max(cosine, COS_45)));
+  const glm::vec3 direction(choose(cone, light.direction.x, 0.0F), choose(cone, light.direction.y, 0.0F),
+                            choose(cone, light.direction.z, 0.0F));
+  return {.center = light.position + shift * direction, .radius = std::max(range * sine, shift)};
 }
 
 std::vector<shared::LightSphere> bounding_spheres(std::span<const shared::Light> lights) {

@@ -5,6 +5,7 @@
 
 #include "lamplight/method.h"
 #include "methods/methods.h"
+#include "own_spheres.h"
 
 namespace lamp {
 
@@ -61,6 +62,7 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);
   plan.light_capacity = problem.light_capacity;
+  if (problem.own_spheres) make_own_spheres(plan, problem.traits);
   std::optional<Error> error = plan_check(plan, problem.traits);
   if (!error) error = check_walks(problem, plan);
   if (error) {

@@ -1,8 +1,21 @@
-// Plans: adding buffers, counting bytes.
+// Plans: adding buffers, counting bytes, who binds what.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/plan.h"
 
+#include <algorithm>
+
 namespace lamp {
+namespace {
+
+bool binds_any(const std::vector<Binding>& bindings, ResourceId id) {
+  return std::ranges::find(bindings, id, &Binding::resource) != bindings.end();
+}
+
+bool binds_any(const std::vector<Pass>& passes, ResourceId id) {
+  return std::ranges::any_of(passes, [id](const Pass& pass) { return binds_any(pass.bindings, id); });
+}
+
+}  // namespace
 
 ResourceId Plan::add(BufferDesc buffer) {
   buffers.push_back(std::move(buffer));
@@ -13,6 +26,11 @@ std::uint64_t Plan::bytes() const {
   std::uint64_t sum = 0;
   for (const BufferDesc& buffer : buffers) sum += buffer.bytes;
   return sum;
+}
+
+bool Plan::binds(ResourceId id) const {
+  return binds_any(passes, id) || binds_any(lookup.bindings, id) ||
+         (fused && (binds_any(fused->passes, id) || binds_any(fused->lookup.bindings, id)));
 }
 
 }  // namespace lamp

@@ -72,16 +72,8 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 }  // namespace
 
 CliTest::CliTest() {
-  std::string name = (fs::temp_directory_path() / "lamp-cli-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-  folder_ = name;
   // What `auto` chooses must not depend on how fast this machine is.
   setenv("LAMPLIGHT_CALIBRATION", LAMPLIGHT_SOURCE_DIR "/tests/calibration.json", /* overwrite= */ 1);
-}
-
-CliTest::~CliTest() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
 }
 
 Outcome CliTest::lamp(const Arguments& arguments, const Environment& environment) const {
@@ -92,7 +84,7 @@ Outcome CliTest::lamp(const Arguments& arguments, const Environment& environment
   Pipe err;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
+  posix_spawn_file_actions_addchdir_np(&actions, folder_.path().c_str());
   posix_spawn_file_actions_adddup2(&actions, out.ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.ends[1], STDERR_FILENO);
   pid_t child = 0;
@@ -153,8 +145,8 @@ void CliTest::write(const std::string& name, const std::string& bytes) const {
 
 std::vector<std::string> CliTest::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_))
-    names.push_back(fs::relative(entry.path(), folder_).string());
+  for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
+    names.push_back(fs::relative(entry.path(), folder_.path()).string());
   std::ranges::sort(names);
   return names;
 }

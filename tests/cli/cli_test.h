@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace lamp::cli {
 
 /// What a run of `lamp` left.
@@ -27,7 +29,6 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 class CliTest : public ::testing::Test {
  protected:
   CliTest();
-  ~CliTest() override;
 
   /// Runs `lamp` in the test's folder, its output in pipes.
   [[nodiscard]] Outcome lamp(const Arguments& arguments, const Environment& environment = {}) const;
@@ -41,14 +42,14 @@ class CliTest : public ::testing::Test {
   void expect_error(int exit_code, const Arguments& arguments, const std::vector<std::string>& parts,
                     const Environment& environment = {}) const;
 
-  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
   [[nodiscard]] std::string read(const std::string& name) const;
   void write(const std::string& name, const std::string& bytes) const;
   /// Names of everything in the test's folder, sorted.
   [[nodiscard]] std::vector<std::string> files() const;
 
  private:
-  std::filesystem::path folder_;
+  app::TemporaryFolder folder_;
 };
 
 /// A scene and a picture so small that a software device takes no time.

@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "gpu/method_check.h"
@@ -58,14 +57,13 @@ TEST_P(AdversarialScenes, MissNothingAndEqualBruteForce) {
 
 /// Races inside a plan must not show.
 TEST_P(AdversarialScenes, ListsAreTheSameEveryRun) {
-  const auto same = [](const gpu::Visit& a, const gpu::Visit& b) { return a.visited == b.visited && a.hash == b.hash; };
   for (const auto& hard : hard_cases()) {
     SCOPED_TRACE(hard->name);
     Lighting lighting = make_lighting(hard->renderer, {.method = GetParam(), .light_capacity = LARGEST_COUNT});
     if (!lighting.runner().plan().ordered) return;
     const std::vector<gpu::Visit> first = hard->renderer.visit_all(lighting);
     for (int run = 0; run < 3; ++run)
-      ASSERT_TRUE(std::ranges::equal(hard->renderer.visit_all(lighting), first, same)) << "run " << run;
+      ASSERT_TRUE(same_lists(hard->renderer.visit_all(lighting), first)) << "run " << run;
   }
 }
 

@@ -1,9 +1,8 @@
 // Captured frames: what is captured, written and read again has the same lists through every method and the same
-// picture, bit for bit; the four shading paths agree on it. SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
+// picture, bit for bit; the four shading paths agree on it.
+// SPDX-License-Identifier: Apache-2.0
 
 #include <cstring>
-#include <filesystem>
 
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
@@ -11,6 +10,7 @@
 #include "scene/capture.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
+#include "temporary_folder.h"
 
 namespace lamp::app {
 namespace {
@@ -33,12 +33,9 @@ void PrintTo(const CaptureParam& param, std::ostream* out) { *out << name_of(par
 
 /// Written and read again.
 Scene through_files(const Scene& frame, LightsFormat lights) {
-  std::string name = (std::filesystem::temp_directory_path() / "lamp-capture-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-  write_capture(name, frame, lights);
-  Scene read = load_capture(name);
-  std::filesystem::remove_all(name);
-  return read;
+  const TemporaryFolder folder;
+  write_capture(folder.path(), frame, lights);
+  return load_capture(folder.path());
 }
 
 class Captures : public GpuTest, public ::testing::WithParamInterface<CaptureParam> {

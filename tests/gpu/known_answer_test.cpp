@@ -197,7 +197,7 @@ TEST_F(KnownAnswer, SeveralSamplesShowHowMuchOfAPixelIsCovered) {
   const View view = view_of(find_camera(scene, ""), WIDTH, HEIGHT, "camera");
   renderer.set_frame(view, {});
   Lighting lighting = make_lighting(renderer, {.method = &brute_force()});
-  const HdrImage image = average_samples(renderer, lighting, {}, renderer.render(lighting).image, 32);
+  const HdrImage image = render_samples(renderer, lighting, {}, {}, {.samples = 32}).image;
   // The wall is a square around the axis: how far it reaches from the picture's middle, in pixels.
   const double half_px = 1.03 / glm::length(view.view_position({1.0, 0.0}, 4.0) - view.view_position({0.0, 0.0}, 4.0));
   std::uint32_t partly = 0;

@@ -9,6 +9,7 @@
 
 #include "bench/calibration_file.h"
 #include "error.h"
+#include "temporary_folder.h"
 
 namespace lamp::app {
 namespace {
@@ -39,30 +40,21 @@ void expect_same(const Calibration& a, const Calibration& b) {
 
 class CalibrationFile : public testing::Test {
  protected:
-  CalibrationFile() {
-    std::string name = (fs::temp_directory_path() / "lamp-calibration-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-    folder_ = name;
-    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
-  }
-  ~CalibrationFile() override {
-    unsetenv("XDG_CACHE_HOME");
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
+  CalibrationFile() { setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
+  ~CalibrationFile() override { unsetenv("XDG_CACHE_HOME"); }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(CalibrationFile, ComesBackAsItWent) {
   const std::string file = cached_calibration_file("Some GPU", "1.2");
-  EXPECT_TRUE(file.starts_with(folder_.string() + "/lamplight/")) << file;
+  EXPECT_TRUE(file.starts_with(folder_.path().string() + "/lamplight/")) << file;
   EXPECT_FALSE(read_cached_calibration(file, "Some GPU", "1.2").has_value()) << "is not there yet";
   EXPECT_EQ(keep_calibration(file, some_calibration()), "");
   const auto back = read_cached_calibration(file, "Some GPU", "1.2");
   ASSERT_TRUE(back.has_value());
   expect_same(*back, some_calibration());
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "lamplight"), fs::directory_iterator()), 1)
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "lamplight"), fs::directory_iterator()), 1)
       << "leaves nothing beside it";
 }
 
@@ -77,7 +69,7 @@ TEST_F(CalibrationFile, IsKeyedByDeviceAndDriver) {
 }
 
 TEST_F(CalibrationFile, WhatIsDamagedIsNotTrusted) {
-  const std::string file = (folder_ / "calibration.json").string();
+  const std::string file = (folder_.path() / "calibration.json").string();
   const std::string whole = to_json(some_calibration()).dump(1);
   std::vector<std::string> bad{"", "{}", "[]", "3", whole.substr(0, whole.size() / 2)};
   const auto with = [&](const std::function<void(json&)>& change) {
@@ -112,8 +104,8 @@ TEST_F(CalibrationFile, WhatIsDamagedIsNotTrusted) {
 
 TEST_F(CalibrationFile, WithoutAFolderItSaysSo) {
   EXPECT_NE(keep_calibration("", some_calibration()), "");
-  std::ofstream(folder_ / "file") << "x";
-  EXPECT_NE(keep_calibration((folder_ / "file" / "calibration.json").string(), some_calibration()), "");
+  std::ofstream(folder_.path() / "file") << "x";
+  EXPECT_NE(keep_calibration((folder_.path() / "file" / "calibration.json").string(), some_calibration()), "");
   setenv("XDG_CACHE_HOME", "relative", 1);  // to be ignored, says the specification
   EXPECT_FALSE(cached_calibration_file("a", "b").starts_with("relative"));
 }

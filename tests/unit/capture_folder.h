@@ -3,7 +3,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include "error.h"
 #include "image/exr.h"
 #include "scene/capture.h"
+#include "temporary_folder.h"
 
 namespace lamp::test {
 
@@ -47,16 +47,12 @@ inline std::vector<float> frame_depth() {
 class CaptureFolder : public testing::Test {
  protected:
   CaptureFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lamp-capture-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-    folder_ = name;
     write("frame.json", frame_json().dump());
     write_depth(frame_depth());
   }
-  ~CaptureFolder() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
-  [[nodiscard]] app::Scene load() const { return app::load_capture(folder_); }
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+  [[nodiscard]] app::Scene load() const { return app::load_capture(folder_.path()); }
   /// What the loader says; empty if it loads.
   [[nodiscard]] std::string error_text() const {
     try {
@@ -107,7 +103,7 @@ class CaptureFolder : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  app::TemporaryFolder folder_;
 };
 
 }  // namespace lamp::test

@@ -137,11 +137,27 @@ TEST_P(EveryMethod, ReadsDepthExactlyIfItsRowSaysSo) {
       lamp::make_plan(
           method, {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE})
           .value();
-  const auto reads_depth = [](const lamp::Binding& binding) { return binding.resource == lamp::INPUT_DEPTH; };
-  const bool reads = std::ranges::any_of(
-      plan.passes, [&](const lamp::Pass& pass) { return std::ranges::any_of(pass.bindings, reads_depth); });
-  EXPECT_EQ(reads, method.needs_depth);
-  EXPECT_FALSE(std::ranges::any_of(plan.lookup.bindings, reads_depth)) << "engines bind buffers only";
+  EXPECT_EQ(plan.binds(lamp::INPUT_DEPTH), method.needs_depth);
+  EXPECT_EQ(std::ranges::find(plan.lookup.bindings, lamp::INPUT_DEPTH, &lamp::Binding::resource),
+            plan.lookup.bindings.end())
+      << "engines bind buffers only";
+}
+
+// A host that keeps no spheres gets a plan that makes them, in front of everything that reads them.
+TEST_P(EveryMethod, MakesSpheresOfItsOwnExactlyIfItReadsAny) {
+  const Method& method = *GetParam();
+  Problem problem{.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE};
+  const Plan brought = lamp::make_plan(method, problem).value();
+  problem.own_spheres = true;
+  const Plan own = lamp::make_plan(method, problem).value();
+  const bool reads = brought.binds(lamp::INPUT_SPHERES);
+  EXPECT_FALSE(own.binds(lamp::INPUT_SPHERES));
+  EXPECT_EQ(own.passes.size(), brought.passes.size() + (reads ? 1 : 0));
+  EXPECT_EQ(own.bytes(), brought.bytes() + (reads ? 100 * sizeof(lamp::shared::LightSphere) : 0));
+  if (!reads) return;
+  const auto maker = std::ranges::find(own.passes, "light spheres", &lamp::Pass::name);
+  ASSERT_NE(maker, own.passes.end());
+  EXPECT_TRUE(std::all_of(own.passes.begin(), maker, [](const auto& p) { return p.kind == lamp::PassKind::host; }));
 }
 
 // Every shader that reads through a look-up exists in a variant for this method's look-up.
@@ -250,48 +266,6 @@ TEST_P(EveryMethod, WalksPlainlyAndSaysSoWhereTheDeviceLacksAnOperation) {
     EXPECT_TRUE(std::ranges::any_of(without.value().notes, [&](const auto& n) { return n.starts_with(note); })) << note;
   }
   EXPECT_EQ(scalar_walks, name == "tile_typed" ? 0 : 1);
-}
-
-TEST(RasterisedCulling, LeavesCoverageToTheDeviceOnlyIfItCan) {
-  DeviceTraits able = SOFTWARE;
-  able.conservative_raster = true;
-  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
-    const Method& method = *lamp::find_method(name).value();
-    const auto options = lamp::resolve_options(method, {"raster=conservative"}).value();
-    const auto plan = [&](const DeviceTraits& traits) {
-      return lamp::make_plan(method,
-                             {.width = 65, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
-          .value();
-    };
-    const lamp::RasterState by_device = plan(able).passes.back().raster;
-    EXPECT_TRUE(by_device.conservative);
-    EXPECT_EQ(glm::uvec2(by_device.width, by_device.height), glm::uvec2(9, 8));
-    EXPECT_TRUE(plan(able).notes.empty());
-    EXPECT_TRUE(lamp::plan_check(plan(able), SOFTWARE)) << "a device that cannot";
-    EXPECT_FALSE(plan(SOFTWARE).passes.back().raster.conservative);
-    ASSERT_EQ(plan(SOFTWARE).notes.size(), 1U);
-    EXPECT_TRUE(plan(SOFTWARE).notes[0].starts_with("raster=half-msaa instead of conservative"));
-  }
-}
-
-TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
-  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
-    const Method& method = *lamp::find_method(name).value();
-    const auto plan = [&](const char* compact, const DeviceTraits& traits) {
-      const auto options = lamp::resolve_options(method, {std::string("compact=") + compact, "walk=plain"}).value();
-      return lamp::make_plan(method,
-                             {.width = 64, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
-          .value();
-    };
-    EXPECT_TRUE(plan("on", SOFTWARE).passes.back().shader.ends_with("_compact"));
-    EXPECT_TRUE(plan("on", SOFTWARE).notes.empty());
-    EXPECT_FALSE(plan("off", SOFTWARE).passes.back().shader.ends_with("_compact"));
-    const Plan without = plan("on", LEAST);
-    EXPECT_FALSE(without.passes.back().shader.ends_with("_compact"));
-    ASSERT_EQ(without.notes.size(), 1U);
-    EXPECT_TRUE(without.notes[0].starts_with("compact=off instead of on")) << without.notes[0];
-    EXPECT_TRUE(plan("off", LEAST).notes.empty());
-  }
 }
 
 TEST(Methods, CombinationsThatMakeNoSenseAreRefusedWithTheReason) {

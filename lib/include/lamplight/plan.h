@@ -146,6 +146,8 @@ struct Plan {
   ResourceId add(BufferDesc buffer);
   /// Bytes of all buffers together.
   [[nodiscard]] std::uint64_t bytes() const;
+  /// Whether a pass or a look-up, fused ones too, binds it.
+  [[nodiscard]] bool binds(ResourceId id) const;
 };
 
 /// What plans and checks ask of a device. The defaults are, but for one, the least that Vulkan 1.3 guarantees.

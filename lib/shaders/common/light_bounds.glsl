@@ -7,31 +7,16 @@
 #include "common/frame.glsl"
 #include "lamplight/shared/light.h"
 
-const float REACHES_NOTHING = -1e30;
-const float INFINITE_RADIUS = 1e18;  // larger than any scene, and its square is still a finite float
-
-// Rounding of 32-bit arithmetic, as a share of the numbers that go in: four units in the last place of the radius,
-// and as many of every position that the transform adds up.
-const float ROUND_RADIUS = 4e-6;
-const float ROUND_POSITION = 1e-6;
-
 LightSphere light_sphere(Light light) {
   if (!(light.range > 0.0)) return LightSphere(vec3(0.0), REACHES_NOTHING);
-  LightSphere sphere = LightSphere(light.position, min(light.range, INFINITE_RADIUS));
-  if (light.type != LIGHT_SPOT) return sphere;
+  const float range = min(light.range, INFINITE_RADIUS);
+  if (light.type != LIGHT_SPOT) return LightSphere(light.position, range);
   if (light.outer_angle <= 0.0) return LightSphere(vec3(0.0), REACHES_NOTHING);
-  if (sphere.radius >= INFINITE_RADIUS) return sphere;
-  const float half_angle_45 = 0.70710678;
-  if (light.cos_outer >= half_angle_45) {
-    // The sphere through the apex and the rim of the cone.
-    sphere.radius /= 2.0 * light.cos_outer;
-    sphere.center += light.direction * sphere.radius;
-  } else {
-    // The rim is a great circle.
-    sphere.center += light.direction * (sphere.radius * light.cos_outer);
-    sphere.radius *= sqrt(1.0 - light.cos_outer * light.cos_outer);
-  }
-  return sphere;
+  if (range >= INFINITE_RADIUS) return LightSphere(light.position, range);
+  // A narrow cone's sphere goes through the apex and the rim; that of a wide one has the rim as a great circle.
+  const float cos_45 = 0.70710678;
+  const float shift = min(range * light.cos_outer, range / (2.0 * max(light.cos_outer, cos_45)));
+  return LightSphere(light.position + light.direction * shift, max(range * light.sin_outer, shift));
 }
 
 LightBounds view_bounds(Frame frame, LightSphere sphere) {

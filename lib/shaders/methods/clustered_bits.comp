@@ -9,10 +9,8 @@
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
-layout(constant_id = 2) const uint SLICES = 24;
-layout(constant_id = 3) const uint SLICE_SCALE = 0;
-layout(constant_id = 4) const uint NEAR_MM = 500;
-layout(constant_id = 5) const uint FAR_M = 500;
+#define SLICE_CONSTANT 2
+#include "common/slice_constants.glsl"
 layout(constant_id = 6) const uint WORDS = 1;  // words a cluster: light capacity / 32, rounded up
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };

@@ -10,11 +10,8 @@ layout(constant_id = 5) const uint HITS = 1;       // capacity
 layout(constant_id = 6) const uint GROUP_HITS = 1; // that wait in shared memory
 #ifdef SLICED
 layout(constant_id = 7) const uint CELL_SLICES = 4;
-layout(constant_id = 8) const uint SLICES = 24;
-layout(constant_id = 9) const uint SLICE_SCALE = 0;
-layout(constant_id = 10) const uint NEAR_MM = 500;
-layout(constant_id = 11) const uint FAR_M = 500;
-#include "common/slices.glsl"
+#define SLICE_CONSTANT 8
+#include "common/slice_constants.glsl"
 #endif
 #define BOUNDS BOUNDS_MASK
 #include "common/light_bounds.glsl"

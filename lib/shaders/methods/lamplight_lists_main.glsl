@@ -17,11 +17,8 @@ layout(constant_id = 11) const uint CELL_ROWS = 16;
 layout(constant_id = 12) const bool BITS = false;    // the container: bits, or lists
 #ifdef SLICED
 layout(constant_id = 13) const uint CELL_SLICES = 4;
-layout(constant_id = 14) const uint SLICES = 24;
-layout(constant_id = 15) const uint SLICE_SCALE = 0;
-layout(constant_id = 16) const uint NEAR_MM = 500;
-layout(constant_id = 17) const uint FAR_M = 500;
-#include "common/slices.glsl"
+#define SLICE_CONSTANT 14
+#include "common/slice_constants.glsl"
 #endif
 #define BOUNDS BOUNDS_MASK
 #define TEST TEST_EXACT

@@ -8,12 +8,9 @@
 #include "methods/raster_face.glsl"
 
 layout(constant_id = 6) const uint MODE = 0;
-layout(constant_id = 7) const uint SLICES = 32;
-layout(constant_id = 8) const uint SLICE_SCALE = 0;
-layout(constant_id = 9) const uint NEAR_MM = 500;
-layout(constant_id = 10) const uint FAR_M = 500;
+#define SLICE_CONSTANT 7
+#include "common/slice_constants.glsl"
 layout(constant_id = 11) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
-#include "common/slices.glsl"
 #include "lamplight/shared/tile.h"
 
 layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };

@@ -9,15 +9,12 @@
 #include "lamplight/shared/light.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint SLICES = 1;  // bins
-layout(constant_id = 1) const uint SLICE_SCALE = 0;
-layout(constant_id = 2) const uint NEAR_MM = 500;
-layout(constant_id = 3) const uint FAR_M = 500;
+#define SLICE_CONSTANT 0  // bins
+#include "common/slice_constants.glsl"
 layout(constant_id = 4) const uint LEAVES = 1;  // bins, rounded up to a power of two
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SortedBuffer { LightBounds sorted[]; };
 layout(set = 0, binding = 2, scalar) buffer TreeBuffer { uvec2 tree[]; };  // ~least and greatest + 1; 0: no light
-#include "common/slices.glsl"
 
 void mark(uint node, uint rank) {
   atomicMax(tree[node].x, ~rank);

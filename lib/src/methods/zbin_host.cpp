@@ -1,7 +1,8 @@
 // Z-binning on the CPU: a radix sort by depth, and in that order the first light that reaches into a bin is its least;
 // backwards, its greatest. Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances
 // (2017), Z-binning. Promise: the same ranks as the GPU's passes, but for rounding; time O(lights + bins), however many
-// bins a light reaches. SPDX-License-Identifier: Apache-2.0
+// bins a light reaches.
+// SPDX-License-Identifier: Apache-2.0
 #include "zbin_host.h"
 
 #include <algorithm>
@@ -13,15 +14,12 @@
 #include <utility>
 #include <vector>
 
+#include "lamplight/light.h"
 #include "lamplight/shared/slices.h"
 
 namespace lamp {
 namespace {
 
-constexpr float INFINITE_RADIUS = 1e18F;  // as in common/light_bounds.glsl, and so are the two below
-constexpr float ROUND_RADIUS = 4e-6F;
-constexpr float ROUND_POSITION = 1e-6F;
-constexpr float COS_45 = 0.70710678F;
 constexpr std::uint32_t DIGIT_BITS = 11;  // their counts stay in the first cache
 constexpr std::uint32_t DIGITS = 3;
 
@@ -30,17 +28,6 @@ struct DepthSpan {
   float middle, near, far;
 };
 constexpr DepthSpan REACHES_NOTHING{.middle = 0.0F, .near = 1.0F, .far = -1.0F};
-
-/// `value` or `other`, without a branch: points and spots come in no order that a processor could foresee.
-float choose(bool first, float value, float other) {
-  const std::uint32_t mask = -static_cast<std::uint32_t>(first);
-  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) & mask) |
-                              (std::bit_cast<std::uint32_t>(other) & ~mask));
-}
-
-glm::vec3 choose(bool first, const glm::vec3& value, const glm::vec3& other) {
-  return {choose(first, value.x, other.x), choose(first, value.y, other.y), choose(first, value.z, other.z)};
-}
 
 /// What depths of all lights need of the frame.
 struct Eye {
@@ -58,23 +45,15 @@ Eye eye_of(const shared::Frame& frame) {
           .offset = -m[3].z};
 }
 
-/// Of the sphere around what the light reaches, never too short. A narrow cone's goes through the apex and the rim, a
-/// wide one's has the rim as a great circle: `shift` to the centre and `radius` are the lesser and the greater of both,
-/// and a point light is the widest. The view is rigid, so that a distance to the eye may be measured in the world.
+/// Of the light's bounding sphere, as much too long as view_bounds() in common/light_bounds.glsl makes it. The view is
+/// rigid, so that a distance to the eye may be measured in the world.
 DepthSpan depth_span(const Eye& eye, const shared::Light& light) {
-  const bool spot = light.type == shared::LIGHT_SPOT;
-  const bool dark = !(light.range > 0.0F);
-  if (dark | (spot & (light.outer_angle <= 0.0F))) return REACHES_NOTHING;
-  const float range = std::min(light.range, INFINITE_RADIUS);
-  const bool cone = spot & (range < INFINITE_RADIUS);
-  const float cosine = choose(cone, light.cos_outer, 0.0F);
-  const float sine = choose(cone, light.sin_outer, 1.0F);
-  const float shift = std::min(range * cosine, range / (2.0F * std::max(cosine, COS_45)));
-  const float radius = std::max(range * sine, shift);
-  const glm::vec3 center = light.position + shift * choose(cone, light.direction, glm::vec3(0.0F));
+  const auto [center, radius] = bounding_sphere(light);
+  if (radius < 0.0F) return REACHES_NOTHING;
   const float middle = (eye.ahead.x * center.x + eye.ahead.y * center.y) + (eye.ahead.z * center.z + eye.offset);
-  const float reach = radius * (1.0F + ROUND_RADIUS) + ROUND_POSITION * (glm::length(center - eye.position) +
-                                                                         glm::length(light.position) + eye.distance);
+  const float reach =
+      radius * (1.0F + shared::ROUND_RADIUS + 2.0F * shared::ROUND_POSITION) +
+      shared::ROUND_POSITION * (glm::length(center - eye.position) + glm::length(center) + eye.distance);
   return {.middle = middle, .near = middle - reach, .far = middle + reach};
 }
 

@@ -3,33 +3,11 @@
 #include "lamplight/vulkan/culler.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstring>
 #include <utility>
 
 namespace lamp::vulkan {
-namespace {
-
-constexpr const char* SPHERE_SHADER = "methods/light_spheres";
-constexpr std::uint32_t SPHERE_THREADS = 64;  // of its work group
-
-Result<Pipeline> sphere_pipeline(const Device& device) {
-  const auto shader = embedded_shaders(SPHERE_SHADER);
-  if (!shader) return shader.error();
-  PipelineInfo info{.name = SPHERE_SHADER};
-  for (std::uint32_t i = 0; i < 3; ++i) info.bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  return Pipeline::compute(device, info, shader.value());
-}
-
-Result<Buffer> sphere_buffer(const Device& device, std::uint64_t lights) {
-  return Buffer::create(device, {.name = "light spheres",
-                                 .bytes = std::max<std::uint64_t>(1, lights) * sizeof(shared::LightSphere),
-                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
-}
-
-}  // namespace
-
 Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   const Result<const Method*> method = find_method(info.method);
   if (!method) return method.error();
@@ -42,7 +20,8 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                      .height = info.height,
                      .light_capacity = info.light_capacity,
                      .options = std::move(options.value()),
-                     .traits = device.traits};
+                     .traits = device.traits,
+                     .own_spheres = !info.brings_spheres};
   Result<Plan> plan = make_plan(*method.value(), culler.problem_);
   if (!plan) return plan.error();
   const std::uint64_t slots_bytes = FRAMES_IN_FLIGHT * count_bytes(plan.value());
@@ -59,14 +38,6 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                                                   .memory = MemoryUse::readback});
   if (!counts) return counts.error();
   std::memset(counts.value().mapped().data(), 0, slots_bytes);
-  if (!info.brings_spheres) {
-    Result<Buffer> spheres = sphere_buffer(device, info.light_capacity);
-    if (!spheres) return spheres.error();
-    Result<Pipeline> pipeline = sphere_pipeline(device);
-    if (!pipeline) return pipeline.error();
-    culler.spheres_ = std::move(spheres.value());
-    culler.sphere_pipeline_ = std::move(pipeline.value());
-  }
   culler.frame_ = std::move(frame.value());
   culler.counts_ = std::move(counts.value());
   culler.runner_ = std::move(runner.value());
@@ -76,12 +47,12 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
 std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   ++frames_;
   assert(frame.view != nullptr && "set CullerFrame::view");
-  const bool makes_spheres = spheres_.handle() != VK_NULL_HANDLE;
-  assert((makes_spheres || frame.spheres != VK_NULL_HANDLE) && "set CullerFrame::spheres");
+  const bool reads_spheres = runner_.plan().binds(INPUT_SPHERES);
+  assert((!reads_spheres || frame.spheres != VK_NULL_HANDLE) && "set CullerFrame::spheres");
   const shared::Frame record = frame.view->frame(frame.light_count);
   const PlanInputs inputs{.frame = frame_.handle(),
                           .lights = frame.lights,
-                          .spheres = makes_spheres ? spheres_.handle() : frame.spheres,
+                          .spheres = frame.spheres,
                           .depth = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                                     .image = frame.depth_image,
                                     .view = frame.depth_view,
@@ -93,13 +64,12 @@ std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame)
   Recorder recorder(device_, commands, tracker_);
   tracker_.assume(inputs.depth);
   tracker_.assume(Resource::storage(inputs.lights));
-  if (!makes_spheres) tracker_.assume(Resource::storage(inputs.spheres));
+  if (reads_spheres) tracker_.assume(Resource::storage(inputs.spheres));
 
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
                      .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
-  if (makes_spheres) make_spheres(recorder, inputs);
   runner_.record(recorder, inputs);
 
   std::vector<Use> readers;
@@ -111,19 +81,6 @@ std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame)
   recorder.barrier(readers);
   runner_.record_counts(recorder, counts_, frames_ % FRAMES_IN_FLIGHT * count_bytes(runner_.plan()));
   return frames_;
-}
-
-void Culler::make_spheres(Recorder& recorder, const PlanInputs& inputs) const {
-  const Resource frame = Resource::storage(inputs.frame);
-  const Resource lights = Resource::storage(inputs.lights);
-  const Resource spheres = Resource::storage(inputs.spheres);
-  recorder.begin_pass("light spheres", {{.resource = frame},
-                                        {.resource = lights},
-                                        {.resource = spheres, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}});
-  recorder.bind(sphere_pipeline_, std::array{Bound{0, frame}, Bound{1, lights}, Bound{2, spheres}});
-  if (inputs.light_count > 0)
-    vkCmdDispatch(recorder.commands(), (inputs.light_count + SPHERE_THREADS - 1) / SPHERE_THREADS, 1, 1);
-  recorder.end_pass();
 }
 
 BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle()}); }

@@ -14,6 +14,14 @@ namespace lamp::shared {
 LAMP_CONST LIGHT_POINT = 0u;
 LAMP_CONST LIGHT_SPOT = 1u;
 
+LAMP_CONST_FLOAT INFINITE_RADIUS = 1e18f;   // m; larger than any scene, and its square is still a finite float
+LAMP_CONST_FLOAT REACHES_NOTHING = -1e30f;  // the radius of a light that reaches nothing
+
+// Rounding of 32-bit arithmetic, as a share of the numbers that go in: four units in the last place of the radius,
+// and as many of every position that a transform adds up.
+LAMP_CONST_FLOAT ROUND_RADIUS = 4e-6f;
+LAMP_CONST_FLOAT ROUND_POSITION = 1e-6f;
+
 // World space. A point light leaves the direction and the angles unread.
 struct Light {
   vec3 position;      // m

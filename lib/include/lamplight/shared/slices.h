@@ -9,9 +9,6 @@
 
 #ifdef __cplusplus
 namespace lamp::shared {
-#define LAMP_CONST_FLOAT inline constexpr float
-#else
-#define LAMP_CONST_FLOAT const float
 #endif
 
 LAMP_CONST SLICES_LOG = 0u;
@@ -34,6 +31,5 @@ LAMP_CONST EMPTY_BIN = 0x0000ffffu;
 #ifdef __cplusplus
 }  // namespace lamp::shared
 #endif
-#undef LAMP_CONST_FLOAT
 
 #endif

@@ -18,7 +18,7 @@ struct CullerInfo {
   std::uint32_t light_capacity = 0;
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
-  bool brings_spheres = false;  ///< frames bring the lights' spheres; else they are made from the lights every frame
+  bool brings_spheres = false;  ///< frames bring the lights' spheres; else a method that reads them makes them itself
 };
 
 /// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run.
@@ -83,16 +83,13 @@ class Culler {
   };
   [[nodiscard]] FrameCounts counts_of(std::uint64_t frame) const;
   void release(std::uint64_t finished_frame);
-  void make_spheres(Recorder& recorder, const PlanInputs& inputs) const;
   [[nodiscard]] Result<Growth> grow(GrownPlan grown);
 
   Device device_;
   const Method* method_ = nullptr;
   Problem problem_;
   Buffer frame_;
-  Buffer counts_;             ///< a slot for each frame in flight
-  Buffer spheres_;            ///< none if frames bring them
-  Pipeline sphere_pipeline_;  ///< likewise
+  Buffer counts_;  ///< a slot for each frame in flight
   PlanRunner runner_;
   AccessTracker tracker_;
   std::vector<Retired> retired_;

@@ -6,22 +6,11 @@
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
 layout(constant_id = 101) const uint LOOKUP_CELL_TILES = 4;
 layout(constant_id = 102) const uint LOOKUP_CELL_SLICES = 1;
-layout(constant_id = 103) const uint LOOKUP_SLICES = 1;
-layout(constant_id = 104) const uint LOOKUP_SLICE_SCALE = 0;
-layout(constant_id = 105) const uint LOOKUP_NEAR_MM = 500;
-layout(constant_id = 106) const uint LOOKUP_FAR_M = 500;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupCells { LightCell lookup_cells[]; };
 
-#define SLICES LOOKUP_SLICES
-#define SLICE_SCALE LOOKUP_SLICE_SCALE
-#define NEAR_MM LOOKUP_NEAR_MM
-#define FAR_M LOOKUP_FAR_M
-#include "common/slices.glsl"
-#undef SLICES
-#undef SLICE_SCALE
-#undef NEAR_MM
-#undef FAR_M
+#define LOOKUP_SLICE_CONSTANT 103
+#include "lookup/parts/slice_constants.glsl"
 
 const uint LOOKUP_TILES = LOOKUP_CELL_TILES * LOOKUP_CELL_TILES;
 const uint LOOKUP_CELL_ROWS = LOOKUP_TILES * LOOKUP_CELL_SLICES;

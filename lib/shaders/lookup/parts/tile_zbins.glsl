@@ -5,25 +5,14 @@
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 8;
 layout(constant_id = 101) const uint LOOKUP_WORDS = 1;
-layout(constant_id = 102) const uint LOOKUP_BINS = 1;
-layout(constant_id = 103) const uint LOOKUP_BIN_SCALE = 0;
-layout(constant_id = 104) const uint LOOKUP_NEAR_MM = 500;
-layout(constant_id = 105) const uint LOOKUP_FAR_M = 500;
 layout(constant_id = 106) const bool LOOKUP_WIDE = false;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer LookupBins { uint lookup_bins[]; };
 layout(set = 0, binding = 19, scalar) readonly buffer LookupOrder { uint lookup_order[]; };
 
-#define SLICES LOOKUP_BINS
-#define SLICE_SCALE LOOKUP_BIN_SCALE
-#define NEAR_MM LOOKUP_NEAR_MM
-#define FAR_M LOOKUP_FAR_M
-#include "common/slices.glsl"
-#undef SLICES
-#undef SLICE_SCALE
-#undef NEAR_MM
-#undef FAR_M
+#define LOOKUP_SLICE_CONSTANT 102
+#include "lookup/parts/slice_constants.glsl"
 
 #define LOOKUP_LIGHT(bit) lookup_order[bit]
 #include "lookup/parts/walk_bits.glsl"

@@ -1,0 +1,62 @@
+// Plans of rasterised culling: what they leave to a device that can do it, and what they do and say where it cannot.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "lamplight/method.h"
+
+namespace {
+
+using lamp::DeviceTraits;
+using lamp::Method;
+using lamp::Plan;
+
+const DeviceTraits SOFTWARE{.max_group_invocations = 1024,
+                            .shared_memory_bytes = 32768,
+                            .max_image_size = 16384,
+                            .subgroup_ballot = true,
+                            .subgroup_arithmetic = true};
+const DeviceTraits LEAST{};
+
+TEST(RasterisedCulling, LeavesCoverageToTheDeviceOnlyIfItCan) {
+  DeviceTraits able = SOFTWARE;
+  able.conservative_raster = true;
+  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
+    const Method& method = *lamp::find_method(name).value();
+    const auto options = lamp::resolve_options(method, {"raster=conservative"}).value();
+    const auto plan = [&](const DeviceTraits& traits) {
+      return lamp::make_plan(method,
+                             {.width = 65, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
+          .value();
+    };
+    const lamp::RasterState by_device = plan(able).passes.back().raster;
+    EXPECT_TRUE(by_device.conservative);
+    EXPECT_EQ(glm::uvec2(by_device.width, by_device.height), glm::uvec2(9, 8));
+    EXPECT_TRUE(plan(able).notes.empty());
+    EXPECT_TRUE(lamp::plan_check(plan(able), SOFTWARE)) << "a device that cannot";
+    EXPECT_FALSE(plan(SOFTWARE).passes.back().raster.conservative);
+    ASSERT_EQ(plan(SOFTWARE).notes.size(), 1U);
+    EXPECT_TRUE(plan(SOFTWARE).notes[0].starts_with("raster=half-msaa instead of conservative"));
+  }
+}
+
+TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
+  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
+    const Method& method = *lamp::find_method(name).value();
+    const auto plan = [&](const char* compact, const DeviceTraits& traits) {
+      const auto options = lamp::resolve_options(method, {std::string("compact=") + compact, "walk=plain"}).value();
+      return lamp::make_plan(method,
+                             {.width = 64, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
+          .value();
+    };
+    EXPECT_TRUE(plan("on", SOFTWARE).passes.back().shader.ends_with("_compact"));
+    EXPECT_TRUE(plan("on", SOFTWARE).notes.empty());
+    EXPECT_FALSE(plan("off", SOFTWARE).passes.back().shader.ends_with("_compact"));
+    const Plan without = plan("on", LEAST);
+    EXPECT_FALSE(without.passes.back().shader.ends_with("_compact"));
+    ASSERT_EQ(without.notes.size(), 1U);
+    EXPECT_TRUE(without.notes[0].starts_with("compact=off instead of on")) << without.notes[0];
+    EXPECT_TRUE(plan("off", LEAST).notes.empty());
+  }
+}
+
+}  // namespace
