@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lamplight/method.h"
+#include "lamplight/shared/lamplight.h"
 
 namespace lamp {
 namespace {
@@ -165,8 +166,8 @@ TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
   traits.max_groups[0] = 65535;
   const Plan plan = make_plan(method, problem_of(method, 3840, 2160, MAX_LIGHTS, traits)).value();
   const auto pieces = std::ranges::find(plan.buffers, "pieces", &BufferDesc::name);
-  EXPECT_LE(pieces->bytes / 4, 65535);
-  EXPECT_GT(pieces->bytes / 4, 60000);
+  EXPECT_LE(pieces->bytes / sizeof(shared::LightPiece), 65535);
+  EXPECT_GT(pieces->bytes / sizeof(shared::LightPiece), 60000);
 }
 
 TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {

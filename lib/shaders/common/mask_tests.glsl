@@ -6,17 +6,16 @@
 #include "common/tile_ranges.glsl"
 #include "common/volume_tests.glsl"
 
-// Which of the mask's parts the sphere may reach.
-uint parts_near(LightBounds sphere, TileRanges ranges) {
+// Which of the mask's parts the sphere may reach, of `scale` parts a metre.
+uint parts_near(LightBounds sphere, float z_near, float scale, uint mask) {
   const float z = -sphere.center.z;
-  const float scale = mask_scale(ranges.z_near[0], ranges.z_far[0]);
-  const uint first = mask_part(z - sphere.radius, ranges.z_near[0], scale);
-  const uint last = mask_part(z + sphere.radius, ranges.z_near[0], scale);
-  return ranges.mask & (~0u << first) & (~0u >> (31u - last));
+  const uint first = mask_part(z - sphere.radius, z_near, scale);
+  const uint last = mask_part(z + sphere.radius, z_near, scale);
+  return mask & (~0u << first) & (~0u >> (31u - last));
 }
 
-bool sphere_meets_mask(LightBounds sphere, TileRanges ranges) {
-  return sphere_touches_depths(sphere, ranges.z_near[0], ranges.z_far[0]) && parts_near(sphere, ranges) != 0u;
+uint parts_near(LightBounds sphere, TileRanges ranges) {
+  return parts_near(sphere, ranges.z_near[0], mask_scale(ranges.z_near[0], ranges.z_far[0]), ranges.mask);
 }
 
 #endif

@@ -36,24 +36,62 @@ vec2 outside_edges(float x, vec4 edges, float z) {
   return vec2(0.0);
 }
 
-// Squared distance from the centre to the truncated frustum = min over z of (z - c)^2 + dx(z)^2 + dy(z)^2, convex and
-// piecewise quadratic. Newton finds the piece in a few steps; at any z, f(z) + f'(z) d + d^2 is below f everywhere
-// (f'' >= 2), so its least value is a bound that cannot lose a light.
+// Squared distance from a sphere's centre to a frustum's cross-section at a depth, with its first derivative along z and half
+// its second. f(z) = (z - c)^2 + dx(z)^2 + dy(z)^2 is convex and piecewise quadratic, and f'' >= 2 everywhere.
+struct Section {
+  float value;
+  float slope;
+  float curve;
+};
+
+Section section_at(LightBounds sphere, TileSides sides, float z) {
+  const float ahead = z + sphere.center.z;
+  const vec2 dx = outside_edges(sphere.center.x, sides.x_edges, z);
+  const vec2 dy = outside_edges(sphere.center.y, sides.y_edges, z);
+  return Section(ahead * ahead + dx.x * dx.x + dy.x * dy.x, 2.0 * (ahead + dx.x * dx.y + dy.x * dy.y),
+                 1.0 + dx.y * dx.y + dy.y * dy.y);
+}
+
+// No less than f anywhere in [z_near, z_far] can be, as f'' >= 2: a bound that cannot lose a light.
+float least_in(Section section, float z, float z_near, float z_far) {
+  const float down = clamp(z - 0.5 * section.slope, z_near, z_far) - z;
+  return section.value + section.slope * down + down * down;
+}
+
+// Newton finds the piece that holds the minimum in a few steps.
 bool sphere_touches_frustum(LightBounds sphere, TileSides sides, float z_near, float z_far) {
-  const float c = -sphere.center.z;
   const float radius2 = sphere.radius * sphere.radius;
-  float z = clamp(c, z_near, z_far);
+  float z = clamp(-sphere.center.z, z_near, z_far);
   for (int i = 0; i < 4; ++i) {
-    const vec2 dx = outside_edges(sphere.center.x, sides.x_edges, z);
-    const vec2 dy = outside_edges(sphere.center.y, sides.y_edges, z);
-    const float value = (z - c) * (z - c) + dx.x * dx.x + dy.x * dy.x;
-    if (value <= radius2) return true;
-    const float slope = 2.0 * ((z - c) + dx.x * dx.y + dy.x * dy.y);
-    const float down = clamp(z - 0.5 * slope, z_near, z_far) - z;
-    if (value + slope * down + down * down > radius2) return false;
-    z = clamp(z - slope / (2.0 * (1.0 + dx.y * dx.y + dy.y * dy.y)), z_near, z_far);
+    const Section section = section_at(sphere, sides, z);
+    if (section.value <= radius2) return true;
+    if (least_in(section, z, z_near, z_far) > radius2) return false;
+    z = clamp(z - 0.5 * section.slope / section.curve, z_near, z_far);
   }
   return true;
+}
+
+// The same for the occupied parts of a mask alone. f has one minimum, so that of what is occupied lies there, or at the
+// nearest occupied depth on either side.
+bool sphere_touches_parts(LightBounds sphere, TileSides sides, float z_mask, float step, uint parts) {
+  if (parts == 0u) return false;
+  const float radius2 = sphere.radius * sphere.radius;
+  const float z_near = z_mask + step * (float(findLSB(parts)) - 0.001);
+  const float z_far = z_mask + step * (float(findMSB(parts)) + 1.001);
+  float z = clamp(-sphere.center.z, z_near, z_far);
+  for (int i = 0; i < 3; ++i) {
+    const Section section = section_at(sphere, sides, z);
+    if (least_in(section, z, z_near, z_far) > radius2) return false;
+    if (section.slope == 0.0) break;
+    z = clamp(z - 0.5 * section.slope / section.curve, z_near, z_far);
+  }
+  const uint part = uint(clamp((z - z_mask) / max(step, 1e-30), 0.0, float(MASK_BITS - 1u)));
+  const uint below = parts & ~0u >> (31u - part);
+  const uint above = parts & ~0u << part;
+  const float z_below = min(z, z_mask + step * (float(findMSB(below)) + 1.001));
+  const float z_above = max(z, z_mask + step * (float(findLSB(above)) - 0.001));
+  return (below != 0u && least_in(section_at(sphere, sides, z_below), z_below, z_near, z_below) <= radius2) ||
+         (above != 0u && least_in(section_at(sphere, sides, z_above), z_above, z_above, z_far) <= radius2);
 }
 
 const bool TESTS_BOX = TEST == TEST_AABB || TEST == TEST_PLANES_AABB;
@@ -73,16 +111,10 @@ bool sphere_touches_tile_depths(LightBounds sphere, TileSides sides, TileBox box
   return TEST != TEST_EXACT || sphere_touches_frustum(sphere, sides, z_near, z_far);
 }
 
-// The test, repeated for every run of occupied parts that the sphere's depths meet; but where there are several, first
-// for all of them as one, because most spheres that touch none do not touch that either.
+// The test, for every run of occupied parts that the sphere's depths meet.
 bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges, uint parts) {
   const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
-  const uint lowest = uint(findLSB(parts));
-  if (parts != 0u && bits_in_a_row(parts >> lowest) + lowest <= uint(findMSB(parts))) {
-    const float z_first = ranges.z_near[0] + step * (float(lowest) - 0.001);
-    const float z_last = ranges.z_near[0] + step * (float(findMSB(parts)) + 1.001);
-    if (!sphere_touches_tile_depths(sphere, sides, tile_box(sides, z_first, z_last), z_first, z_last)) return false;
-  }
+  if (TEST == TEST_EXACT) return sphere_touches_parts(sphere, sides, ranges.z_near[0], step, parts);
   while (parts != 0u) {
     const uint first = uint(findLSB(parts));
     const uint end = first + bits_in_a_row(parts >> first);

@@ -31,6 +31,18 @@ void tile_edges(Frame frame, vec2 min_px, vec2 max_px, out vec4 x_edges, out vec
   if (m[1][1] < 0.0) y_edges = y_edges.zwxy;
 }
 
+// How far a point is outside each edge, times the length of the edge's normal: sqrt(1 + slope^2).
+vec4 edges_outside(vec3 point, vec4 x_edges, vec4 y_edges) {
+  const float z = -point.z;
+  return vec4(x_edges.x + x_edges.y * z - point.x, point.x - x_edges.z - x_edges.w * z,
+              y_edges.x + y_edges.y * z - point.y, point.y - y_edges.z - y_edges.w * z);
+}
+
+vec4 edge_lengths(vec4 x_edges, vec4 y_edges) {
+  const vec4 slopes = vec4(x_edges.yw, y_edges.yw);
+  return sqrt(1.0 + slopes * slopes);
+}
+
 // The larger of width and height at a depth.
 float tile_width(TileSides sides, float z_view) {
   const vec2 size = vec2(sides.x_edges.z - sides.x_edges.x, sides.y_edges.z - sides.y_edges.x) +

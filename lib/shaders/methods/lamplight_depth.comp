@@ -27,46 +27,53 @@ layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[
 shared uint s_nearest;   // device depth: reversed, so the greatest
 shared uint s_farthest;
 
-// Depths that a thread loads at once and holds in registers: with 32 threads a tile of 16 pixels is read once.
-const uint HELD = 8u;
-const uint PIXELS = TILE_PX * TILE_PX;
+// Squares of 2 x 2 pixels that a thread loads at once and holds in registers: 32 threads read a tile of 16 pixels once.
+const uint HELD = 2u;
+const uint SQUARES_ACROSS = TILE_PX / 2u;
+const uint SQUARES = SQUARES_ACROSS * SQUARES_ACROSS;
 
-void load_depths(uvec2 tile, uvec2 size_px, uint first, out float depths[HELD]) {
-  const bool inside = all(lessThanEqual((tile + 1u) * TILE_PX, size_px)) && first + HELD * gl_SubgroupSize <= PIXELS;
+// Beyond the picture its edge again, which is of the same tile.
+vec4 square_depths(uvec2 tile, uint square) {
+  const uvec2 pixel = tile * TILE_PX + 2u * uvec2(square % SQUARES_ACROSS, square / SQUARES_ACROSS);
+  const ivec2 last = ivec2(frame.size_px) - 1;
+  const ivec2 low = min(ivec2(pixel), last);
+  const ivec2 high = min(ivec2(pixel) + 1, last);
+  return vec4(texelFetch(depth_image, low, 0).x, texelFetch(depth_image, ivec2(high.x, low.y), 0).x,
+              texelFetch(depth_image, ivec2(low.x, high.y), 0).x, texelFetch(depth_image, high, 0).x);
+}
+
+void load_depths(uvec2 tile, uint first, out vec4 depths[HELD]) {
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
-    const uint i = first + k * gl_SubgroupSize + gl_SubgroupInvocationID;
-    const uvec2 pixel = tile * TILE_PX + uvec2(i % TILE_PX, i / TILE_PX);
-    if (inside)
-      depths[k] = texelFetch(depth_image, ivec2(pixel), 0).x;
-    else
-      depths[k] = i < PIXELS ? tile_pixel_depth(frame, depth_image, tile, i) : 0.0;
+    const uint square = first + k * gl_SubgroupSize + gl_SubgroupInvocationID;
+    depths[k] = SQUARES % (HELD * gl_SubgroupSize) == 0u || square < SQUARES ? square_depths(tile, square) : vec4(0.0);
   }
 }
 
-// The mask's part of a device depth. A faster division than that of z_view_of: off by a few units in the last place,
+// The mask's parts of device depths. A faster division than that of z_view_of: off by a few units in the last place,
 // which the slack of light bounds covers.
-uint part_of_depth(mat4 clip, float depth, float z_near, float scale) {
-  const float z = (clip[3][2] - clip[3][3] * depth) / (clip[2][2] - clip[2][3] * depth);
-  return mask_part(z, z_near, scale);
+uvec4 parts_of_depths(mat4 clip, vec4 depths, float z_near, float scale) {
+  const vec4 z = (clip[3][2] - clip[3][3] * depths) / (clip[2][2] - clip[2][3] * depths);
+  return uvec4(clamp((z - z_near) * scale, 0.0, float(MASK_BITS - 1u)));
 }
 
 // For all threads of a subgroup together; every one of them returns the tile's ranges.
-TileDepths depths_of_tile(uvec2 tile, uvec2 size_px) {
+TileDepths depths_of_tile(uvec2 tile) {
   const uint stride = HELD * gl_SubgroupSize;
-  float depths[HELD];
+  vec4 depths[HELD];
   uint nearest = 0u;
   uint farthest = ~0u;
-  for (uint first = 0u; first < PIXELS; first += stride) {
-    load_depths(tile, size_px, first, depths);
+  for (uint first = 0u; first < SQUARES; first += stride) {
+    load_depths(tile, first, depths);
     [[unroll]] for (uint k = 0u; k < HELD; ++k) {
-      const uint bits = floatBitsToUint(depths[k]);
-      nearest = max(nearest, bits);
-      farthest = min(farthest, bits == 0u ? ~0u : bits);
+      const uvec4 bits = floatBitsToUint(depths[k]);
+      const uvec4 surfaces = mix(bits, uvec4(~0u), equal(bits, uvec4(0u)));  // not sky
+      nearest = max(nearest, max(max(bits.x, bits.y), max(bits.z, bits.w)));
+      farthest = min(farthest, min(min(surfaces.x, surfaces.y), min(surfaces.z, surfaces.w)));
     }
   }
   nearest = subgroupMax(nearest);
   farthest = subgroupMin(farthest);
-  if (nearest == 0u) return TileDepths(EMPTY_NEAR, EMPTY_FAR, 0u, 0u);
+  if (nearest == 0u) return TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
   if (subgroupElect()) {
     atomicMax(s_nearest, nearest);
     atomicMin(s_farthest, farthest);
@@ -76,12 +83,14 @@ TileDepths depths_of_tile(uvec2 tile, uvec2 size_px) {
   const float scale = mask_scale(z_near, z_far);
   const mat4 clip = frame.clip_from_view;
   uint mask = 0u;
-  for (uint first = 0u; first < PIXELS; first += stride) {
-    if (PIXELS > stride) load_depths(tile, size_px, first, depths);
-    [[unroll]] for (uint k = 0u; k < HELD; ++k)
-      if (depths[k] > 0.0) mask |= 1u << part_of_depth(clip, depths[k], z_near, scale);
+  for (uint first = 0u; first < SQUARES; first += stride) {
+    if (SQUARES > stride) load_depths(tile, first, depths);
+    [[unroll]] for (uint k = 0u; k < HELD; ++k) {
+      const uvec4 parts = parts_of_depths(clip, depths[k], z_near, scale);
+      [[unroll]] for (int i = 0; i < 4; ++i) mask |= depths[k][i] > 0.0 ? 1u << parts[i] : 0u;
+    }
   }
-  return TileDepths(z_near, z_far, subgroupOr(mask), 0u);
+  return TileDepths(z_near, z_far, scale, subgroupOr(mask));
 }
 
 // Depths that a half float holds no nearer, and no farther, however it is rounded: it has eleven bits.
@@ -110,7 +119,7 @@ void main() {
   for (uint i = gl_SubgroupID; i < CELL_TILES * CELL_TILES; i += gl_NumSubgroups) {
     const uvec2 tile = gl_WorkGroupID.xy * CELL_TILES + uvec2(i % CELL_TILES, i / CELL_TILES);
     if (any(greaterThanEqual(tile, tiles))) continue;
-    const TileDepths result = depths_of_tile(tile, size_px);
+    const TileDepths result = depths_of_tile(tile);
     if (subgroupElect()) tile_depths[tile.x + tiles.x * tile.y] = result;
   }
   clear_counts();

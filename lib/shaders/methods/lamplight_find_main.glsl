@@ -14,6 +14,7 @@ layout(constant_id = 7) const uint CELL_SLICES = 4;
 #include "common/slice_constants.glsl"
 #endif
 #define BOUNDS BOUNDS_MASK
+#define SPOT SPOT_CONE_SPHERE
 #include "common/light_bounds.glsl"
 #include "common/mask_tests.glsl"
 #include "common/sphere_rectangle.glsl"
@@ -21,14 +22,15 @@ layout(constant_id = 7) const uint CELL_SLICES = 4;
 #include "methods/lamplight_share.glsl"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer SeenBuffer { uint seen[]; };
-layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
-layout(set = 0, binding = 4, scalar) writeonly buffer HitBuffer { LightHit hits[]; };
-layout(set = 0, binding = 5, scalar) buffer TotalBuffer { LightTotals totals; };
+layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer SeenBuffer { uint seen[]; };
+layout(set = 0, binding = 4, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
+layout(set = 0, binding = 5, scalar) writeonly buffer HitBuffer { LightHit hits[]; };
+layout(set = 0, binding = 6, scalar) buffer TotalBuffer { LightTotals totals; };
 #ifndef SLICED
-layout(set = 0, binding = 6, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
-layout(set = 0, binding = 7, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+layout(set = 0, binding = 7, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = 8, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
 #endif
 
 // Room among all hits, by one thread. Where there is none left the total stops growing: it has 32 bits, the sum might not.
@@ -90,7 +92,8 @@ bool meets_depths(LightBounds sphere, uvec4 tiles) {
   [[unroll]] for (uint i = 0u; i < FEW_TILES; ++i) {  // beyond its tiles, one of them again
     const uvec2 tile = tiles.xy + uvec2(i % size.x, min(i / size.x, size.y - 1u));
     const TileDepths depths = tile_depths[tile.x + tiles_wide * tile.y];
-    const bool met = sphere_meets_mask(sphere, masked_range(depths.z_near, depths.z_far, depths.mask));
+    const bool met = sphere_touches_depths(sphere, depths.z_near, depths.z_far) &&
+                     parts_near(sphere, depths.z_near, depths.scale, depths.mask) != 0u;
     meets = meets || met;  // all looks at once: their way from memory is most of the time
   }
   return meets;

@@ -10,7 +10,7 @@ layout(constant_id = 4) const uint CELLS = 1;
 layout(constant_id = 5) const uint LIST_ENTRIES = 1;
 layout(constant_id = 6) const uint RUN_WORDS = 8;    // bits of a block
 layout(constant_id = 7) const uint MAY_WRAP = 0;     // 1: all lists together might have 2^32 entries
-layout(constant_id = 8) const uint PAIRS = 1024;     // of light and row that wait in shared memory
+layout(constant_id = 8) const uint PAIRS = 512;      // of light and row that wait in shared memory
 layout(constant_id = 9) const uint ROWS = 16;        // that a work group looks at: whole lines of tiles, of one slice
 layout(constant_id = 10) const uint MARK_WORDS = 64; // PIECE_WORDS for each of them
 layout(constant_id = 11) const uint CELL_ROWS = 16;
@@ -30,19 +30,18 @@ layout(constant_id = 13) const uint CELL_SLICES = 4;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer CellBuffer { LightCell cells[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer PieceBuffer { uint piece_cells[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer EntryBuffer { uint entries[]; };
-layout(set = 0, binding = 6, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
-layout(set = 0, binding = 7, scalar) buffer TotalBuffer { LightTotals totals; };
-layout(set = 0, binding = 8, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
-layout(set = 0, binding = 9, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
-layout(set = 0, binding = 10, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
+layout(set = 0, binding = 3, scalar) readonly buffer PieceBuffer { LightPiece cell_pieces[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer EntryBuffer { uint entries[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
+layout(set = 0, binding = 6, scalar) buffer TotalBuffer { LightTotals totals; };
+layout(set = 0, binding = 7, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
+layout(set = 0, binding = 8, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
 #ifndef SLICED
-layout(set = 0, binding = 11, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = 10, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
 #endif
 #ifdef PRUNED
-layout(set = 0, binding = 12) uniform texture2D depth_image;
+layout(set = 0, binding = 11) uniform texture2D depth_image;
 #endif
 
 #include "methods/lamplight_order.glsl"
@@ -114,17 +113,14 @@ Cell cell_of(uint index) {
 
 void main() {
   const uint piece = gl_WorkGroupID.x;
-  const uint cell_index = piece_cells[piece];
-  if (cell_index == NO_CELL) return;
-  const LightCell listed = cells[cell_index];
-  const Cell cell = cell_of(cell_index);
+  const LightPiece listed = cell_pieces[piece];
+  if (listed.cell == NO_CELL) return;
+  const Cell cell = cell_of(listed.cell);
   const uint begin = piece * PIECE;
-  const uint cell_begin = listed.first_piece * PIECE;
-  const uint cell_end = cell_begin + listed.entries;
-  const uint end = min(begin + PIECE, cell_end);
+  const uint end = min(begin + PIECE, listed.end);
   clear_marks();
   for (uint row = gl_LocalInvocationIndex; row < ROWS; row += gl_WorkGroupSize.x) load_row(cell, row);
-  order_lights(cell_index, cell_begin, cell_end, begin, end);
+  order_lights(listed, begin, end);
   mark_lights(cell, end - begin);
   barrier();  // all bits before they are read
   bool needs_piece = BITS && gl_WorkGroupID.y == 0u;

@@ -46,10 +46,10 @@ void place_light(Window window, uint at) {
 }
 
 // By all threads of the group together.
-void place_long_run(Window window, uint cell, uint cell_end, uint block) {
+void place_long_run(Window window, LightPiece piece, uint block) {
   const uint blocks = (frame.light_count + BLOCK - 1u) / BLOCK;
-  const uint begin = places[block * CELLS + cell];
-  const uint end = block + 1u < blocks ? places[(block + 1u) * CELLS + cell] : cell_end;
+  const uint begin = places[block * CELLS + piece.cell];
+  const uint end = block + 1u < blocks ? places[(block + 1u) * CELLS + piece.cell] : piece.end;
   for (uint i = gl_LocalInvocationIndex; i < BLOCK_WORDS; i += gl_WorkGroupSize.x) s_run_bits[i] = 0u;
   barrier();  // zeroes before the first bit
   for (uint i = begin + gl_LocalInvocationIndex; i < end; i += gl_WorkGroupSize.x) {
@@ -68,16 +68,16 @@ void place_long_run(Window window, uint cell, uint cell_end, uint block) {
 }
 
 // By all threads of the group together: the lights of entries [begin, end) of the cell's ordered entries.
-void order_lights(uint cell, uint cell_begin, uint cell_end, uint begin, uint end) {
-  Window window = Window(begin, end, max(begin, cell_begin + MARGIN) - MARGIN, 0u);
-  window.count = min(end + MARGIN, cell_end) - window.first;
+void order_lights(LightPiece piece, uint begin, uint end) {
+  Window window = Window(begin, end, max(begin, piece.begin + MARGIN) - MARGIN, 0u);
+  window.count = min(end + MARGIN, piece.end) - window.first;
   for (uint i = gl_LocalInvocationIndex; i < window.count; i += gl_WorkGroupSize.x)
     s_window[i] = entries[window.first + i];
   if (gl_LocalInvocationIndex == 0u) s_long_run_count = 0u;
   barrier();  // the window before runs are looked for
   for (uint i = gl_LocalInvocationIndex; i < window.count; i += gl_WorkGroupSize.x) place_light(window, i);
   barrier();  // the order, but for long runs
-  for (uint i = 0u; i < s_long_run_count; ++i) place_long_run(window, cell, cell_end, s_long_runs[i]);
+  for (uint i = 0u; i < s_long_run_count; ++i) place_long_run(window, piece, s_long_runs[i]);
 }
 
 #endif

@@ -1,10 +1,10 @@
 // The rows of a cell that a work group looks at: tiles with their depths and sides, in shared memory. Without a depth
 // buffer a row is a tile in a slice of depth.
-// Needs: TILE_PX, CELL_TILES, ROWS; `frame`; SLICED and common/slices.glsl, or `tile_depths`.
+// Needs: TILE_PX, CELL_TILES, ROWS; `frame`; SLICED and common/slice_constants.glsl, or `tile_depths`.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_ROWS
 #define LAMP_METHODS_LAMPLIGHT_ROWS
-#include "common/tile_ranges.glsl"
+#include "common/mask_tests.glsl"
 #include "common/tile_volume.glsl"
 
 const uint TILES = CELL_TILES * CELL_TILES;  // a whole number of ROWS, which are whole lines of tiles
@@ -17,6 +17,7 @@ struct Cell {
 
 shared vec4 s_x_edges[ROWS];
 shared vec4 s_y_edges[ROWS];
+shared vec4 s_lengths[ROWS];  // of the normals of the four edges
 shared TileDepths s_depths[ROWS];
 
 uvec2 tile_of_row(Cell cell, uint row) {
@@ -24,14 +25,11 @@ uvec2 tile_of_row(Cell cell, uint row) {
   return cell.first_tile + uvec2(tile % CELL_TILES, tile / CELL_TILES);
 }
 
-// The first line of tiles that the group's rows are of.
-uint first_line(Cell cell) { return cell.first_row % TILES / CELL_TILES; }
-
 TileDepths depths_of_row(Cell cell, uvec2 tile, uvec2 tiles) {
 #ifdef SLICED
   const uint slice = cell.first_slice + cell.first_row / TILES;
   const float begin = is_perspective(frame) ? max(slice_begin(slice), 0.0) : slice_begin(slice);
-  return slice < SLICES ? TileDepths(begin, slice_end(slice), ~0u, 0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0u, 0u);
+  return slice < SLICES ? TileDepths(begin, slice_end(slice), 0.0, ~0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
 #else
   return tile_depths[tile.x + tiles.x * tile.y];
 #endif
@@ -39,7 +37,7 @@ TileDepths depths_of_row(Cell cell, uvec2 tile, uvec2 tiles) {
 
 // By one thread a row. Rows beyond the picture stay empty.
 void load_row(Cell cell, uint row) {
-  s_depths[row] = TileDepths(EMPTY_NEAR, EMPTY_FAR, 0u, 0u);
+  s_depths[row] = TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
   const uvec2 tile = tile_of_row(cell, row);
   const uvec2 tiles = (frame.size_px + TILE_PX - 1u) / TILE_PX;
   if (any(greaterThanEqual(tile, tiles))) return;
@@ -49,6 +47,16 @@ void load_row(Cell cell, uint row) {
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
   s_x_edges[row] = x_edges;
   s_y_edges[row] = y_edges;
+  s_lengths[row] = edge_lengths(x_edges, y_edges);
+}
+
+// The first look: depths, occupied parts, each of the four sides alone.
+bool may_reach_row(LightBounds sphere, uint row) {
+  const TileDepths depths = s_depths[row];
+  const vec4 outside = edges_outside(sphere.center, s_x_edges[row], s_y_edges[row]);
+  return sphere_touches_depths(sphere, depths.z_near, depths.z_far) &&
+         parts_near(sphere, depths.z_near, depths.scale, depths.mask) != 0u &&
+         all(lessThanEqual(outside, sphere.radius * s_lengths[row]));
 }
 
 // The depths of a row that a sphere can reach: of a slice the part that the sphere spans, which is never infinite.

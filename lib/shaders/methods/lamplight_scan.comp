@@ -23,7 +23,7 @@ layout(constant_id = 7) const uint ROW_GROUPS = 1;  // work groups of the last p
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]; becomes first places
 layout(set = 0, binding = 2, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
-layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { uint piece_cells[]; };
+layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
 
 shared uint s_strips[STRIPS][COLUMNS];
@@ -61,7 +61,8 @@ void write_group_counts() {
 // By the threads of a column. A cell that does not fit leaves the pieces that there is room for to nobody.
 void write_cell(uint cell, uint strip, uint first_piece, uint entries, bool fits) {
   const uint end = min(first_piece + pieces_of(entries), PIECES);
-  for (uint piece = first_piece + strip; piece < end; piece += STRIPS) piece_cells[piece] = fits ? cell : NO_CELL;
+  const LightPiece value = LightPiece(fits ? cell : NO_CELL, first_piece * PIECE, first_piece * PIECE + entries);
+  for (uint piece = first_piece + strip; piece < end; piece += STRIPS) cell_pieces[piece] = value;
   if (strip > 0u) return;
   cells[cell] = LightCell(first_piece, fits ? pieces_of(entries) : ALL_LIGHTS, entries);
   if (!fits) atomicAdd(totals.counters.overflowed_cells, CELL_ROWS);

@@ -20,7 +20,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer SeenBuffer { uint seen[]; 
 shared uint s_seen_count;
 shared uint s_begin;
 
-// The sides of the picture, as of a tile: x and y limits as lines over the depth, and the length of their normals.
+// The sides of the picture, as of a tile: x and y limits as lines over the depth, and the lengths of their normals.
 struct PictureSides {
   vec4 x_edges;
   vec4 y_edges;
@@ -30,17 +30,12 @@ struct PictureSides {
 PictureSides picture_sides() {
   PictureSides sides;
   tile_edges(frame, vec2(0.0), vec2(frame.size_px), sides.x_edges, sides.y_edges);
-  const vec4 slopes = vec4(sides.x_edges.yw, sides.y_edges.yw);
-  sides.lengths = sqrt(1.0 + slopes * slopes);
+  sides.lengths = edge_lengths(sides.x_edges, sides.y_edges);
   return sides;
 }
 
 bool in_view(LightBounds sphere, PictureSides sides) {
-  const float z = -sphere.center.z;
-  const vec4 outside = vec4(sides.x_edges.x + sides.x_edges.y * z - sphere.center.x,
-                            sphere.center.x - sides.x_edges.z - sides.x_edges.w * z,
-                            sides.y_edges.x + sides.y_edges.y * z - sphere.center.y,
-                            sphere.center.y - sides.y_edges.z - sides.y_edges.w * z);
+  const vec4 outside = edges_outside(sphere.center, sides.x_edges, sides.y_edges);
   return sphere.radius >= 0.0 && all(lessThanEqual(outside, sphere.radius * sides.lengths));
 }
 

@@ -1,13 +1,14 @@
-// A walk over the cells that lights may reach, as far as rectangles and depths of cells tell. The cells of a subgroup's
-// lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by whichever
-// subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to write.
-// Without a depth buffer cells lie in layers, and a light's are a box of them.
-// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`; SLICED and layers_of(sphere), or `cell_depths`; flush_hits(waiting),
-// for a subgroup together.
+// A walk over the cells that lights may reach, as far as rectangles, depths of cells and narrow cones tell. The cells of a
+// subgroup's lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by
+// whichever subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to
+// write. Without a depth buffer cells lie in layers, and a light's are a box of them.
+// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`, `lights`; SLICED and layers_of(sphere), or `cell_depths`;
+// flush_hits(waiting), for a subgroup together.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_WALK
 #define LAMP_METHODS_LAMPLIGHT_WALK
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "common/spot_tests.glsl"
 #include "common/subgroup_work.glsl"
 
 const uint MANY_CELLS = 64u;      // a light of more waits
@@ -20,8 +21,20 @@ struct CellRectangle {
   uint cells;   // of all layers
   float z_near;
   float z_far;
-  uint light;
+  uint light;  // and NARROW
 };
+
+// Spots up to some 14 degrees, whose bounding spheres hold many times what they reach, are held against each cell as cones
+// if they may have many cells.
+const uint NARROW = 0x80000000u;
+const uint NARROW_CELLS = 16u;
+const float NARROW_COSINE = 0.97;
+const float NARROW_RANGE = 1e9;  // m; beyond, 32-bit numbers overflow
+
+uint narrow_flag(uint light, float radius, uint cells) {
+  if (cells < NARROW_CELLS || radius > NARROW_RANGE) return 0u;
+  return lights[light].type == LIGHT_SPOT && lights[light].cos_outer > NARROW_COSINE ? NARROW : 0u;
+}
 
 shared CellRectangle s_waiting[WAITING];
 shared uint s_arrived;  // may be more than there is room for
@@ -42,9 +55,9 @@ CellRectangle cells_of(uint light, LightBounds sphere, uvec4 tiles, bool any_til
 #else
   const uvec2 layers = uvec2(0u);
 #endif
-  return CellRectangle(first.x + across.x * (first.y + across.y * layers.x), size.x | size.y << 16,
-                       any_tile ? size.x * size.y * (layers.y + 1u - layers.x) : 0u, z - sphere.radius,
-                       z + sphere.radius, light);
+  const uint cells = any_tile ? size.x * size.y * (layers.y + 1u - layers.x) : 0u;
+  return CellRectangle(first.x + across.x * (first.y + across.y * layers.x), size.x | size.y << 16, cells,
+                       z - sphere.radius, z + sphere.radius, light | narrow_flag(light, sphere.radius, cells));
 }
 
 CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
@@ -73,13 +86,32 @@ uint cell_of_rectangle(CellRectangle cells, uint i) {
   return cell + i + (across.x - columns) * quotient(i, columns);
 }
 
-bool meets_cell(CellRectangle cells, uint cell) {
+// Metres ahead, as far as the light's sphere spans them.
+vec2 depths_of_cell(CellRectangle cells, uint cell) {
 #ifdef SLICED
-  return true;
+  const uvec2 across = cells_across();
+  const uint first = cell / (across.x * across.y) * CELL_SLICES;
+  const float eye = is_perspective(frame) ? 0.0 : -BEYOND_ALL_M;
+  const vec2 depths = vec2(max(slice_begin(first), eye), slice_end(first + CELL_SLICES - 1u));
 #else
   const vec2 depths = unpackHalf2x16(cell_depths[cell]);
-  return cells.z_far >= depths.x && cells.z_near <= depths.y;
 #endif
+  return vec2(max(depths.x, cells.z_near), min(depths.y, cells.z_far));
+}
+
+bool cone_meets_cell(uint light, uint cell, vec2 depths) {
+  const uvec2 across = cells_across();
+  const uint in_layer = cell % (across.x * across.y);
+  const uvec2 first = uvec2(in_layer % across.x, in_layer / across.x) * (TILE_PX * CELL_TILES);
+  TileSides sides;
+  tile_edges(frame, vec2(first), vec2(first + TILE_PX * CELL_TILES), sides.x_edges, sides.y_edges);
+  return discs_touch_frustum(spot_cone(frame, lights[light]), sides, depths.x, depths.y);
+}
+
+bool meets_cell(CellRectangle cells, uint cell) {
+  const vec2 depths = depths_of_cell(cells, cell);
+  if (depths.x > depths.y) return false;
+  return (cells.light & NARROW) == 0u || cone_meets_cell(cells.light & ~NARROW, cell, depths);
 }
 
 // Cell i of each thread's rectangle, or none.
@@ -89,7 +121,8 @@ void visit_cell(CellRectangle cells, uint i, bool any_cell, inout uint waiting) 
   const uvec4 those = subgroupBallot(hit);
   const uint count = subgroupBallotBitCount(those);
   if (waiting + count > hits_room()) flush_hits(waiting);
-  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] = LightHit(cells.light, cell);
+  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] =
+      LightHit(cells.light & ~NARROW, cell);
   waiting += count;
 }
 

@@ -25,13 +25,15 @@ constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
 constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
 constexpr std::uint32_t MOST_CELL_TILES = 32;  // a side
 constexpr std::uint32_t GOOD_CELLS = 2304;     // not more where cells can be larger; 4K has 2040
+constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most FEW_LIGHTS
+constexpr std::uint32_t FEW_LIGHTS = 1U << 17;
 constexpr std::uint32_t WANTED_BLOCKS = 256;   // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;  // lights
 constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
 constexpr std::uint32_t THREADS = 256;
 constexpr std::uint32_t GROUP_HITS = 2;  // for each thread of a group, in shared memory
 constexpr std::uint32_t LIST_THREADS = 256;
-constexpr std::uint32_t PAIRS = 1024;               // of light and row, in shared memory
+constexpr std::uint32_t THREAD_PAIRS = 2;           // of light and row for each thread of it, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t CELL_PIECES = 2;            // for each cell, besides those of mean_cells
 constexpr std::uint64_t MEAN_CAPACITY = 32;         // default of the option
@@ -87,10 +89,11 @@ Sizes grid_of(const Problem& problem) {
     s.cell_slices = CELL_SLICES;
   }
   s.tiles = parts::tile_grid(problem, s.tile_px);
+  const std::uint32_t good_cells = parts::capacity(problem) <= FEW_LIGHTS ? FEW_CELLS : GOOD_CELLS;
   do {
     s.cell_tiles *= 2;
     s.cells = parts::tile_grid(problem, s.tile_px * s.cell_tiles);
-  } while (s.cells.count() > GOOD_CELLS && s.cell_tiles < MOST_CELL_TILES);
+  } while (s.cells.count() > good_cells && s.cell_tiles < MOST_CELL_TILES);
   s.cell_count = static_cast<std::uint32_t>(s.cells.count()) * parts::divide_up(s.slices, s.cell_slices);
   s.cell_rows = s.cell_tiles * s.cell_tiles * s.cell_slices;
   s.group_rows = std::max(GROUP_ROWS, s.cell_tiles);
@@ -133,7 +136,7 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   b.matrix = plan.add({.name = "cell counts", .bytes = matrix_bytes, .zeroed = s.sliced()});
   b.hits = plan.add({.name = "hits", .bytes = std::uint64_t{s.hits} * sizeof(shared::LightHit)});
   b.cells = plan.add({.name = "cells", .bytes = std::uint64_t{s.cell_count} * sizeof(shared::LightCell)});
-  b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * 4});
+  b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::LightPiece)});
   b.entries = plan.add({.name = "cell lists", .bytes = std::uint64_t{s.hits} * 4});
   b.rows = plan.add(
       {.name = s.bits ? "tile bits" : "tile spans", .bytes = std::uint64_t{s.pieces} * s.cell_rows * s.row_bytes()});
@@ -185,6 +188,7 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
             .constants =
                 with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, s.block, s.hits, group_hits}, problem, s),
             .bindings = {{INPUT_FRAME},
+                         {INPUT_LIGHTS},
                          {INPUT_SPHERES},
                          {b.seen},
                          {b.matrix, Access::read_write},
@@ -223,27 +227,28 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const bool pruned = problem.options.word("prune") == "pixel";
   const std::uint32_t run_words = parts::divide_up(s.block, 32);
   const std::uint32_t mark_words = s.group_rows * shared::PIECE_WORDS;
-  Pass pass{.name = s.bits ? "tile bits" : "tile lists",
-            .shader = s.sliced() ? "methods/lamplight_lists_sliced"
-                      : pruned   ? "methods/lamplight_lists_pruned"
-                                 : "methods/lamplight_lists",
-            .constants = with_slices(
-                {group_threads(problem, LIST_THREADS), s.tile_px, s.cell_tiles, s.block, s.cell_count, s.listed,
-                 run_words, lists_may_wrap(s), PAIRS, s.group_rows, mark_words, s.cell_rows, s.bits ? 1U : 0U},
-                problem, s),
-            .bindings = {{INPUT_FRAME},
-                         {INPUT_LIGHTS},
-                         {INPUT_SPHERES},
-                         {b.cells},
-                         {b.pieces},
-                         {b.entries},
-                         {b.matrix},
-                         {b.totals, Access::read_write},
-                         {b.rows, Access::write},
-                         {b.hits, Access::write},  // free by now: lists of the pieces
-                         {b.lists, Access::write}},
-            .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)},
-            .shared_bytes = (6 * PIECE + 2 * MARGIN + run_words + PAIRS + mark_words) * 4 + s.group_rows * 56 + 84};
+  const std::uint32_t threads = group_threads(problem, LIST_THREADS);
+  const std::uint32_t pairs = THREAD_PAIRS * threads;
+  Pass pass{
+      .name = s.bits ? "tile bits" : "tile lists",
+      .shader = s.sliced() ? "methods/lamplight_lists_sliced"
+                : pruned   ? "methods/lamplight_lists_pruned"
+                           : "methods/lamplight_lists",
+      .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.block, s.cell_count, s.listed, run_words,
+                                lists_may_wrap(s), pairs, s.group_rows, mark_words, s.cell_rows, s.bits ? 1U : 0U},
+                               problem, s),
+      .bindings = {{INPUT_FRAME},
+                   {INPUT_LIGHTS},
+                   {INPUT_SPHERES},
+                   {b.pieces},
+                   {b.entries},
+                   {b.matrix},
+                   {b.totals, Access::read_write},
+                   {b.rows, Access::write},
+                   {b.hits, Access::write},  // free by now: lists of the pieces
+                   {b.lists, Access::write}},
+      .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)},
+      .shared_bytes = (6 * PIECE + 2 * MARGIN + run_words + pairs + mark_words) * 4 + s.group_rows * 72 + 80};
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
   if (pruned) pass.bindings.push_back({INPUT_DEPTH});
   return pass;

@@ -15,8 +15,8 @@ namespace lamp::shared {
 struct TileDepths {
   float z_near;  // m; > z_far if the tile is empty
   float z_far;   // m
+  float scale;   // parts a metre
   uint mask;     // bit i: a pixel lies in part i of 32 equal ones between z_near and z_far
-  uint reserved;
 };
 
 // A light that may reach a cell.
@@ -37,8 +37,15 @@ struct LightCell {
   uint entries;  // lights
 };
 LAMP_CONST ALL_LIGHTS = 0xffffffffu;
-LAMP_CONST NO_CELL = 0xffffffffu;   // a piece of a cell that did not fit
 LAMP_CONST NO_PLACE = 0xffffffffu;  // of its entries
+
+// What the last pass needs of a piece's cell.
+struct LightPiece {
+  uint cell;   // NO_CELL: of a cell that did not fit
+  uint begin;  // entries of the cell
+  uint end;
+};
+LAMP_CONST NO_CELL = 0xffffffffu;
 
 // A row's part of a piece, as a list. As bits it is PIECE_WORDS words.
 struct LightSpan {
@@ -66,8 +73,8 @@ struct LightTotals {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 && sizeof(LightSpan) == 8 &&
-              sizeof(LightTotals) == 68);
+static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 &&
+              sizeof(LightPiece) == 12 && sizeof(LightSpan) == 8 && sizeof(LightTotals) == 68);
 }  // namespace lamp::shared
 #endif
 
