@@ -1,14 +1,13 @@
-// A walk over the cells that lights may reach, as far as rectangles, depths of cells and narrow cones tell. The cells of a
-// subgroup's lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by
-// whichever subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to
-// write. Without a depth buffer cells lie in layers, and a light's are a box of them.
-// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`, `lights`; SLICED and layers_of(sphere), or `cell_depths`;
-// flush_hits(waiting), for a subgroup together.
+// A walk over the cells that lights may reach, as far as rectangles and depths of cells tell. The cells of a subgroup's
+// lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by whichever
+// subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to write.
+// Without a depth buffer cells lie in layers, and a light's are a box of them.
+// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`; SLICED and layers_of(sphere), or `cell_depths`; flush_hits(waiting),
+// for a subgroup together; narrow_flag(light, radius, cells).
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_WALK
 #define LAMP_METHODS_LAMPLIGHT_WALK
 #extension GL_KHR_shader_subgroup_ballot : require
-#include "common/spot_tests.glsl"
 #include "common/subgroup_work.glsl"
 
 const uint MANY_CELLS = 64u;      // a light of more waits
@@ -21,20 +20,8 @@ struct CellRectangle {
   uint cells;   // of all layers
   float z_near;
   float z_far;
-  uint light;  // and NARROW
+  uint light;  // and narrow_flag
 };
-
-// Spots up to some 14 degrees, whose bounding spheres hold many times what they reach, are held against each cell as cones
-// if they may have many cells.
-const uint NARROW = 0x80000000u;
-const uint NARROW_CELLS = 16u;
-const float NARROW_COSINE = 0.97;
-const float NARROW_RANGE = 1e9;  // m; beyond, 32-bit numbers overflow
-
-uint narrow_flag(uint light, float radius, uint cells) {
-  if (cells < NARROW_CELLS || radius > NARROW_RANGE) return 0u;
-  return lights[light].type == LIGHT_SPOT && lights[light].cos_outer > NARROW_COSINE ? NARROW : 0u;
-}
 
 shared CellRectangle s_waiting[WAITING];
 shared uint s_arrived;  // may be more than there is room for
@@ -43,6 +30,10 @@ shared uint s_next_strip;
 shared LightHit s_hits[GROUP_HITS];  // a subgroup uses its own part
 
 uvec2 cells_across() { return (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES); }
+
+// All below is for the threads of a subgroup together, but for cells_of. `waiting`: its hits since they were last written.
+uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
+uint first_hit() { return gl_SubgroupID * hits_room(); }
 
 // Of the first and last tile; without tiles none.
 CellRectangle cells_of(uint light, LightBounds sphere, uvec4 tiles, bool any_tile) {
@@ -66,10 +57,6 @@ CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
                        subgroupShuffle(cells.z_far, thread), subgroupShuffle(cells.light, thread));
 }
 
-// All below is for the threads of a subgroup together. `waiting`: its hits since they were last written.
-uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
-uint first_hit() { return gl_SubgroupID * hits_room(); }
-
 // Whole part of i / n; exact below 2^22.
 uint quotient(uint i, uint n) { return uint((float(i) + 0.5) / float(n)); }
 
@@ -86,32 +73,13 @@ uint cell_of_rectangle(CellRectangle cells, uint i) {
   return cell + i + (across.x - columns) * quotient(i, columns);
 }
 
-// Metres ahead, as far as the light's sphere spans them.
-vec2 depths_of_cell(CellRectangle cells, uint cell) {
+bool meets_cell(CellRectangle cells, uint cell) {
 #ifdef SLICED
-  const uvec2 across = cells_across();
-  const uint first = cell / (across.x * across.y) * CELL_SLICES;
-  const float eye = is_perspective(frame) ? 0.0 : -BEYOND_ALL_M;
-  const vec2 depths = vec2(max(slice_begin(first), eye), slice_end(first + CELL_SLICES - 1u));
+  return true;
 #else
   const vec2 depths = unpackHalf2x16(cell_depths[cell]);
+  return cells.z_far >= depths.x && cells.z_near <= depths.y;
 #endif
-  return vec2(max(depths.x, cells.z_near), min(depths.y, cells.z_far));
-}
-
-bool cone_meets_cell(uint light, uint cell, vec2 depths) {
-  const uvec2 across = cells_across();
-  const uint in_layer = cell % (across.x * across.y);
-  const uvec2 first = uvec2(in_layer % across.x, in_layer / across.x) * (TILE_PX * CELL_TILES);
-  TileSides sides;
-  tile_edges(frame, vec2(first), vec2(first + TILE_PX * CELL_TILES), sides.x_edges, sides.y_edges);
-  return discs_touch_frustum(spot_cone(frame, lights[light]), sides, depths.x, depths.y);
-}
-
-bool meets_cell(CellRectangle cells, uint cell) {
-  const vec2 depths = depths_of_cell(cells, cell);
-  if (depths.x > depths.y) return false;
-  return (cells.light & NARROW) == 0u || cone_meets_cell(cells.light & ~NARROW, cell, depths);
 }
 
 // Cell i of each thread's rectangle, or none.
@@ -121,8 +89,7 @@ void visit_cell(CellRectangle cells, uint i, bool any_cell, inout uint waiting) 
   const uvec4 those = subgroupBallot(hit);
   const uint count = subgroupBallotBitCount(those);
   if (waiting + count > hits_room()) flush_hits(waiting);
-  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] =
-      LightHit(cells.light & ~NARROW, cell);
+  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] = LightHit(cells.light, cell);
   waiting += count;
 }
 
