@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include "gpu/check.h"
 #include "lamplight/light.h"
@@ -36,6 +37,7 @@ void FrameData::set(const View& view, std::span<const shared::Light> lights, std
   host_lights_ = entity_records(lights, boxes_of(decals));
   host_frame_ = view.frame(static_cast<std::uint32_t>(host_lights_.size()));
   host_frame_.box_count = static_cast<std::uint32_t>(decals.size());
+  changed_ = true;
   const std::span<std::byte> to = staging_.mapped();
   const auto put = [&](std::uint64_t offset, std::span<const std::byte> bytes) {
     if (!bytes.empty()) std::memcpy(to.subspan(offset).data(), bytes.data(), bytes.size());
@@ -47,7 +49,8 @@ void FrameData::set(const View& view, std::span<const shared::Light> lights, std
   put(sizeof(host_frame_) + lights_.bytes() + spheres_.bytes(), std::as_bytes(decals));
 }
 
-void FrameData::record_upload(vulkan::Recorder& recorder) const {
+void FrameData::record_upload(vulkan::Recorder& recorder) {
+  if (!std::exchange(changed_, false)) return;
   recorder.barrier({copies_to(frame()), copies_to(lights()), copies_to(spheres()), copies_to(decals())});
   const auto copy = [&](const vulkan::Buffer& buffer, std::uint64_t offset, std::uint64_t bytes) {
     const VkBufferCopy part{.srcOffset = offset, .size = bytes};

@@ -16,9 +16,10 @@ class FrameData {
  public:
   FrameData(const vulkan::Device& device, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0);
 
-  /// Host side; the copies are recorded by `record_upload`.
+  /// Host side; the copies are recorded by the next `record_upload`.
   void set(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
-  void record_upload(vulkan::Recorder& recorder) const;
+  /// Nothing if it was recorded before, and nothing has been set since.
+  void record_upload(vulkan::Recorder& recorder);
 
   [[nodiscard]] vulkan::Resource frame() const { return vulkan::Resource::storage(frame_.handle()); }
   [[nodiscard]] vulkan::Resource lights() const { return vulkan::Resource::storage(lights_.handle()); }
@@ -36,6 +37,7 @@ class FrameData {
   vulkan::Buffer spheres_;  ///< of all these
   vulkan::Buffer decals_;
   vulkan::Buffer staging_;  ///< shared::Frame, then the lights with the decals' records, their spheres, the decals
+  bool changed_ = true;     ///< since the last upload
   shared::Frame host_frame_{};
   std::vector<shared::Light> host_lights_;  ///< with the decals' records
 };

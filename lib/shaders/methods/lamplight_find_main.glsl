@@ -44,9 +44,7 @@ uvec2 layers_of(LightBounds sphere) {
 #endif
 
 void flush_hits(inout uint waiting);
-uint narrow_flag(uint light, float radius, uint cells);
 #include "methods/lamplight_walk.glsl"
-#include "methods/lamplight_narrow.glsl"
 
 // By one subgroup: its waiting hits, to the room that begins there.
 void write_hits(uint begin, uint count) {
@@ -61,8 +59,6 @@ void write_hits(uint begin, uint count) {
 }
 
 void flush_hits(inout uint waiting) {
-  waiting = without_misses(waiting);
-  if (2u * waiting <= hits_room()) return;
   uint begin = 0u;
   if (subgroupElect()) begin = reserve_hits(waiting);
   write_hits(subgroupBroadcastFirst(begin), waiting);
@@ -74,7 +70,6 @@ shared uint s_group_hits;
 shared uint s_begin;
 
 void flush_last_hits(uint waiting) {
-  waiting = without_misses(waiting);
   uint place = 0u;
   if (subgroupElect()) place = atomicAdd(s_group_hits, waiting);
   barrier();  // every subgroup's hits before room is reserved

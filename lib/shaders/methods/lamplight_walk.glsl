@@ -1,14 +1,15 @@
-// A walk over the cells that lights may reach, as far as rectangles and depths of cells tell. The cells of a subgroup's
-// lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by whichever
-// subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to write.
-// Without a depth buffer cells lie in layers, and a light's are a box of them.
-// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`; SLICED and layers_of(sphere), or `cell_depths`; flush_hits(waiting),
-// for a subgroup together; narrow_flag(light, radius, cells).
+// A walk over the cells that lights may reach, as far as rectangles, depths of cells and narrow cones tell. The cells of a
+// subgroup's lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by
+// whichever subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to
+// write. Without a depth buffer cells lie in layers, and a light's are a box of them.
+// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`, `lights`; SLICED and layers_of(sphere), or `cell_depths`;
+// flush_hits(waiting), for a subgroup together.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_WALK
 #define LAMP_METHODS_LAMPLIGHT_WALK
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "common/subgroup_work.glsl"
+#include "methods/lamplight_narrow.glsl"
 
 const uint MANY_CELLS = 64u;      // a light of more waits
 const uint WAITING = 32u;         // lights in the queue, at most; others are walked at once
@@ -28,12 +29,6 @@ shared uint s_arrived;  // may be more than there is room for
 shared uint s_next_strip;
 
 shared LightHit s_hits[GROUP_HITS];  // a subgroup uses its own part
-
-uvec2 cells_across() { return (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES); }
-
-// All below is for the threads of a subgroup together, but for cells_of. `waiting`: its hits since they were last written.
-uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
-uint first_hit() { return gl_SubgroupID * hits_room(); }
 
 // Of the first and last tile; without tiles none.
 CellRectangle cells_of(uint light, LightBounds sphere, uvec4 tiles, bool any_tile) {
@@ -57,6 +52,10 @@ CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
                        subgroupShuffle(cells.z_far, thread), subgroupShuffle(cells.light, thread));
 }
 
+// All below is for the threads of a subgroup together. `waiting`: its hits since they were last written.
+uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
+uint first_hit() { return gl_SubgroupID * hits_room(); }
+
 // Whole part of i / n; exact below 2^22.
 uint quotient(uint i, uint n) { return uint((float(i) + 0.5) / float(n)); }
 
@@ -74,12 +73,9 @@ uint cell_of_rectangle(CellRectangle cells, uint i) {
 }
 
 bool meets_cell(CellRectangle cells, uint cell) {
-#ifdef SLICED
-  return true;
-#else
-  const vec2 depths = unpackHalf2x16(cell_depths[cell]);
-  return cells.z_far >= depths.x && cells.z_near <= depths.y;
-#endif
+  const vec2 depths = depths_of_cell(cell);
+  if (cells.z_far < depths.x || cells.z_near > depths.y) return false;
+  return (cells.light & NARROW) == 0u || cone_meets_cell(cells.light & ~NARROW, cell, depths);
 }
 
 // Cell i of each thread's rectangle, or none.
@@ -89,7 +85,8 @@ void visit_cell(CellRectangle cells, uint i, bool any_cell, inout uint waiting) 
   const uvec4 those = subgroupBallot(hit);
   const uint count = subgroupBallotBitCount(those);
   if (waiting + count > hits_room()) flush_hits(waiting);
-  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] = LightHit(cells.light, cell);
+  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] =
+      LightHit(cells.light & ~NARROW, cell);
   waiting += count;
 }
 
