@@ -1,6 +1,7 @@
 // lamp: renders, looks at, verifies and compares light culling. One command line, one place where errors end.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cerrno>
 #include <cstdio>

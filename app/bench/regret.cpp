@@ -3,6 +3,7 @@
 #include "bench/regret.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

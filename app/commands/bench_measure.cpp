@@ -3,6 +3,7 @@
 #include "commands/bench_measure.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -221,8 +222,7 @@ bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) 
 void wake(Renderer& renderer, std::list<Candidate>& candidates) {
   const auto timed = std::ranges::find_if(candidates, &Candidate::timed);
   if (timed == candidates.end()) return;
-  for (double ms = 0.0; ms < WAKE_MS;)
-    ms += span_ms(renderer.time(*timed->lighting, Timing::parts), [](std::string_view) { return true; });
+  for (double ms = 0.0; ms < WAKE_MS;) ms += span_ms(renderer.time(*timed->lighting, Timing::parts));
 }
 
 void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
@@ -239,7 +239,7 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
       if (!candidate.timed() || has_enough(info, candidate, warm)) continue;
       const std::vector<vulkan::Timestamps::Time> times =
           renderer.time(*candidate.lighting, warm ? candidate.times.next() : Timing::parts);
-      candidate.spent_ms += span_ms(times, [](std::string_view) { return true; });
+      candidate.spent_ms += span_ms(times);
       if (!warm) continue;
       candidate.times.add(times, *candidate.lighting);
       candidate.frames.emplace_back(number, frame.lights.size());

@@ -3,6 +3,7 @@
 #include "commands/bench_pictures.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -3,6 +3,7 @@
 #include "scene/capture.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

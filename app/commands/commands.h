@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <span>
 
 #include "error.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lamp::app {
 

@@ -1,6 +1,8 @@
 // lamp compare: two methods side by side: heat maps on one scale, where they differ, numbers.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>

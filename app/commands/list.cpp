@@ -1,6 +1,7 @@
 // lamp list: methods, scenes, suites, devices.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

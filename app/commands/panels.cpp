@@ -4,6 +4,7 @@
 #include "commands/panels.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,8 @@
 // lamp render: one picture, its heat map, its numbers.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "commands/request.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +12,10 @@
 #include "render/renderer.h"
 #include "render/verification.h"
 #include "scene/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lamp::app {
 

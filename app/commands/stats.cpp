@@ -3,6 +3,7 @@
 #include "commands/stats.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace lamp::app {
 namespace {

@@ -43,6 +43,10 @@ double span_ms(std::span<const vulkan::Timestamps::Time> times, const std::funct
   return sum;
 }
 
+double span_ms(std::span<const vulkan::Timestamps::Time> times) {
+  return span_ms(times, [](std::string_view) { return true; });
+}
+
 void FrameTimes::add_sample(const std::string& pass, bool host, double ms) {
   const auto is_pass = [&](const Samples& samples) { return samples.pass == pass && samples.host == host; };
   auto found = std::ranges::find_if(samples_, is_pass);
@@ -64,7 +68,7 @@ void FrameTimes::add(const std::vector<vulkan::Timestamps::Time>& times, const L
   if (has_passes && takes_turns_) return;
   frames_.push_back({.cull_ms = span_ms(times, [&](std::string_view pass) { return lighting.is_cull_pass(pass); }),
                      .shade_ms = span_ms(times, is_shade_pass),
-                     .frame_ms = span_ms(times, [](std::string_view) { return true; })});
+                     .frame_ms = span_ms(times)});
 }
 
 void FrameTimes::fill(Rendered& rendered, const Lighting& lighting) const {

@@ -25,6 +25,9 @@ struct Rendered;
 [[nodiscard]] double span_ms(std::span<const vulkan::Timestamps::Time> times,
                              const std::function<bool(std::string_view)>& counts);
 
+/// Of all passes.
+[[nodiscard]] double span_ms(std::span<const vulkan::Timestamps::Time> times);
+
 /// One frame, milliseconds.
 struct FrameTime {
   double cull_ms = 0.0;  ///< the plan: from the clearing of its buffers to the end of its last pass

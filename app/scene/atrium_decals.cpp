@@ -80,8 +80,9 @@ void add_wear(std::vector<Decal>& decals) {
   for (int i = 0; i < 18; ++i) {
     const float side = i % 2 == 0 ? 1.0F : -1.0F;
     const float x = random.between(-11.5F, 11.5F);
-    Decal moss = on_floor({x, 0.05F, side * (COURT.y - 0.55F)}, random.between(0.45F, 1.0F), DecalPattern::moss,
-                          random.between(0.0F, 6.0F));
+    const float turn = random.between(0.0F, 6.0F);
+    const float size = random.between(0.45F, 1.0F);
+    Decal moss = on_floor({x, 0.05F, side * (COURT.y - 0.55F)}, size, DecalPattern::moss, turn);
     moss.half_extents.z = 0.12F;
     moss.color_a = {0.04F, 0.09F, 0.015F};
     moss.color_b = {0.15F, 0.2F, 0.04F};
@@ -91,8 +92,10 @@ void add_wear(std::vector<Decal>& decals) {
     decals.push_back(moss);
   }
   for (int i = 0; i < 10; ++i) {
-    Decal crack = on_floor({random.between(-11.0F, 11.0F), 0, random.between(-2.8F, 2.8F)}, random.between(0.5F, 1.1F),
-                           DecalPattern::crack, random.between(0.0F, 6.0F));
+    const float turn = random.between(0.0F, 6.0F);
+    const float size = random.between(0.5F, 1.1F);
+    const float x = random.between(-11.0F, 11.0F);
+    Decal crack = on_floor({x, 0, random.between(-2.8F, 2.8F)}, size, DecalPattern::crack, turn);
     crack.color_a = glm::vec3(0.025F);
     crack.seed = random.bits();
     crack.relief = 0.006F;

@@ -62,7 +62,9 @@ void add_roof(City& city, Random& random, glm::vec2 center, glm::vec2 half, floa
   if (room.x < 0.5F || room.y < 0.5F) return;
   const int count = 1 + static_cast<int>(random.below(3));
   for (int i = 0; i < count; ++i) {
-    const glm::vec2 half_box(random.between(0.8F, 1.6F), random.between(0.8F, 1.6F));
+    const float half_depth = random.between(0.8F, 1.6F);
+    const float half_width = random.between(0.8F, 1.6F);
+    const glm::vec2 half_box(half_width, half_depth);
     // One machine a strip of the roof, so that they cannot overlap.
     const float strip = 2.0F * room.x / static_cast<float>(count);
     const float x = -room.x + strip * (static_cast<float>(i) + 0.5F);
@@ -89,7 +91,9 @@ void add_building(City& city, Random& random, glm::vec2 center, glm::vec2 lot_m)
   auto& facade =
       city.facades[floors > 16 ? random.below(2) : random.below(static_cast<std::uint32_t>(city.facades.size()))];
   glm::ivec2 windows = glm::max(glm::ivec2((lot_m - 0.8F) / FACADE_CELL_M.x), glm::ivec2(2));
-  const glm::vec2 uv = glm::vec2(random.below(8), random.below(8)) * FACADE_CELL_M;
+  const std::uint32_t v = random.below(8);
+  const std::uint32_t u = random.below(8);
+  const glm::vec2 uv = glm::vec2(u, v) * FACADE_CELL_M;
   const Walls shop{center, windows, PAVEMENT_Y - 0.3F, SHOP_M + 0.3F, {uv.x, 0.3F}, 0.2F};
   add_walls(city.shops, shop);
   add_ledge(city.ledges, center, half_size(shop), {0.5F, 0.25F},
@@ -123,7 +127,8 @@ void add_buildings(Scene& scene, const Materials& m) {
     for (int k = 0; k < BLOCKS_Z; ++k) {
       if (is_park(i, k)) continue;
       const glm::vec2 inner = BLOCK_M - 7.0F;
-      const glm::ivec2 lots(1 + static_cast<int>(random.below(3)), 1 + static_cast<int>(random.chance(0.22F)));
+      const bool is_deep = random.chance(0.22F);
+      const glm::ivec2 lots(1 + static_cast<int>(random.below(3)), is_deep ? 2 : 1);
       const glm::vec2 lot = inner / glm::vec2(lots);
       for (int x = 0; x < lots.x; ++x) {
         for (int z = 0; z < lots.y; ++z) {

@@ -226,8 +226,9 @@ void add_street_furniture(Scene& scene, const Materials& m) {
       }
     }
     if (random.chance(0.7F)) {
-      place_all(scene, tree,
-                at(spot(25.0F, HALF_STREET + 1.2F, PAVEMENT_Y), random.between(0, 6.0F), random.between(0.9F, 1.3F)));
+      const float size = random.between(0.9F, 1.3F);
+      const float tree_turn = random.between(0, 6.0F);
+      place_all(scene, tree, at(spot(25.0F, HALF_STREET + 1.2F, PAVEMENT_Y), tree_turn, size));
     }
   });
   for (int i = 0; i < BLOCKS_X; ++i) {
@@ -235,9 +236,12 @@ void add_street_furniture(Scene& scene, const Materials& m) {
       const glm::vec2 corner = crossing_at(i, k) + HALF_STREET + 0.5F;
       place_all(scene, signal, at({corner.x, PAVEMENT_Y, corner.y}, i % 2 == 0 ? 0.0F : PI / 2.0F));
       for (int t = 0; is_park(i, k) && t < 24; ++t) {
-        const glm::vec2 p =
-            block_at(i, k) + (BLOCK_M / 2.0F - 6.0F) * glm::vec2(random.between(-1, 1), random.between(-1, 1));
-        place_all(scene, tree, at({p.x, PAVEMENT_Y, p.y}, random.between(0, 6.0F), random.between(0.9F, 1.8F)));
+        const float z = random.between(-1, 1);
+        const float x = random.between(-1, 1);
+        const glm::vec2 p = block_at(i, k) + (BLOCK_M / 2.0F - 6.0F) * glm::vec2(x, z);
+        const float size = random.between(0.9F, 1.8F);
+        const float turn = random.between(0, 6.0F);
+        place_all(scene, tree, at({p.x, PAVEMENT_Y, p.y}, turn, size));
       }
     }
   }

@@ -21,6 +21,13 @@ glm::vec3 direction(float turn, float y) {
   return {ring * std::cos(turn), y, ring * std::sin(turn)};
 }
 
+/// Any way around, `y` between two sines. One draw a line here and wherever scenes draw: compilers differ in which
+/// argument of a call they evaluate first.
+glm::vec3 draw_direction(Random& random, float low, float high) {
+  const float y = random.between(low, high);
+  return direction(random.between(0.0F, TURN), y);
+}
+
 /// A diamond leaf that starts at `foot` and points along `along`; `face` is roughly its front.
 void add_leaf(Geometry& geometry, const glm::vec3& foot, const glm::vec3& along, const glm::vec3& face, float length) {
   const glm::vec3 side = glm::normalize(glm::cross(along, face)) * (length * 0.3F);
@@ -56,7 +63,8 @@ void add_crown(Geometry& geometry, const Crown& crown) {
   for (int i = 0; i < crown.cards; ++i) {
     const float height = random.between(-0.75F, 1.0F);
     const glm::vec3 out = direction(random.between(0.0F, TURN), height);
-    const glm::vec3 lean(random.unit(), random.unit(), random.unit());
+    glm::vec3 lean;
+    for (int axis = 2; axis >= 0; --axis) lean[axis] = random.unit();
     const glm::vec3 normal = glm::normalize(out + 0.5F * lean + 0.01F);
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.1F, 1, 0.05F), normal));
     const glm::vec3 up = glm::cross(normal, right);
@@ -81,15 +89,16 @@ TreeParts slender_tree(const SlenderTree& tree) {
     const float part = random.unit();
     const glm::vec3 from = glm::mix(trunk[joint], trunk[joint + 1], part);
     const float length = tree.height * random.between(0.1F, 0.2F);
-    const glm::vec3 span = direction(random.between(0, TURN), random.between(0.25F, 0.7F)) * length;
+    const glm::vec3 span = draw_direction(random, 0.25F, 0.7F) * length;
     const std::vector<glm::vec3> branch = bent_path(random, from, span, 0.1F * length, 2);
     add_tapered(parts.wood, branch, {0.3F * tree.radius, 0.08F * tree.radius}, 4);
     parts.twigs.push_back(branch.back());
     for (int leaf = 0; leaf < tree.leaves / tree.branches; ++leaf) {
       const float along = random.between(0.3F, 1.1F);
-      const glm::vec3 scatter = direction(random.between(0, TURN), random.between(-1, 1)) * random.between(0, 0.22F);
-      const glm::vec3 way = direction(random.between(0, TURN), random.between(-0.9F, 0.3F));
-      const glm::vec3 face = direction(random.between(0, TURN), random.between(0.2F, 0.9F));
+      const float off = random.between(0, 0.22F);
+      const glm::vec3 scatter = draw_direction(random, -1, 1) * off;
+      const glm::vec3 way = draw_direction(random, -0.9F, 0.3F);
+      const glm::vec3 face = draw_direction(random, 0.2F, 0.9F);
       add_leaf(parts.leaves, from + span * along + scatter, way, face + 0.1F, tree.leaf_m * random.between(0.7F, 1.3F));
     }
   }

@@ -22,7 +22,7 @@ bool is_number(const nlohmann::json& value) { return value.is_number() && std::a
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t LONGEST = 60;
   std::string text = value.dump(-1, ' ', /* ensure_ascii= */ true, nlohmann::json::error_handler_t::replace);
-  if (text.size() > LONGEST) text = text.substr(0, LONGEST) + "...";
+  if (text.size() > LONGEST) text.replace(LONGEST, std::string::npos, "...");
   return text;
 }
 

@@ -59,7 +59,9 @@ void draw_look(Decal& decal, bool level, Random& random) {
   constexpr std::array WALL{DecalPattern::painting, DecalPattern::crack, DecalPattern::moss, DecalPattern::sign};
   decal.pattern = level ? FLOOR[random.below(FLOOR.size())] : WALL[random.below(WALL.size())];
   const auto earthen = [&] {
-    return glm::vec3(random.between(0.08F, 0.6F), random.between(0.06F, 0.4F), random.between(0.04F, 0.4F));
+    const float blue = random.between(0.04F, 0.4F);
+    const float green = random.between(0.06F, 0.4F);
+    return glm::vec3(random.between(0.08F, 0.6F), green, blue);
   };
   decal.color_a = earthen();
   decal.color_b = earthen();

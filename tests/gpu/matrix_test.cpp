@@ -161,10 +161,10 @@ std::vector<LargeParam> large_params() {
                         MIXES[round % std::size(MIXES)]});
     }
   }
-  params.push_back({"atrium", "perspective", LARGE, 513, Mix::both});
-  params.push_back({"blocks", "off-centre", LARGE, 512, Mix::points});
+  params.push_back({"atrium", "perspective", LARGE, 512, Mix::both});
+  params.push_back({"blocks", "off-centre", LARGE, 31, Mix::points});
   params.push_back({"posts", "orthographic", LARGE, 33, Mix::spots});
-  params.push_back({"corridor", "infinite", LARGE, 4096, Mix::both});
+  params.push_back({"corridor", "infinite", LARGE, 32, Mix::both});
   params.push_back({"plane", "perspective", LARGE, 1, Mix::points});
   return params;
 }

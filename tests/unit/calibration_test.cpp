@@ -1,6 +1,7 @@
 // Calibrations as files: what is damaged or another device's is not trusted, and what cannot be kept says why.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>

@@ -9,25 +9,12 @@
 
 #include "lamplight/method.h"
 #include "lamplight/shared/lamplight.h"
+#include "unit/devices.h"
 
 namespace lamp {
 namespace {
 
 constexpr std::uint32_t SIDE = 16384;
-
-/// A large GPU: storage buffers of 4 GiB less a byte, as 32 bits can say.
-DeviceTraits large_gpu() {
-  return {.max_storage_buffer_bytes = 0xffffffffU,
-          .memory_bytes = 80ULL << 30,
-          .max_groups = {0x7fffffffU, 65535, 65535},
-          .max_group_invocations = 1024,
-          .shared_memory_bytes = 49152,
-          .max_image_size = 32768,
-          .max_storage_buffers = 1024,
-          .subgroup_ballot = true,
-          .subgroup_arithmetic = true,
-          .conservative_raster = true};
-}
 
 Problem problem_of(const Method& method, std::uint32_t width, std::uint32_t height, std::uint32_t lights,
                    const DeviceTraits& traits) {
@@ -41,7 +28,7 @@ Problem problem_of(const Method& method, std::uint32_t width, std::uint32_t heig
 class Limits : public ::testing::TestWithParam<const Method*> {};
 
 TEST_P(Limits, SizesNeverShrinkAsAProblemGrows) {
-  DeviceTraits boundless = large_gpu();
+  DeviceTraits boundless = test::LARGE_DEVICE;
   boundless.max_storage_buffer_bytes = ~0ULL;
   boundless.memory_bytes = ~0ULL;
   boundless.max_groups = {~0U, ~0U, ~0U};
@@ -86,12 +73,12 @@ void expect_planned_or_refused(const Method& method, const Problem& problem) {
 TEST_P(Limits, SixteenMillionLightsAreAtLeastPlannedWhereListsHoldThem) {
   const Method& method = *GetParam();
   const bool bits = method.result.find("bits") != std::string_view::npos || method.result == "tile_zbins";
-  const Result<Plan> uhd = make_plan(method, problem_of(method, 3840, 2160, MAX_LIGHTS, large_gpu()));
+  const Result<Plan> uhd = make_plan(method, problem_of(method, 3840, 2160, MAX_LIGHTS, test::LARGE_DEVICE));
   EXPECT_EQ(uhd.ok(), !bits) << (uhd ? "planned" : uhd.error().text());
   if (bits) {
     EXPECT_NE(uhd.error().text().find("bits: needs"), std::string::npos) << uhd.error().text();
   }
-  const Result<Plan> large = make_plan(method, problem_of(method, SIDE, SIDE, MAX_LIGHTS, large_gpu()));
+  const Result<Plan> large = make_plan(method, problem_of(method, SIDE, SIDE, MAX_LIGHTS, test::LARGE_DEVICE));
   if (method.name == "all" || method.name == "tiled" || method.name == "clustered" || method.name == "lamplight") {
     EXPECT_TRUE(large) << (large ? "" : large.error().text());
   } else if (bits) {
@@ -102,7 +89,7 @@ TEST_P(Limits, SixteenMillionLightsAreAtLeastPlannedWhereListsHoldThem) {
 TEST_P(Limits, EverySizeIsPlannedOrRefused) {
   DeviceTraits least = {};
   least.max_image_size = SIDE;
-  for (const DeviceTraits& traits : {large_gpu(), least})
+  for (const DeviceTraits& traits : {test::LARGE_DEVICE, least})
     for (const std::uint32_t side : {1U, 4096U, SIDE})
       for (const std::uint32_t lights : {0U, 1U << 16, 1U << 20, 1U << 21, MAX_LIGHTS})
         expect_planned_or_refused(*GetParam(), problem_of(*GetParam(), side, side, lights, traits));
@@ -110,19 +97,19 @@ TEST_P(Limits, EverySizeIsPlannedOrRefused) {
 
 TEST_P(Limits, OneBeyondIsRefused) {
   const Method& method = *GetParam();
-  const Result<Plan> lights = make_plan(method, problem_of(method, 64, 64, MAX_LIGHTS + 1, large_gpu()));
+  const Result<Plan> lights = make_plan(method, problem_of(method, 64, 64, MAX_LIGHTS + 1, test::LARGE_DEVICE));
   ASSERT_FALSE(lights);
   EXPECT_EQ(lights.error().text(), "light capacity: expected at most 16777216, got 16777217");
-  const Result<Plan> size = make_plan(method, problem_of(method, 64, 32769, 1, large_gpu()));
+  const Result<Plan> size = make_plan(method, problem_of(method, 64, 32769, 1, test::LARGE_DEVICE));
   ASSERT_FALSE(size);
   EXPECT_EQ(size.error().text(), "size 64x32769: expected 1 to 32768 pixels a side on this device");
-  DeviceTraits small = large_gpu();
+  DeviceTraits small = test::LARGE_DEVICE;
   small.max_storage_buffer_bytes = 64 * 1000;
   const Result<Plan> buffer = make_plan(method, problem_of(method, 8, 8, 1001, small));
   ASSERT_FALSE(buffer);
   EXPECT_NE(buffer.error().text().find("the device's storage buffers hold at most 64000"), std::string::npos)
       << buffer.error().text();
-  DeviceTraits tight = large_gpu();
+  DeviceTraits tight = test::LARGE_DEVICE;
   tight.memory_bytes = 1;
   const Result<Plan> memory = make_plan(method, problem_of(method, 64, 64, 64, tight));
   EXPECT_EQ(memory.ok(), method.name == "all");
@@ -143,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Limits, ::testing::ValuesIn([] {
                          });
 
 TEST(LoopLimits, ADeviceThatEndsLoopsWalksNoMoreLights) {
-  DeviceTraits traits = large_gpu();
+  DeviceTraits traits = test::LARGE_DEVICE;
   traits.max_loop_rounds = 65535;
   const auto plan = [&](std::string_view name, std::uint32_t lights) {
     const Method& method = *find_method(name).value();
@@ -162,7 +149,7 @@ TEST(LoopLimits, ADeviceThatEndsLoopsWalksNoMoreLights) {
 // Pieces of cells are work groups of an indirect dispatch, which no check sees while it runs.
 TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
   const Method& method = *find_method("lamplight").value();
-  DeviceTraits traits = large_gpu();
+  DeviceTraits traits = test::LARGE_DEVICE;
   traits.max_groups[0] = 65535;
   const Plan plan = make_plan(method, problem_of(method, 3840, 2160, MAX_LIGHTS, traits)).value();
   const auto pieces = std::ranges::find(plan.buffers, "pieces", &BufferDesc::name);
@@ -173,7 +160,7 @@ TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
 TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {
   constexpr std::uint64_t MIB = 1ULL << 20;
   const Method& method = *find_method("lamplight").value();
-  const Plan plan = make_plan(method, problem_of(method, 3840, 2160, 1U << 20, large_gpu())).value();
+  const Plan plan = make_plan(method, problem_of(method, 3840, 2160, 1U << 20, test::LARGE_DEVICE)).value();
   EXPECT_LE(plan.bytes(), 48 * MIB);
   EXPECT_LE(std::ranges::find(plan.buffers, "tile lists", &BufferDesc::name)->bytes, 5 * MIB);
 }

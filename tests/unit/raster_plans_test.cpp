@@ -3,22 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "lamplight/method.h"
+#include "unit/devices.h"
 
 namespace {
 
 using lamp::DeviceTraits;
 using lamp::Method;
 using lamp::Plan;
-
-const DeviceTraits SOFTWARE{.max_group_invocations = 1024,
-                            .shared_memory_bytes = 32768,
-                            .max_image_size = 16384,
-                            .subgroup_ballot = true,
-                            .subgroup_arithmetic = true};
-const DeviceTraits LEAST{};
+using lamp::test::LEAST_DEVICE;
+using lamp::test::SOFTWARE_DEVICE;
 
 TEST(RasterisedCulling, LeavesCoverageToTheDeviceOnlyIfItCan) {
-  DeviceTraits able = SOFTWARE;
+  DeviceTraits able = SOFTWARE_DEVICE;
   able.conservative_raster = true;
   for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
     const Method& method = *lamp::find_method(name).value();
@@ -32,10 +28,10 @@ TEST(RasterisedCulling, LeavesCoverageToTheDeviceOnlyIfItCan) {
     EXPECT_TRUE(by_device.conservative);
     EXPECT_EQ(glm::uvec2(by_device.width, by_device.height), glm::uvec2(9, 8));
     EXPECT_TRUE(plan(able).notes.empty());
-    EXPECT_TRUE(lamp::plan_check(plan(able), SOFTWARE)) << "a device that cannot";
-    EXPECT_FALSE(plan(SOFTWARE).passes.back().raster.conservative);
-    ASSERT_EQ(plan(SOFTWARE).notes.size(), 1U);
-    EXPECT_TRUE(plan(SOFTWARE).notes[0].starts_with("raster=half-msaa instead of conservative"));
+    EXPECT_TRUE(lamp::plan_check(plan(able), SOFTWARE_DEVICE)) << "a device that cannot";
+    EXPECT_FALSE(plan(SOFTWARE_DEVICE).passes.back().raster.conservative);
+    ASSERT_EQ(plan(SOFTWARE_DEVICE).notes.size(), 1U);
+    EXPECT_TRUE(plan(SOFTWARE_DEVICE).notes[0].starts_with("raster=half-msaa instead of conservative"));
   }
 }
 
@@ -48,14 +44,14 @@ TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
                              {.width = 64, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
           .value();
     };
-    EXPECT_TRUE(plan("on", SOFTWARE).passes.back().shader.ends_with("_compact"));
-    EXPECT_TRUE(plan("on", SOFTWARE).notes.empty());
-    EXPECT_FALSE(plan("off", SOFTWARE).passes.back().shader.ends_with("_compact"));
-    const Plan without = plan("on", LEAST);
+    EXPECT_TRUE(plan("on", SOFTWARE_DEVICE).passes.back().shader.ends_with("_compact"));
+    EXPECT_TRUE(plan("on", SOFTWARE_DEVICE).notes.empty());
+    EXPECT_FALSE(plan("off", SOFTWARE_DEVICE).passes.back().shader.ends_with("_compact"));
+    const Plan without = plan("on", LEAST_DEVICE);
     EXPECT_FALSE(without.passes.back().shader.ends_with("_compact"));
     ASSERT_EQ(without.notes.size(), 1U);
     EXPECT_TRUE(without.notes[0].starts_with("compact=off instead of on")) << without.notes[0];
-    EXPECT_TRUE(plan("off", LEAST).notes.empty());
+    EXPECT_TRUE(plan("off", LEAST_DEVICE).notes.empty());
   }
 }
 

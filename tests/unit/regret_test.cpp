@@ -3,6 +3,7 @@
 #include "bench/regret.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

@@ -47,8 +47,8 @@ struct Problem {
   std::uint32_t light_capacity = 0;
   Options options;
   DeviceTraits traits;
-  bool own_spheres =
-      false;  ///< the host keeps no spheres: the plan makes INPUT_SPHERES from the lights, if it reads any
+  /// The host keeps no spheres: the plan makes INPUT_SPHERES from the lights, if it reads any.
+  bool own_spheres = false;
 };
 
 struct Method {

@@ -42,34 +42,29 @@ bool cone_touches_sphere(SpotCone cone, vec4 sphere) {
 // Discs around the axis, t metres from the tip and t tan wide, hold all that the cone reaches. A disc that touches the frustum
 // is nowhere farther outside a plane than it is wide: one inequality in t for each plane. For narrow cones, whose discs
 // hardly lean out of their planes.
-void clip_discs(float a, float b, inout float first, inout float last) {  // to a + b t <= 0
-  if (b > 0.0)
-    last = min(last, -a / b);
-  else if (b < 0.0)
-    first = max(first, -a / b);
-  else if (a > 0.0)
-    last = -1.0;
-}
-
-void clip_discs_to_edges(vec4 edges, float at, float z, float toward, float ahead, float slope, float slack,
-                         inout float first, inout float last) {
-  const float low = sqrt(1.0 + edges.y * edges.y);
-  const float high = sqrt(1.0 + edges.w * edges.w);
-  clip_discs(edges.x + edges.y * z - at - slack * low, edges.y * ahead - toward - slope * low, first, last);
-  clip_discs(at - edges.z - edges.w * z - slack * high, toward - edges.w * ahead - slope * high, first, last);
-}
-
 bool discs_touch_frustum(SpotCone cone, TileSides sides, float z_near, float z_far) {
   const float z = -cone.tip.z;
   const float ahead = -cone.axis.z;
+  const vec4 lengths = edge_lengths(sides.x_edges, sides.y_edges);
+  const vec4 toward = vec4(sides.x_edges.y * ahead - cone.axis.x, cone.axis.x - sides.x_edges.w * ahead,
+                           sides.y_edges.y * ahead - cone.axis.y, cone.axis.y - sides.y_edges.w * ahead);
   const float slope = cone.sin_angle / cone.cos_angle * (1.0 + ROUND_RADIUS);
   const float slack = cone.slack + ROUND_RADIUS * cone.range;
+  // a + b t <= 0
+  const vec4 a_sides = edges_outside(cone.tip, sides.x_edges, sides.y_edges) - slack * lengths;
+  const vec4 b_sides = toward - slope * lengths;
+  const float a[6] = float[](a_sides.x, a_sides.y, a_sides.z, a_sides.w, z_near - z - slack, z - z_far - slack);
+  const float b[6] = float[](b_sides.x, b_sides.y, b_sides.z, b_sides.w, -ahead - slope, ahead - slope);
   float first = 0.0;
   float last = cone.range;
-  clip_discs(z_near - z - slack, -ahead - slope, first, last);
-  clip_discs(z - z_far - slack, ahead - slope, first, last);
-  clip_discs_to_edges(sides.x_edges, cone.tip.x, z, cone.axis.x, ahead, slope, slack, first, last);
-  clip_discs_to_edges(sides.y_edges, cone.tip.y, z, cone.axis.y, ahead, slope, slack, first, last);
+  for (int i = 0; i < 6; ++i) {
+    if (b[i] > 0.0)
+      last = min(last, -a[i] / b[i]);
+    else if (b[i] < 0.0)
+      first = max(first, -a[i] / b[i]);
+    else if (a[i] > 0.0)
+      return false;
+  }
   return first <= last + 1e-5 * (first + abs(last));
 }
 

@@ -43,6 +43,11 @@ vec4 edge_lengths(vec4 x_edges, vec4 y_edges) {
   return sqrt(1.0 + slopes * slopes);
 }
 
+// Whether a sphere reaches to the inner side of each edge; `lengths` are edge_lengths. Says yes near corners that it misses.
+bool inside_edges(vec3 center, float radius, vec4 x_edges, vec4 y_edges, vec4 lengths) {
+  return all(lessThanEqual(edges_outside(center, x_edges, y_edges), radius * lengths));
+}
+
 // The larger of width and height at a depth.
 float tile_width(TileSides sides, float z_view) {
   const vec2 size = vec2(sides.x_edges.z - sides.x_edges.x, sides.y_edges.z - sides.y_edges.x) +

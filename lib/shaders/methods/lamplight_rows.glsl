@@ -53,10 +53,9 @@ void load_row(Cell cell, uint row) {
 // The first look: depths, occupied parts, each of the four sides alone.
 bool may_reach_row(LightBounds sphere, uint row) {
   const TileDepths depths = s_depths[row];
-  const vec4 outside = edges_outside(sphere.center, s_x_edges[row], s_y_edges[row]);
   return sphere_touches_depths(sphere, depths.z_near, depths.z_far) &&
          parts_near(sphere, depths.z_near, depths.scale, depths.mask) != 0u &&
-         all(lessThanEqual(outside, sphere.radius * s_lengths[row]));
+         inside_edges(sphere.center, sphere.radius, s_x_edges[row], s_y_edges[row], s_lengths[row]);
 }
 
 // The depths of a row that a sphere can reach: of a slice the part that the sphere spans, which is never infinite.

@@ -35,8 +35,8 @@ PictureSides picture_sides() {
 }
 
 bool in_view(LightBounds sphere, PictureSides sides) {
-  const vec4 outside = edges_outside(sphere.center, sides.x_edges, sides.y_edges);
-  return sphere.radius >= 0.0 && all(lessThanEqual(outside, sphere.radius * sides.lengths));
+  return sphere.radius >= 0.0 &&
+         inside_edges(sphere.center, sphere.radius, sides.x_edges, sides.y_edges, sides.lengths);
 }
 
 // By one thread: room for the group's lights, and work groups of the next pass for them.

@@ -25,8 +25,8 @@ constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
 constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
 constexpr std::uint32_t MOST_CELL_TILES = 32;  // a side
 constexpr std::uint32_t GOOD_CELLS = 2304;     // not more where cells can be larger; 4K has 2040
-constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most FEW_LIGHTS
-constexpr std::uint32_t FEW_LIGHTS = 1U << 17;
+constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most SPARSE_LIGHTS
+constexpr std::uint32_t SPARSE_LIGHTS = 1U << 17;
 constexpr std::uint32_t WANTED_BLOCKS = 256;   // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;  // lights
 constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
@@ -89,7 +89,7 @@ Sizes grid_of(const Problem& problem) {
     s.cell_slices = CELL_SLICES;
   }
   s.tiles = parts::tile_grid(problem, s.tile_px);
-  const std::uint32_t good_cells = parts::capacity(problem) <= FEW_LIGHTS ? FEW_CELLS : GOOD_CELLS;
+  const std::uint32_t good_cells = parts::capacity(problem) <= SPARSE_LIGHTS ? FEW_CELLS : GOOD_CELLS;
   do {
     s.cell_tiles *= 2;
     s.cells = parts::tile_grid(problem, s.tile_px * s.cell_tiles);
