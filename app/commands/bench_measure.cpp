@@ -24,8 +24,12 @@ using nlohmann::json;
 /// walks a million lights a pixel would take longer than all others together. A flight needs each of its frames.
 constexpr double LONGEST_MS = 2000.0;
 constexpr std::size_t FEWEST_FRAMES = 3;
-constexpr std::chrono::milliseconds LONG_WAIT(5);  // of a GPU for the host, after which it is woken up
-constexpr double WAKE_MS = 50.0;
+/// Of a GPU for the host, after which it is woken up.
+constexpr double LONG_WAIT_MS = 5.0;
+/// The longer a GPU waits, the deeper it sleeps: an H200 that waited two seconds is at a sixth of its clock, and after
+/// 50 ms of work at half.
+constexpr double LEAST_WAKE_MS = 50.0;
+constexpr double MOST_WAKE_MS = 1000.0;
 
 /// An entry under measurement.
 struct Candidate {
@@ -219,10 +223,11 @@ bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) 
 }
 
 /// A GPU that waited for the host to move a million lights has lowered its clocks: untimed frames until it is awake.
-void wake(Renderer& renderer, std::list<Candidate>& candidates) {
+void wake(Renderer& renderer, std::list<Candidate>& candidates, double waited_ms) {
   const auto timed = std::ranges::find_if(candidates, &Candidate::timed);
-  if (timed == candidates.end()) return;
-  for (double ms = 0.0; ms < WAKE_MS;) ms += span_ms(renderer.time(*timed->lighting, Timing::parts));
+  if (timed == candidates.end() || waited_ms < LONG_WAIT_MS) return;
+  const double enough_ms = std::clamp(waited_ms, LEAST_WAKE_MS, MOST_WAKE_MS);
+  for (double ms = 0.0; ms < enough_ms;) ms += span_ms(renderer.time(*timed->lighting, Timing::parts));
 }
 
 void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
@@ -233,7 +238,8 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     const auto before = std::chrono::steady_clock::now();
     const BenchFrame frame = bench_frame(scene, info.group, number);
     renderer.set_frame(frame.view, frame.lights);
-    if (!info.device.software() && std::chrono::steady_clock::now() - before > LONG_WAIT) wake(renderer, candidates);
+    const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
+    if (!info.device.software()) wake(renderer, candidates, waited.count());
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.timed() || has_enough(info, candidate, warm)) continue;
