@@ -26,8 +26,8 @@ constexpr double LONGEST_MS = 2000.0;
 constexpr std::size_t FEWEST_FRAMES = 3;
 /// Of a GPU for the host, after which it is woken up.
 constexpr double LONG_WAIT_MS = 5.0;
-/// The longer a GPU waits, the deeper it sleeps: an H200 that waited two seconds is at a sixth of its clock, and after
-/// 50 ms of work at half.
+/// The longer a GPU waits, the deeper it sleeps: an H200 that waited for seconds is at a sixth of its clock, and 50 ms
+/// of work do not wake it.
 constexpr double LEAST_WAKE_MS = 50.0;
 constexpr double MOST_WAKE_MS = 1000.0;
 
