@@ -34,8 +34,10 @@ std::string variant(const char* shader, std::string_view lookup) {
 
 std::vector<vulkan::Use> lookup_uses(const vulkan::BoundLookUp& lookup, VkPipelineStageFlags2 stages) {
   std::vector<vulkan::Use> uses;
-  for (const vulkan::Bound& bound : lookup.resources)
-    if (bound.resource.image == VK_NULL_HANDLE) uses.push_back(reads(bound.resource, stages));
+  for (vulkan::Use use : lookup.uses) {
+    use.stages = stages;
+    if (use.resource.image == VK_NULL_HANDLE) uses.push_back(use);
+  }
   return uses;
 }
 

@@ -205,11 +205,11 @@ void Renderer::run(const PixelPass& pass) {
       bound.push_back({storage.binding, storage.resource});
       uses.push_back({.resource = storage.resource, .stages = COMPUTE, .access = storage.access});
     }
-    if (pass.lighting != nullptr)
-      for (const vulkan::Bound& b : pass.lighting->runner().lookup(inputs, pass.which).resources) {
-        bound.push_back(b);
-        uses.push_back(reads(b.resource, COMPUTE));
-      }
+    if (pass.lighting != nullptr) {
+      const vulkan::BoundLookUp lookup = pass.lighting->runner().lookup(inputs, pass.which);
+      bound.insert(bound.end(), lookup.resources.begin(), lookup.resources.end());
+      uses.insert(uses.end(), lookup.uses.begin(), lookup.uses.end());
+    }
     recorder.begin_pass(pass.shader, uses);
     recorder.bind(pipeline, bound);
     vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0,

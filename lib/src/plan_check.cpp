@@ -121,11 +121,13 @@ class PassChecker {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<Error> check_lookup(const LookUp& lookup) const {
+  /// `counters`: the one buffer that it may write.
+  [[nodiscard]] std::optional<Error> check_lookup(const LookUp& lookup, ResourceId counters) const {
     const std::string source = "look-up " + lookup.name;
     if (lookup.name.empty()) return Error{"look-up", "has no name"};
     for (const Binding& binding : lookup.bindings)
-      if (binding.access != Access::read) return Error{source, "its bindings must be read-only"};
+      if (binding.access != Access::read && binding.resource != counters)
+        return Error{source, "its bindings must be read-only"};
     if (auto error = check_storage_buffers(source, lookup.bindings, traits_)) return error;
     return check_bindings(source, lookup.bindings);
   }
@@ -205,11 +207,11 @@ class PassChecker {
 };
 
 std::optional<Error> check_passes(const Plan& plan, const std::vector<Pass>& passes, const LookUp& lookup,
-                                  const DeviceTraits& traits) {
+                                  ResourceId counters, const DeviceTraits& traits) {
   PassChecker checker(plan, traits);
   for (const Pass& pass : passes)
     if (auto error = checker.check(pass)) return error;
-  return checker.check_lookup(lookup);
+  return checker.check_lookup(lookup, counters);
 }
 
 std::optional<Error> check_counters(const Plan& plan) {
@@ -235,7 +237,7 @@ std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
   for (const Capacity& capacity : plan.capacities)
     if (auto error = check_capacity(plan, capacity)) return error;
   if (plan.cells == 0) return Error{"cells", "a look-up has at least one cell"};
-  if (auto error = check_passes(plan, plan.passes, plan.lookup, traits)) return error;
+  if (auto error = check_passes(plan, plan.passes, plan.lookup, NO_RESOURCE, traits)) return error;
   if (!plan.fused) return std::nullopt;
   const FusedLookUp& fused = *plan.fused;
   const std::uint64_t threads = std::uint64_t{fused.group_width} * fused.group_height;
@@ -243,7 +245,7 @@ std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
     return Error{"fused look-up " + fused.lookup.name,
                  "its work group must have 1 to " + std::to_string(traits.max_group_invocations) + " threads"};
   if (auto error = check_shared("fused look-up " + fused.lookup.name, fused.shared_bytes, traits)) return error;
-  return check_passes(plan, fused.passes, fused.lookup, traits);
+  return check_passes(plan, fused.passes, fused.lookup, plan.counters, traits);
 }
 
 }  // namespace lamp

@@ -99,15 +99,15 @@ struct Pass {
 struct LookUp {
   std::string name;
   std::vector<std::uint32_t> constants;  ///< specialization constants LOOKUP_CONSTANT + 0, 1, ...
-  std::vector<Binding> bindings;         ///< set 0, bindings LOOKUP_BINDING + 0, 1, ...; all read
+  std::vector<Binding> bindings;         ///< set 0, bindings LOOKUP_BINDING + 0, 1, ...; read
 };
 
 /// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl).
 inline constexpr std::uint32_t LOOKUP_CONSTANT = 100;
 inline constexpr std::uint32_t LOOKUP_BINDING = 16;
 
-/// A compute shader that culls and shades in one dispatch includes this look-up, whose walk reads shared memory.
-/// The shader's work group must be `group_width` x `group_height` pixels.
+/// A compute shader that culls and shades in one dispatch includes this look-up, whose walk reads shared memory. It may
+/// write one buffer, the plan's counters. The shader's work group must be `group_width` x `group_height` pixels.
 struct FusedLookUp {
   LookUp lookup;
   std::vector<Pass> passes;  ///< what must run before, instead of Plan::passes

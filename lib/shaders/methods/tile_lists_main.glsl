@@ -9,11 +9,7 @@ layout(local_size_x_id = 0) in;  // before anything that asks for the work group
 layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[]; };    // count, then lights, a cell
 layout(set = 0, binding = 7, scalar) writeonly buffer SplitBuffer { float splits[]; };  // a tile
 layout(set = 0, binding = 8, scalar) buffer CounterBuffer { Counters counters; };
-
-void count_overflow(uint range) {
-  atomicAdd(counters.overflowed_cells, 1u);
-  atomicMax(counters.longest_list, s_light_count[range]);
-}
+#include "methods/tile_overflow.glsl"
 
 void main() {
   const TileRanges ranges = cull_tile(gl_WorkGroupID.xy);

@@ -142,10 +142,12 @@ Plan plan_tiled(const Problem& problem) {
     plan.passes.back().constants.push_back(cells * axes.mean_capacity);
   plan.lookup = look_up(plan, problem, axes, buffers);
   if (axes.bits || axes.tile_px * axes.tile_px > problem.traits.max_group_invocations) return plan;
+  std::vector<Binding> fused_bindings = tile_bindings(buffers);
+  fused_bindings.push_back({buffers.counters, Access::read_write});
   plan.fused =
       FusedLookUp{.lookup = {.name = axes.reduce == TiledAxes::Reduce::subgroup ? "tile_fused_subgroup" : "tile_fused",
                              .constants = tile_constants(axes),
-                             .bindings = tile_bindings(buffers)},
+                             .bindings = std::move(fused_bindings)},
                   .passes = passes_before(axes, tiles, buffers),
                   .group_width = axes.tile_px,
                   .group_height = axes.tile_px,

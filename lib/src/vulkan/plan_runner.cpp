@@ -147,8 +147,11 @@ BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
   BoundLookUp bound{.name = lookup.name};
   for (std::uint32_t i = 0; i < lookup.constants.size(); ++i)
     bound.constants.push_back({LOOKUP_CONSTANT + i, lookup.constants[i]});
-  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
-    bound.resources.push_back({LOOKUP_BINDING + i, resource(lookup.bindings[i].resource, inputs)});
+  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i) {
+    const Resource used = resource(lookup.bindings[i].resource, inputs);
+    bound.resources.push_back({LOOKUP_BINDING + i, used});
+    bound.uses.push_back(use_of(used, lookup.bindings[i].access, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
+  }
   return bound;
 }
 

@@ -27,11 +27,12 @@ struct PlanInputs {
   const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`; must be set
 };
 
-/// A look-up's resources at their bindings, and its constants with their ids.
+/// A look-up's resources at their bindings and how a compute shader uses each, and its constants with their ids.
 struct BoundLookUp {
   std::string_view name;
   std::vector<Constant> constants;
   std::vector<Bound> resources;
+  std::vector<Use> uses;
 };
 
 /// The pass that clears a plan's `zeroed` buffers, before all others.

@@ -4,7 +4,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #define TILE_CONSTANT 100
 #define TILE_BINDING 16
+#include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
+
+layout(set = 0, binding = TILE_BINDING + 6, scalar) buffer CounterBuffer { Counters counters; };
+#include "methods/tile_overflow.glsl"
 
 TileRanges lookup_ranges;
 
@@ -14,7 +18,12 @@ struct Walk {
   bool overflowed;
 };
 
-void lookup_prepare() { lookup_ranges = cull_tile(gl_WorkGroupID.xy); }
+void lookup_prepare() {
+  lookup_ranges = cull_tile(gl_WorkGroupID.xy);
+  if (gl_LocalInvocationIndex != 0u) return;
+  for (uint range = 0u; range < RANGES; ++range)
+    if (!list_fits(range)) count_overflow(range);
+}
 
 uint lookup_range(float z_view) { return RANGES == 2u && z_view > lookup_ranges.split ? 1u : 0u; }
 
