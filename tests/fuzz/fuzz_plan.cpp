@@ -57,7 +57,8 @@ class StrictDevice {
     }
   }
 
-  void run(const std::vector<Pass>& passes, const LookUp& lookup) {
+  /// `counters`: the one buffer that the look-up may write.
+  void run(const std::vector<Pass>& passes, const LookUp& lookup, ResourceId counters) {
     for (const Pass& pass : passes) {
       if (pass.kind == PassKind::host) {
         run_host(pass);
@@ -75,7 +76,7 @@ class StrictDevice {
     require(!lookup.name.empty());
     count_buffers(lookup.bindings);
     for (const Binding& binding : lookup.bindings) {
-      require(binding.access == Access::read);
+      require(binding.access == Access::read || (counters != NO_RESOURCE && binding.resource == counters));
       bind(binding, /* by_host= */ false, /* in_kept_pass= */ false);
     }
   }
@@ -141,11 +142,11 @@ void run_everything(const Plan& plan, const DeviceTraits& traits) {
     const BufferDesc& counters = plan.buffers.at(plan.counters - PLAN_BUFFER);
     require(counters.zeroed && counters.bytes >= sizeof(shared::Counters));
   }
-  StrictDevice(plan, traits).run(plan.passes, plan.lookup);
+  StrictDevice(plan, traits).run(plan.passes, plan.lookup, NO_RESOURCE);
   if (!plan.fused) return;
   require(plan.fused->group_width >= 1 && plan.fused->group_height >= 1);
   require(plan.fused->group_width <= traits.max_group_invocations / plan.fused->group_height);
-  StrictDevice(plan, traits).run(plan.fused->passes, plan.fused->lookup);
+  StrictDevice(plan, traits).run(plan.fused->passes, plan.fused->lookup, plan.counters);
 }
 
 /// Any limits that a Vulkan 1.3 device could report.
