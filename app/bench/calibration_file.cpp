@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::string_view FORMAT = "lamplight-calibration";
+constexpr std::string_view CALIBRATION_FORMAT = "lamplight-calibration";
 constexpr int VERSION = 1;  // of the file and of the model: grows when an old file would mislead
 
 template <std::size_t COUNT>
@@ -52,7 +52,7 @@ std::optional<std::string> read_text(const std::string& file) {
 }
 
 json to_json(const Calibration& calibration) {
-  json document{{"format", FORMAT},
+  json document{{"format", CALIBRATION_FORMAT},
                 {"version", VERSION},
                 {"device", calibration.device},
                 {"driver", calibration.driver},
@@ -67,7 +67,7 @@ json to_json(const Calibration& calibration) {
 
 Calibration parse_calibration(std::string_view text, const std::string& source) {
   const json document = json::parse(text, nullptr, /* allow_exceptions= */ false);
-  if (!document.is_object() || document.value("format", json()) != FORMAT)
+  if (!document.is_object() || document.value("format", json()) != CALIBRATION_FORMAT)
     throw Error(source + ": is no calibration of lamp");
   if (document.value("version", json()) != VERSION)
     throw Error(

@@ -31,6 +31,14 @@ std::pair<std::uint32_t, std::uint32_t> size_of(const std::string& size) {
   return whole ? std::pair(width, height) : std::pair(0U, 0U);
 }
 
+/// Both sides to the nearest whole number of pixels, at least 1; what is no size stays as it is.
+std::string scaled(const std::string& size, double scale) {
+  const auto [width, height] = size_of(size);
+  if (width == 0 || height == 0 || scale == 1.0) return size;
+  const auto side = [scale](std::uint32_t pixels) { return std::max(std::lround(pixels * scale), 1L); };
+  return fmt::format("{}x{}", side(width), side(height));
+}
+
 /// All combinations of the swept options.
 std::vector<Swept> combinations(const Series& series) {
   std::vector<Swept> all{{}};
@@ -126,7 +134,7 @@ void for_each_group(const Series& series, const Limits& limits, const Use& use) 
                 group.scene = scene;
                 group.camera = camera;
                 group.projection = projection;
-                group.size = size;
+                group.size = scaled(size, limits.scale);
                 group.range = range;
                 group.spots = spots;
                 group.lights = lights;

@@ -39,6 +39,7 @@ struct Group {
 struct Limits {
   std::optional<std::uint32_t> frames;
   std::optional<std::uint32_t> warm_up;
+  double scale = 1.0;                ///< of all sizes, each side; before max_pixels
   std::uint32_t most_frames = ~0U;   ///< of a series without `frames` from the command line; of a flight 12 times
                                      ///< as many
   std::uint32_t max_lights = ~0U;    ///< groups with more are left out

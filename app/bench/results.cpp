@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view FORMAT = "lamplight-results";
+constexpr std::string_view RESULTS_FORMAT = "lamplight-results";
 
 json to_json(const Series& series) {
   return {
@@ -109,7 +109,7 @@ json to_json(const Spread& s) {
 json new_results(const RunInfo& run, const Suite& suite) {
   json series = json::array();
   for (const Series& one : suite.series) series.push_back(to_json(one));
-  return {{"format", FORMAT},
+  return {{"format", RESULTS_FORMAT},
           {"version", RESULTS_VERSION},
           {"run",
            {{"command", run.command},
@@ -132,7 +132,7 @@ json load_results(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(fmt::format("{}: cannot be read; expected a results.json of lamp bench", file.string()));
   const json document = json::parse(stream, nullptr, /* allow_exceptions= */ false);
-  if (!document.is_object() || document.value("format", json()) != FORMAT)
+  if (!document.is_object() || document.value("format", json()) != RESULTS_FORMAT)
     throw Error(fmt::format("{}: is no results file; expected a results.json of lamp bench", file.string()));
   if (document.value("version", json()) != RESULTS_VERSION)
     throw Error(fmt::format("{}: version: expected {}, got {}; measure anew, or use the lamp that wrote it",

@@ -36,6 +36,7 @@ struct BenchOptions {
   std::string verifier = "auto";
   std::string max_size;
   std::uint32_t max_lights = MAX_LIGHTS;
+  double scale = 1.0;
   std::optional<std::uint32_t> frames, warm_up;
   std::string command_line;
 };
@@ -168,6 +169,7 @@ Exit bench(const BenchOptions& o) {
   BenchDevice device(o.request);
   const Expansion expansion = expand(suite, {.frames = o.frames,
                                              .warm_up = o.warm_up,
+                                             .scale = o.scale,
                                              .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,
                                              .max_lights = o.max_lights,
                                              .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
@@ -212,7 +214,7 @@ void refuse_with_suite(const CLI::App& command, const std::string& name) {
     if (command.count(option) != 0)
       throw Error(
           fmt::format("{}: belongs to a scene, and {} is a suite, which says its own; a suite takes --max-lights, "
-                      "--max-size, --frames and --warm-up",
+                      "--max-size, --scale, --frames and --warm-up",
                       option, name));
 }
 
@@ -252,11 +254,15 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
       ->check(whole_number(0, MAX_LIGHTS));
   add_verifier_option(*command, o->verifier);
   command->add_option("--max-size", o->max_size, "leave out a suite's configurations with more pixels, WIDTHxHEIGHT");
+  command->add_option("--scale", o->scale, "of all sizes, each side: for devices that a suite's are too large for")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0));
   command->footer(
       "Examples:\n"
       "  lamp bench quick --out out/quick\n"
       "  lamp bench atrium --lights 16384 --size 1920x1080 --out out/atrium\n"
       "  lamp bench my_suite.json --out out/mine\n"
+      "  lamp bench stewart-1.6 --scale 0.25 --max-lights 1024 --out out/small\n"
       "Exit code 1: a method's output was wrong, or the run was stopped before its end.");
   for (const char* argument : arguments)
     o->command_line += (o->command_line.empty() ? "" : " ") + shell_quoted(argument);

@@ -99,8 +99,8 @@ nlohmann::json suites_json() {
 void print_suites() {
   for (const std::string& name : suite_names()) {
     const Suite suite = load_suite(name);
-    fmt::print("{:<15}{}\n", name, suite.title);
-    if (!suite.source.empty()) fmt::print("{:<15}{}\n", "", suite.source);
+    fmt::print("{:<21}{}\n", name, suite.title);
+    if (!suite.source.empty()) fmt::print("{:<21}{}\n", "", suite.source);
   }
 }
 

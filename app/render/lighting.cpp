@@ -32,15 +32,6 @@ std::string variant(const char* shader, std::string_view lookup) {
   return std::string(shader) + "@" + std::string(lookup);
 }
 
-std::vector<vulkan::Use> lookup_uses(const vulkan::BoundLookUp& lookup, VkPipelineStageFlags2 stages) {
-  std::vector<vulkan::Use> uses;
-  for (vulkan::Use use : lookup.uses) {
-    use.stages = stages;
-    if (use.resource.image == VK_NULL_HANDLE) uses.push_back(use);
-  }
-  return uses;
-}
-
 std::vector<vulkan::Bound> with_decals(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
   bound.push_back({BINDING_DECALS, frame.data.decals()});
   return bound;
@@ -241,7 +232,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
                                 .depth_use = Attachments::Depth::test};
   const vulkan::BoundLookUp lookup = runner_.lookup(frame.data.plan_inputs(frame.targets.depth.sampled()));
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
-  append(uses, lookup_uses(lookup, GRAPHICS_SHADERS));
+  append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS)});
   recorder.begin_pass("forward+ shading", uses);
@@ -263,7 +254,7 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
-  append(uses, lookup_uses(lookup, GRAPHICS_SHADERS));
+  append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(bound, lookup.resources);
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
@@ -291,7 +282,7 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.data.lights(), COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
-  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup_uses(lookup, COMPUTE));
+  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup.buffer_uses(COMPUTE));
   append(bound, lookup.resources);
   const std::uint32_t group_width = fused() ? runner_.plan().fused->group_width : SHADE_GROUP_PX;
   const std::uint32_t group_height = fused() ? runner_.plan().fused->group_height : SHADE_GROUP_PX;
@@ -340,7 +331,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
       .colors = {{&frame.targets.hdr}}, .depth = &frame.targets.depth, .depth_use = Attachments::Depth::test};
   const vulkan::BoundLookUp lookup = runner.lookup(inputs);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
-  append(uses, lookup_uses(lookup, GRAPHICS_SHADERS));
+  append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS)});
   recorder.begin_pass("transparent", uses);

@@ -4,15 +4,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "scene/atrium.h"
 #include "scene/mesh_builder.h"
 
 namespace lamp::app::procedural::atrium {
 namespace {
-
-constexpr float PI = std::numbers::pi_v<float>;
 
 /// A frame of constant height that reaches `in` and `out` metres from a rectangle.
 void add_band(Geometry& geometry, glm::vec2 half, glm::vec2 in_out, float y0, float y1) {

@@ -4,15 +4,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "scene/atrium.h"
 #include "scene/mesh_builder.h"
 
 namespace lamp::app::procedural::atrium {
 namespace {
-
-constexpr float PI = std::numbers::pi_v<float>;
 
 /// A sheet that hangs from y = 0 in the plane z = 0, with folds that deepen downwards.
 struct Hanging {

@@ -4,15 +4,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "scene/atrium.h"
 #include "scene/mesh_builder.h"
 
 namespace lamp::app::procedural::atrium {
 namespace {
-
-constexpr float PI = std::numbers::pi_v<float>;
 
 /// Points of a convex half circle of a profile (a torus moulding) from y0 to y1 that bulges outwards.
 void add_torus(std::vector<glm::vec2>& profile, float radius, float y0, float y1) {

@@ -3,7 +3,6 @@
 // Promise: roadway pieces meet edge to edge with shared corners; everything else is drawn by instances.
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <numbers>
 
 #include "scene/blocks.h"
 #include "scene/foliage.h"
@@ -13,7 +12,6 @@
 namespace lamp::app::procedural::blocks {
 namespace {
 
-constexpr float PI = std::numbers::pi_v<float>;
 constexpr float HALF_STREET = STREET_M / 2.0F;
 
 /// A piece of roadway between two points of the street's middle.

@@ -3,7 +3,6 @@
 // Promise: walls share corners at door heights (no T-joints in sight) and reach into floors and ceiling.
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <numbers>
 #include <vector>
 
 #include "scene/corridor.h"
@@ -11,8 +10,6 @@
 
 namespace lamp::app::procedural::corridor {
 namespace {
-
-constexpr float PI = std::numbers::pi_v<float>;
 
 /// A straight wall along x in the plane z = 0 with door openings, `thick` around it; no ends and no top.
 struct Wall {

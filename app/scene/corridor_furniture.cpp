@@ -3,7 +3,6 @@
 // Promise: nothing stands in a doorway or in the flight's way.
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <numbers>
 #include <vector>
 
 #include "scene/corridor.h"
@@ -13,8 +12,6 @@
 
 namespace lamp::app::procedural::corridor {
 namespace {
-
-constexpr float PI = std::numbers::pi_v<float>;
 
 /// A piece of furniture: meshes that are drawn together; its back is towards -z, its middle at the origin.
 using Piece = std::vector<std::uint32_t>;

@@ -7,12 +7,15 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "scene/scene.h"
 
 namespace lamp::app::procedural {
+
+inline constexpr float PI = std::numbers::pi_v<float>;
 
 /// A triangle list in its own object space, metres.
 struct Geometry {

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "scene/mesh_builder.h"
 
 namespace lamp::app::procedural {
 namespace {
 
-constexpr float PI = std::numbers::pi_v<float>;
 constexpr float CREASE_COSINE = 0.766F;  // cos 40 degrees
 
 /// A circle of vertices: one profile point with one of its normals.

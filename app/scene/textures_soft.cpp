@@ -12,7 +12,7 @@
 namespace lamp::app::procedural {
 namespace {
 
-constexpr float PI = std::numbers::pi_v<float>;
+constexpr float HALF_TURN = std::numbers::pi_v<float>;
 constexpr glm::vec2 BOARDS_M{1.0F};
 
 /// Leaves scattered over `count` x `count` cells: alpha, and which leaf is on top.
@@ -33,7 +33,7 @@ LeafHit leaf_at(glm::vec2 p, std::uint32_t count) {
       const auto y = static_cast<std::uint32_t>((home.y + dy + n) % n);
       const glm::vec2 center =
           glm::vec2(home + glm::ivec2(dx, dy)) + glm::vec2(hash_unit(x, y, 11), hash_unit(x, y, 12));
-      const float turn = hash_unit(x, y, 13) * 2.0F * PI;
+      const float turn = hash_unit(x, y, 13) * 2.0F * HALF_TURN;
       const glm::vec2 d = scaled - center;
       const glm::vec2 local(d.x * std::cos(turn) + d.y * std::sin(turn), d.y * std::cos(turn) - d.x * std::sin(turn));
       const float length = local.x / 0.62F;
@@ -83,7 +83,7 @@ Surface planks(const glm::vec3& color) {
 Surface cloth() {
   return {.name = "cloth", .size = 256, .tile_m = glm::vec2(0.25F), .texel = [](glm::vec2 p) {
             const glm::vec2 thread = p * 32.0F;
-            const glm::vec2 wave = glm::abs(glm::sin(thread * PI));
+            const glm::vec2 wave = glm::abs(glm::sin(thread * HALF_TURN));
             const bool over = (static_cast<int>(thread.x) + static_cast<int>(thread.y)) % 2 == 0;
             const float weave = over ? wave.x : wave.y;
             Texel texel;
@@ -106,7 +106,8 @@ Surface banner(const std::string& name, const BannerLook& look, glm::vec2 size_m
             const float row = metres.y - size_m.y * 0.78F;  // zigzags near the hem
             const float zigzag = std::abs(glm::fract(metres.x / (size_m.x / 5.0F)) - 0.5F) * 0.2F;
             const bool in_zigzag = border > 0.13F && row > zigzag && row < zigzag + 0.07F;
-            const float weave = std::abs(std::sin(metres.x * 120.0F * PI)) * std::abs(std::sin(metres.y * 90.0F * PI));
+            const float weave =
+                std::abs(std::sin(metres.x * 120.0F * HALF_TURN)) * std::abs(std::sin(metres.y * 90.0F * HALF_TURN));
             const bool gold = in_border || in_diamond || in_zigzag;
             Texel texel;
             texel.color = (gold ? look.band : look.field) * (0.8F + 0.25F * noise(p * 3.0F)) * (0.9F + 0.15F * weave);

@@ -7,7 +7,6 @@
 namespace lamp::cli {
 namespace {
 
-constexpr int BAD_INPUT = 2;
 constexpr int NO_DEVICE = 3;
 
 using BadInput = CliTest;

@@ -12,8 +12,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int CHECK_FAILED = 1;
-constexpr int BAD_INPUT = 2;
-
 class Bench : public CliTest {
  protected:
   /// A suite that takes a second: pictures of 32 x 18 pixels.
@@ -242,6 +240,7 @@ TEST_F(Bench, BadInput) {
   expect_error(BAD_INPUT, {"bench", "plane", "--option", "tile=8"}, {"--option", "--method"});
   expect_error(BAD_INPUT, {"bench", "plane", "--frames", "0"}, {"--frames", "from 1"});
   expect_error(BAD_INPUT, {"bench", "quick", "--max-size", "big"}, {"--max-size 'big'"});
+  expect_error(BAD_INPUT, {"bench", "quick", "--scale", "2"}, {"--scale"});
   write_suite("[4]", R"(, "lihgts": [5])");
   expect_error(BAD_INPUT, MINE, {"mine.json: series 'small': key 'lihgts'", "lights"});
   write_suite("[4]", R"(, "cameras": ["nowhere"])");

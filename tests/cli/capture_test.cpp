@@ -14,7 +14,6 @@
 namespace lamp::cli {
 namespace {
 
-constexpr int BAD_INPUT = 2;
 const std::string SCRIPT = std::string(LAMPLIGHT_SOURCE_DIR) + "/tests/cli/court.py";
 
 using Capture = CliTest;

@@ -15,6 +15,8 @@
 
 namespace lamp::cli {
 
+inline constexpr int BAD_INPUT = 2;  ///< the exit code
+
 /// What a run of `lamp` left.
 struct Outcome {
   int exit_code = -1;  ///< -1: it was ended by a signal

@@ -114,6 +114,11 @@ TEST(BenchSuite, SweepsMultiply) {
   const Expansion fewer = expand(suite, {.max_lights = 2, .max_pixels = 64});
   EXPECT_EQ(fewer.groups.size(), 2U * 2U * 1U * 2U);
   EXPECT_EQ(fewer.left_out, (24U - 8U) * 3U);
+  const Expansion smaller = expand(suite, {.scale = 0.3, .max_pixels = 12});
+  EXPECT_EQ(smaller.left_out, 0U);
+  EXPECT_EQ(smaller.groups.front().size, "2x2");
+  EXPECT_EQ(smaller.groups.back().size, "5x2");
+  EXPECT_EQ(expand(suite, {.scale = 0.01}).groups.back().size, "1x1");
 }
 
 TEST(BenchSuite, SweptOptionsBelongToEveryMethod) {

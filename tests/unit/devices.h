@@ -28,4 +28,11 @@ inline const DeviceTraits LARGE_DEVICE{.max_storage_buffer_bytes = 0xffffffffU,
                                        .subgroup_arithmetic = true,
                                        .conservative_raster = true};
 
+/// The same without subgroup operations.
+inline const DeviceTraits LARGE_PLAIN_DEVICE = [] {
+  DeviceTraits traits = LARGE_DEVICE;
+  traits.subgroup_ballot = traits.subgroup_arithmetic = false;
+  return traits;
+}();
+
 }  // namespace lamp::test

@@ -23,6 +23,7 @@ using lamp::OptionSpec;
 using lamp::Plan;
 using lamp::Problem;
 using lamp::test::LARGE_DEVICE;
+using lamp::test::LARGE_PLAIN_DEVICE;
 using lamp::test::LEAST_DEVICE;
 using lamp::test::SOFTWARE_DEVICE;
 
@@ -83,7 +84,7 @@ TEST_P(EveryMethod, PlansOrNamesTheLimit) {
   for (const std::vector<std::string>& settings : settings_of(method)) {
     const lamp::Result<Options> options = lamp::resolve_options(method, settings);
     ASSERT_TRUE(options) << options.error().text();
-    for (const DeviceTraits& traits : {LARGE_DEVICE, SOFTWARE_DEVICE, LEAST_DEVICE})
+    for (const DeviceTraits& traits : {LARGE_DEVICE, LARGE_PLAIN_DEVICE, SOFTWARE_DEVICE, LEAST_DEVICE})
       for (const glm::uvec2 size : settings.empty() ? std::span<const glm::uvec2>(SIZES) : std::span(FEWER_SIZES))
         for (const std::uint32_t lights : CAPACITIES) {
           SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + ", " + std::to_string(lights) + " " +
@@ -111,17 +112,22 @@ TEST_P(EveryMethod, PlansOrdinaryPicturesOnTheLeastDevice) {
     }
 }
 
+// A row names the look-up of the plain walk.
 TEST_P(EveryMethod, PlansWithItsDefaultsAsItsRowSays) {
   const Method& method = *GetParam();
-  const auto made = lamp::make_plan(
-      method,
-      {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE});
-  ASSERT_TRUE(made) << made.error().text();
-  const std::string scalar = std::string(method.result) + "_scalar";  // the same result, walked otherwise
-  EXPECT_EQ(made.value().lookup.name, made.value().lookup.name == scalar ? scalar : method.result);
-  EXPECT_EQ(made.value().ordered, method.ordered);
-  EXPECT_EQ(made.value().approximate, method.approximate);
-  EXPECT_EQ(made.value().any_depth, method.any_depth);
+  const Options defaults = defaults_of(method);
+  const bool has_walks = std::ranges::find(method.options, "walk", &OptionSpec::key) != method.options.end();
+  const bool scalar = has_walks && defaults.word("walk") != "plain";
+  for (const DeviceTraits& traits : {LARGE_DEVICE, LARGE_PLAIN_DEVICE}) {
+    const auto made = lamp::make_plan(
+        method, {.width = 640, .height = 360, .light_capacity = 100, .options = defaults, .traits = traits});
+    ASSERT_TRUE(made) << made.error().text();
+    EXPECT_EQ(made.value().lookup.name,
+              std::string(method.result) + (scalar && traits.subgroup_arithmetic ? "_scalar" : ""));
+    EXPECT_EQ(made.value().ordered, method.ordered);
+    EXPECT_EQ(made.value().approximate, method.approximate);
+    EXPECT_EQ(made.value().any_depth, method.any_depth);
+  }
 }
 
 TEST_P(EveryMethod, ReadsDepthExactlyIfItsRowSaysSo) {

@@ -13,6 +13,7 @@ layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[];
 layout(set = 0, binding = 7, scalar) writeonly buffer SplitBuffer { float splits[]; };   // a tile
 layout(set = 0, binding = 8, scalar) buffer CounterBuffer { Counters counters; };
 layout(set = 0, binding = 9, scalar) writeonly buffer HeaderBuffer { uvec2 headers[]; };  // offset, points | spots << 16
+#include "methods/tile_overflow.glsl"
 
 const uint OVERFLOWED = ~0u;
 shared uint s_offset;
@@ -30,19 +31,25 @@ uint count_points(uint range) {
   return low;
 }
 
-// Thread 0: takes a part of the shared list and writes the header.
-void allocate(uint cell, uint range) {
-  const uint count = s_light_count[range];
-  s_offset = list_fits(range) ? atomicAdd(counters.entries_needed, count) : OVERFLOWED;
-  if (!list_fits(range)) atomicMax(counters.longest_list, count);
-  if (s_offset > ENTRIES || count > ENTRIES - s_offset) s_offset = OVERFLOWED;
-  if (s_offset == OVERFLOWED) {
-    atomicAdd(counters.overflowed_cells, 1u);
-    headers[cell] = uvec2(OVERFLOWED, 0u);
-    return;
+// Takes a part of the shared list, or counts that there is none.
+uint take_entries(uint range) {
+  if (!list_fits(range)) {
+    count_overflow(range);
+    return OVERFLOWED;
   }
-  const uint points = count_points(range);
-  headers[cell] = uvec2(s_offset, points | (count - points) << 16);
+  const uint count = s_light_count[range];
+  const uint offset = atomicAdd(counters.entries_needed, count);
+  if (offset <= ENTRIES && count <= ENTRIES - offset) return offset;
+  atomicAdd(counters.overflowed_cells, 1u);
+  return OVERFLOWED;
+}
+
+// By thread 0.
+void write_header(uint cell, uint range) {
+  s_offset = take_entries(range);
+  const uint points = s_offset == OVERFLOWED ? 0u : count_points(range);
+  const uint spots = s_offset == OVERFLOWED ? 0u : s_light_count[range] - points;
+  headers[cell] = uvec2(s_offset, points | spots << 16);
 }
 
 void main() {
@@ -51,7 +58,7 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) splits[tile] = ranges.split;
   for (uint range = 0u; range < RANGES; ++range) {
     barrier();  // the last range's offset is read before it changes
-    if (gl_LocalInvocationIndex == 0u) allocate(tile * RANGES + range, range);
+    if (gl_LocalInvocationIndex == 0u) write_header(tile * RANGES + range, range);
     barrier();  // the offset before it is used
     if (s_offset == OVERFLOWED) continue;
     for (uint i = gl_LocalInvocationIndex; i < s_light_count[range]; i += gl_WorkGroupSize.x)

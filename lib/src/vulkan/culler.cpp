@@ -72,13 +72,8 @@ std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame)
   vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
   runner_.record(recorder, inputs);
 
-  std::vector<Use> readers;
-  for (const Bound& bound : runner_.lookup(inputs).resources)
-    if (bound.resource.buffer != VK_NULL_HANDLE)
-      readers.push_back({.resource = bound.resource,
-                         .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                         .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
-  recorder.barrier(readers);
+  recorder.barrier(runner_.lookup(inputs).buffer_uses(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                                                      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT));
   runner_.record_counts(recorder, counts_, frames_ % FRAMES_IN_FLIGHT * count_bytes(runner_.plan()));
   return frames_;
 }

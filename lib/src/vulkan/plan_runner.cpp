@@ -142,6 +142,13 @@ Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs) const {
   }
 }
 
+std::vector<Use> BoundLookUp::buffer_uses(VkPipelineStageFlags2 stages) const {
+  std::vector<Use> of_buffers;
+  for (const Use& use : uses)
+    if (use.resource.buffer != VK_NULL_HANDLE) of_buffers.push_back({use.resource, stages, use.access});
+  return of_buffers;
+}
+
 BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
   const LookUp& lookup = which == Passes::fused ? plan_.fused->lookup : plan_.lookup;
   BoundLookUp bound{.name = lookup.name};

@@ -33,6 +33,9 @@ struct BoundLookUp {
   std::vector<Constant> constants;
   std::vector<Bound> resources;
   std::vector<Use> uses;
+
+  /// Those of buffers, by shaders of these stages.
+  [[nodiscard]] std::vector<Use> buffer_uses(VkPipelineStageFlags2 stages) const;
 };
 
 /// The pass that clears a plan's `zeroed` buffers, before all others.
