@@ -57,31 +57,33 @@ DepthSpan depth_span(const Eye& eye, const shared::Light& light) {
   return {.middle = middle, .near = middle - reach, .far = middle + reach};
 }
 
-/// Where depth is cut, as common/slices.glsl does it.
+/// Where depth is cut, as common/slices.glsl does it. In 32 bits, which is far better than SLICE_ROUNDING.
 class Bins {
  public:
   explicit Bins(std::span<const std::uint32_t> constants)
-      : last_(constants[0] - 1), linear_(constants[1] == shared::SLICES_LINEAR), near_m_(constants[2] * 1e-3) {
+      : last_(static_cast<float>(constants[0] - 1)), linear_(constants[1] == shared::SLICES_LINEAR) {
     const double inner = std::max(1U, constants[0] - std::min(constants[0], 2U));
+    const double near_m = constants[2] * 1e-3;
     const double far_m = constants[3];
-    bins_a_unit_ = inner / (linear_ ? far_m - near_m_ : std::log2(far_m / near_m_));
+    const double begin = linear_ ? near_m : std::log2(near_m);
+    const double end = linear_ ? far_m : std::log2(far_m);
+    bins_a_unit_ = static_cast<float>(inner / (end - begin));
+    begin_ = static_cast<float>(begin);
+    least_m_ = static_cast<float>(0.5 * near_m);
   }
-  [[nodiscard]] std::uint32_t count() const { return last_ + 1; }
-  /// Bin 0 for whatever is nearer than the near end. A logarithm in 32 bits is far better than SLICE_ROUNDING.
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(last_) + 1; }
+  /// Bin 0 for whatever is nearer than the near end.
   [[nodiscard]] std::uint16_t at(float z_view) const {
-    const double inner = linear_ ? (z_view - near_m_) * bins_a_unit_ : octaves(z_view) * bins_a_unit_;
-    return static_cast<std::uint16_t>(std::min(std::max(0.0, 1.0 + inner), static_cast<double>(last_)));
+    const float along = linear_ ? z_view : std::log2(std::max(z_view, least_m_));
+    return static_cast<std::uint16_t>(std::min(std::max(0.0F, 1.0F + (along - begin_) * bins_a_unit_), last_));
   }
 
  private:
-  /// Above the near end; below it any negative number.
-  [[nodiscard]] double octaves(float z_view) const {
-    return std::log2(static_cast<float>(std::max<double>(z_view, 0.5 * near_m_) / near_m_));
-  }
-
-  std::uint32_t last_;
+  float last_;
   bool linear_;
-  double near_m_, bins_a_unit_;
+  float begin_;  ///< of bin 1: metres, or their logarithm
+  float bins_a_unit_;
+  float least_m_;  ///< in bin 0, and has a logarithm
 };
 
 /// Bins that a light reaches into. first > last: none.
