@@ -12,6 +12,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int CHECK_FAILED = 1;
+
 class Bench : public CliTest {
  protected:
   /// A suite that takes a second: pictures of 32 x 18 pixels.

@@ -1,7 +1,7 @@
 // Walks lists with one cell at a time for the whole subgroup: threads whose cell has its turn walk it together, the others
 // wait. What is loaded of a list, and for a light, is then the same for all threads that walk.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
-// Promise: each thread walks its own cell once, whichever threads are active with it.
+// Promise: each thread that the device counts as active walks its own cell once, whichever are active with it.
 // Needs: walk_of_cell, walk_of_cell_in, walk_nothing.
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_ballot : require
