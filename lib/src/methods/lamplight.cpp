@@ -31,11 +31,12 @@ constexpr std::uint32_t WANTED_BLOCKS = 256;   // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;  // lights
 constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
 constexpr std::uint32_t THREADS = 256;
-constexpr std::uint32_t GROUP_HITS = 2;  // for each thread of a group, in shared memory
-constexpr std::uint32_t LIST_THREADS = 256;
+constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
+constexpr std::uint32_t GROUP_SUBGROUPS = 8;        // more of them than of their lights cost a software device its time
 constexpr std::uint32_t THREAD_PAIRS = 2;           // of light and row for each thread of it, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t CELL_PIECES = 2;            // for each cell, besides those of mean_cells
+constexpr std::uint64_t FEW_PIECES = 1024;          // as many instead, unless all lights in all cells take fewer
 constexpr std::uint64_t MEAN_CAPACITY = 32;         // default of the option
 constexpr std::uint64_t LIST_LIGHTS = 4;            // entries for each light that are room as well, within LIST_BUDGET
 constexpr std::uint64_t LIST_BUDGET = 5U << 18;     // entries, 5 MiB: what small pictures leave of it is room as well
@@ -67,6 +68,11 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
 }
 
+/// Of a pass whose subgroups take lights of their own: GROUP_SUBGROUPS where subgroups are small.
+std::uint32_t light_threads(const Problem& problem) {
+  return group_threads(problem, std::min(THREADS, GROUP_SUBGROUPS * problem.traits.subgroup_size));
+}
+
 std::uint32_t block_size(std::uint32_t lights) {
   const std::uint32_t wanted = parts::divide_up(parts::divide_up(lights, WANTED_BLOCKS), SMALLEST_BLOCK);
   return std::clamp(wanted * SMALLEST_BLOCK, SMALLEST_BLOCK, LARGEST_BLOCK);
@@ -78,6 +84,15 @@ std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
   const std::uint64_t groups = problem.traits.max_groups[0];
   return std::min({MOST_ENTRIES / PIECE, groups, groups * group_threads(problem, THREADS) / PIECE,
                    bytes / s.row_bytes() / s.cell_rows, bytes / sizeof(shared::LightHit) / PIECE});
+}
+
+/// With mean_cells=0 two a cell and no more.
+std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
+  const std::uint64_t lights = parts::capacity(problem);
+  const std::uint64_t room = lights * problem.options.integer("mean_cells");
+  const std::uint64_t all = s.cell_count * ((lights + PIECE - 1) / PIECE);
+  const std::uint64_t few = room == 0 ? 0 : std::min(FEW_PIECES, all);
+  return (room + PIECE - 1) / PIECE + std::max(CELL_PIECES * s.cell_count, few);
 }
 
 /// Tiles, slices, and cells of them.
@@ -106,9 +121,7 @@ Sizes sizes_of(const Problem& problem) {
   const std::uint64_t lights = parts::capacity(problem);
   s.block = block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);
-  const std::uint64_t room = lights * problem.options.integer("mean_cells");
-  s.pieces = static_cast<std::uint32_t>(
-      std::min((room + PIECE - 1) / PIECE + CELL_PIECES * s.cell_count, most_pieces(problem, s)));
+  s.pieces = static_cast<std::uint32_t>(std::min(wanted_pieces(problem, s), most_pieces(problem, s)));
   s.hits = s.pieces * PIECE;  // as many as entries: each becomes one
   if (s.bits) return s;
   const std::uint64_t rows = s.tiles.count() * s.slices;
@@ -227,7 +240,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const bool pruned = problem.options.word("prune") == "pixel";
   const std::uint32_t run_words = parts::divide_up(s.block, 32);
   const std::uint32_t mark_words = s.group_rows * shared::PIECE_WORDS;
-  const std::uint32_t threads = group_threads(problem, LIST_THREADS);
+  const std::uint32_t threads = light_threads(problem);
   const std::uint32_t pairs = THREAD_PAIRS * threads;
   Pass pass{
       .name = s.bits ? "tile bits" : "tile lists",
@@ -319,7 +332,7 @@ std::vector<OptionSpec> lamplight_options() {
           parts::slice_near_option(),
           parts::slice_far_option(),
           {.key = "mean_cells",
-           .help = "cells a light, on average, that there is room for",
+           .help = "cells a light, on average, that there is room for; 0: none but for two pieces a cell",
            .fallback = "1",
            .min = 0,
            .max = 4096},
