@@ -178,7 +178,7 @@ float picture_difference(Session& session, Candidate& candidate, const HdrImage&
   if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
     Lighting fused =
         session.lighting(*candidate.lighting.info().method, candidate.options, ShadingPath::tiled_deferred);
-    difference = std::max(difference, max_abs_difference(session.renderer().render(fused).image, reference));
+    difference = std::max(difference, max_abs_difference(session.renderer().relight(fused).image, reference));
   }
   return difference;
 }

@@ -208,7 +208,7 @@ void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
   if (info_.path == ShadingPath::forward)
     frame.geometry.record_depth(recorder, frame.scene, frame.data, frame.targets);
-  else
+  else if (!frame.surfaces_drawn || decals_)
     record_surfaces(recorder, frame);
 
   if (fused())

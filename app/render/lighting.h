@@ -50,6 +50,7 @@ struct LightingFrame {
   const Targets& targets;
   const Geometry& geometry;
   glm::vec3 eye{0.0F};
+  bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none
 };
 
 class Lighting {

@@ -63,6 +63,7 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 
 void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
+  surfaces_drawn_ = surfaces_drawn_ && view == view_;
   view_ = view;
   data_.set(view, lights, decals);
 }
@@ -84,7 +85,18 @@ void Renderer::record_readback(vulkan::Recorder& recorder, const GpuImage& image
   recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
 }
 
+// Forward paths leave the G-buffer as it was, decals are painted into it.
+void Renderer::note_surfaces(const Lighting& lighting) {
+  if (lighting.info().path != ShadingPath::forward) surfaces_drawn_ = !lighting.info().decals;
+}
+
 Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up) {
+  return render_frames(lighting, frames, warm_up, false);
+}
+
+Rendered Renderer::relight(Lighting& lighting) { return render_frames(lighting, 1, 0, true); }
+
+Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
   const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
   const Plan& plan = lighting.runner().plan();
@@ -97,7 +109,9 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
       timestamps_.reset(commands, parts_of(lighting, timing));
       vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
       data_.record_upload(recorder);
-      lighting.record(recorder, lighting_frame());
+      LightingFrame frame = lighting_frame();
+      frame.surfaces_drawn = relights && surfaces_drawn_;
+      lighting.record(recorder, frame);
       timestamps_.finish(commands);
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
@@ -105,6 +119,7 @@ Rendered Renderer::render(Lighting& lighting, std::uint32_t frames, std::uint32_
     });
     if (i >= warm_up) times.add(timestamps_.read(), lighting);
   }
+  note_surfaces(lighting);
   tracker_.forget(picture.handle());
   tracker_.forget(counts.handle());
   Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
@@ -124,6 +139,7 @@ std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing 
     lighting.record(recorder, lighting_frame());
     timestamps_.finish(commands);
   });
+  note_surfaces(lighting);
   return timestamps_.read();
 }
 
@@ -150,6 +166,7 @@ void Renderer::draw_surfaces(Lighting* decals) {
     else
       geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
   });
+  surfaces_drawn_ = decals == nullptr;
 }
 
 std::vector<float> Renderer::draw_depth() {

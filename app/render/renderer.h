@@ -64,6 +64,10 @@ class Renderer {
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
 
+  /// The same of one frame, for pictures that are checked and not timed: surfaces that an earlier frame of this view left
+  /// in the G-buffer are not drawn again.
+  [[nodiscard]] Rendered relight(Lighting& lighting);
+
   /// Records and submits one frame, reads nothing back but its times.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 
@@ -101,6 +105,8 @@ class Renderer {
 
  private:
   void draw_surfaces(Lighting* decals = nullptr);
+  [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
+  void note_surfaces(const Lighting& lighting);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>
@@ -114,6 +120,7 @@ class Renderer {
   FrameData data_;
   Geometry geometry_;
   View view_;
+  bool surfaces_drawn_ = false;  ///< the G-buffer has those of view_, without decals
   vulkan::AccessTracker tracker_;
   vulkan::Timestamps timestamps_;
 };

@@ -51,7 +51,7 @@ void check_findings(const Findings& findings, const LitCase& lit, const Plan& pl
 
 /// Returns how many cells did not fit.
 std::uint32_t check_picture(Renderer& renderer, Lighting& lighting, const LitCase& lit) {
-  const Rendered rendered = renderer.render(lighting);
+  const Rendered rendered = renderer.relight(lighting);
   const Plan& plan = lighting.runner().plan();
   if (!plan.approximate) {
     EXPECT_LE(max_abs_difference(rendered.image, lit.reference), picture_tolerance(plan, lit.reference));

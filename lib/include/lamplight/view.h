@@ -42,6 +42,8 @@ class View {
   /// The GPU's record of this view.
   [[nodiscard]] shared::Frame frame(std::uint32_t light_count) const;
 
+  friend bool operator==(const View&, const View&) = default;
+
  private:
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;
