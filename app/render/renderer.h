@@ -64,8 +64,8 @@ class Renderer {
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
 
-  /// The same of one frame, for pictures that are checked and not timed: surfaces that an earlier frame of this view left
-  /// in the G-buffer are not drawn again.
+  /// The same of one frame, for pictures that are checked and not timed: surfaces that an earlier frame of this view
+  /// left in the G-buffer are not drawn again.
   [[nodiscard]] Rendered relight(Lighting& lighting);
 
   /// Records and submits one frame, reads nothing back but its times.
