@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "error.h"
@@ -17,7 +19,7 @@ template <class T>
 }
 
 inline void check(VkResult result, const char* what) {
-  if (result != VK_SUCCESS) throw Error(std::string(what) + ": " + vulkan::result_text(result), Exit::no_device);
+  if (result != VK_SUCCESS) throw Error(fmt::format("{}: {}", what, vulkan::result_text(result)), Exit::no_device);
 }
 
 }  // namespace lamp::app
