@@ -23,10 +23,10 @@ struct Point {
 
 // Small and large pictures, few and many lights, so that every term of the model leads somewhere. Without lights, and
 // with lights that reach next to nothing, pixels and lights cost what they cost alone: else lists, which grow with
-// both, would be given their part. Long lists in small pictures tell what the longest walk costs.
+// both, would be given their part.
 constexpr float TINY = 0.02F;
-constexpr Point GPU_POINTS[] = {{480, 270, 64},   {480, 270, 4096},   {480, 270, 32768},   {1920, 1080, 0},
-                                {1920, 1080, 64}, {1920, 1080, 2048}, {1920, 1080, 32768}, {1920, 1080, 32768, TINY}};
+constexpr Point GPU_POINTS[] = {{480, 270, 64},     {480, 270, 4096},    {1920, 1080, 0},          {1920, 1080, 64},
+                                {1920, 1080, 2048}, {1920, 1080, 32768}, {1920, 1080, 32768, TINY}};
 constexpr Point SOFTWARE_POINTS[] = {{96, 54, 64},   {96, 54, 1024},   {256, 144, 0},
                                      {256, 144, 64}, {256, 144, 2048}, {256, 144, 2048, TINY}};
 

@@ -15,7 +15,6 @@ namespace {
 constexpr double LIGHTS = 1e4;
 constexpr double PIXELS = 1e6;
 constexpr double PAIRS = 1e7;
-constexpr double WALK = 1e3;
 
 constexpr std::uint32_t FEW_LIGHTS = 64;
 constexpr double CLEARLY_FASTER = 0.8;  // of the time of `tiled`
@@ -30,15 +29,6 @@ double pixels_of(const Workload& w) { return static_cast<double>(w.width) * w.he
 double tiles_of(const AutoCandidate& candidate, const Workload& w) {
   return std::ceil(static_cast<double>(w.width) / candidate.tile_px) *
          std::ceil(static_cast<double>(w.height) / candidate.tile_px);
-}
-
-// What the slowest pixel walks, one light after the other while others wait for it.
-double longest_walk(const AutoCandidate& candidate, const Workload& w) {
-  if (candidate.walk == nullptr) return w.lights;
-  const TileLoad& load = load_of(candidate, w);
-  const double walked = load.*candidate.walk;
-  const double share = load.exact > 0.0 ? walked / load.exact : 1.0;
-  return std::clamp(load.longest * share, walked, std::max<double>(walked, w.lights));
 }
 
 template <std::size_t COUNT>
@@ -160,8 +150,7 @@ CullTerms cull_terms(const AutoCandidate& candidate, const Workload& w) {
 ShadeTerms shade_terms(const AutoCandidate& candidate, const Workload& w) {
   const double walked = candidate.walk == nullptr ? w.lights : load_of(candidate, w).*candidate.walk;
   const double words = candidate.bits ? std::ceil(w.capacity / 32.0) : 0.0;
-  return {1.0, pixels_of(w) / PIXELS, pixels_of(w) * walked / PAIRS, pixels_of(w) * words / PAIRS,
-          longest_walk(candidate, w) / WALK};
+  return {1.0, pixels_of(w) / PIXELS, pixels_of(w) * walked / PAIRS, pixels_of(w) * words / PAIRS};
 }
 
 Choice choose(const Calibration& calibration, const Workload& workload, const DeviceTraits& traits) {

@@ -181,7 +181,6 @@ void add_tile(Sums& sums, const Tile& tile, std::span<const Sphere> spheres, dou
   sums.load.walked += load.interval > LIST_PLACES ? all_lights : load.interval;
   sums.load.slab += load.slab;
   sums.load.exact += load.exact;
-  sums.load.longest = std::max(sums.load.longest, load.exact);
   sums.reached += reached;
   ++sums.tiles;
 }
@@ -203,24 +202,6 @@ Sums sums_of(const View& view, std::span<const float> depth, std::uint32_t px, s
     sums.load.*value /= count;
   sums.reached /= count;
   return sums;
-}
-
-// Long lists come of many small lights in one place, which sampled tiles may miss: those whose middles a tile shows,
-// and which reach the depth there.
-double fullest_tile(const View& view, std::span<const float> depth, std::uint32_t px, std::span<const Sphere> spheres) {
-  const glm::uvec2 size(view.width(), view.height());
-  const std::uint32_t tiles_wide = (size.x + px - 1) / px;
-  std::vector<double> held(std::size_t{tiles_wide} * ((size.y + px - 1) / px));
-  for (const Sphere& s : spheres) {
-    const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(s.center.x, s.center.y, -s.center.z, 1.0);
-    const glm::dvec2 at = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(size);
-    if (!(clip.w > 0.0 && at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y)) continue;
-    const glm::uvec2 pixel(at);
-    const float d = depth.empty() ? 0.0F : depth[std::size_t{pixel.y} * size.x + pixel.x];
-    if (!depth.empty() && (d <= 0.0F || std::abs(view.z_view(d) - s.center.z) > s.radius)) continue;
-    held[pixel.x / px + std::size_t{tiles_wide} * (pixel.y / px)] += s.weight;
-  }
-  return std::ranges::max(held);
 }
 
 // Cells of `lamplight` are squares of tiles, as small as their number allows.
@@ -245,8 +226,6 @@ Workload estimate_workload(const View& view, std::span<const float> depth, std::
   const auto all = static_cast<double>(lights.size());
   Sums fine = sums_of(view, depth, 8, spheres, all);
   Sums coarse = sums_of(view, depth, 16, spheres, all);
-  fine.load.longest = std::max(fine.load.longest, fullest_tile(view, depth, 8, spheres));
-  coarse.load.longest = std::max(coarse.load.longest, fullest_tile(view, depth, 16, spheres));
   add_cells(fine.load, view, depth, 8, spheres, all);
   add_cells(coarse.load, view, depth, 16, spheres, all);
   return {.width = view.width(),

@@ -50,7 +50,7 @@ std::vector<shared::Light> random_lights(std::size_t count, float range, bool sp
 Calibration even_calibration() {
   Calibration calibration{.device = "d", .driver = "e"};
   for (std::size_t i = 0; i < auto_candidates().size(); ++i)
-    calibration.costs.push_back({.cull = {1, 1, 1, 1, 1, 1}, .shade = {1, 1, 1, 1, 1}});
+    calibration.costs.push_back({.cull = {1, 1, 1, 1, 1, 1}, .shade = {1, 1, 1, 1}});
   return calibration;
 }
 
@@ -61,8 +61,7 @@ std::size_t candidate(const std::string& label) {
 }
 
 Workload some_workload(std::uint32_t lights) {
-  const TileLoad load{
-      .column = 60, .interval = 30, .walked = 30, .slab = 20, .exact = 15, .longest = 40, .cells = 3, .entries = 2};
+  const TileLoad load{.column = 60, .interval = 30, .walked = 30, .slab = 20, .exact = 15, .cells = 3, .entries = 2};
   return {.width = 1920, .height = 1080, .lights = lights, .capacity = lights, .tile8 = load, .tile16 = load};
 }
 
@@ -88,7 +87,6 @@ TEST(Workload, CloserTestsKeepFewerLights) {
     EXPECT_GE(load.interval, load.slab);
     EXPECT_GT(load.slab, load.exact);
     EXPECT_GE(load.exact, w.reached);
-    EXPECT_GE(load.longest, load.exact);
     EXPECT_EQ(load.interval, load.walked);
     EXPECT_GT(load.cells, load.entries);
     EXPECT_GT(load.entries, 0.0);
@@ -109,24 +107,6 @@ TEST(Workload, LongListsAreWalkedAsAllLights) {
   const Workload w = estimate_workload(test_view(), wall_depth(), random_lights(1000, 100.0F, false));
   EXPECT_NEAR(w.reached, 1000.0, 1e-6);
   EXPECT_NEAR(w.tile16.walked, 1000.0, 1e-6);
-}
-
-// A swarm of a few millimetres on the wall, in a tile that is not among the sampled ones.
-TEST(Workload, FindsTheFullestTile) {
-  for (const std::uint32_t count : {1000U, 50'000U}) {
-    std::vector<Light> lights(count);
-    for (Light& light : lights) {
-      light.position = {3.1F, 1.23F, -10.0F};
-      light.range = 0.004F;
-    }
-    const Workload swarm = estimate_workload(test_view(), wall_depth(), pack(lights));
-    const Workload hidden =
-        estimate_workload(test_view(), std::vector<float>(std::size_t{WIDTH} * HEIGHT, 0.02F), pack(lights));
-    for (const auto tile : {&Workload::tile8, &Workload::tile16}) {
-      EXPECT_NEAR((swarm.*tile).longest / count, 1.0, 1e-6);
-      EXPECT_EQ((hidden.*tile).longest, 0.0) << "behind a wall at 5 m";
-    }
-  }
 }
 
 TEST(Workload, SkyAndNothing) {
@@ -235,17 +215,6 @@ TEST(Choose, PredictsBySumsOfTerms) {
   const double tiles = 120.0 * 68.0;
   EXPECT_NEAR(tiled.cull_ms, 0.5 + 2.0 * 4096.0 * tiles / 1e7, 1e-9);
   EXPECT_NEAR(tiled.shade_ms, 3.0 * 1920.0 * 1080.0 * 30.0 / 1e7, 1e-9);
-}
-
-TEST(Choose, TheLongestWalkCounts) {
-  Calibration calibration = even_calibration();
-  calibration.costs[candidate("lamplight")] = {.shade = {0, 0, 0, 0, 2.0}};
-  calibration.costs[candidate("tiled")] = {.shade = {0, 0, 0, 0, 2.0}};
-  calibration.costs[candidate("all")] = {.shade = {0, 0, 0, 0, 2.0}};
-  const Choice choice = choose(calibration, some_workload(4096), large_device());
-  EXPECT_NEAR(choice.predictions[candidate("lamplight")].shade_ms, 2.0 * 0.040, 1e-9);
-  EXPECT_NEAR(choice.predictions[candidate("tiled")].shade_ms, 2.0 * 0.080, 1e-9) << "twice as many in the mean";
-  EXPECT_NEAR(choice.predictions[candidate("all")].shade_ms, 2.0 * 4.096, 1e-9);
 }
 
 TEST(Choose, WhatCannotRunIsNoCandidate) {

@@ -23,7 +23,6 @@ struct TileLoad {
   double walked = 0.0;    ///< interval, but all lights where more than 512 do: tiled lists have no more places
   double slab = 0.0;      ///< of column, what spans a pixel's own depth
   double exact = 0.0;     ///< lights that reach the tile's surfaces, cones included
-  double longest = 0.0;   ///< the same of the fullest tile, as far as seen: no mean
   double cells = 0.0;     ///< cells of `lamplight` whose columns a light touches, mean over all lights
   double entries = 0.0;   ///< of those, cells whose depths it touches: it is listed there
 };
@@ -60,13 +59,12 @@ struct AutoCandidate {
 [[nodiscard]] std::span<const AutoCandidate> auto_candidates();
 
 inline constexpr std::size_t CULL_TERMS = 6;
-inline constexpr std::size_t SHADE_TERMS = 5;
+inline constexpr std::size_t SHADE_TERMS = 4;
 using CullTerms = std::array<double, CULL_TERMS>;
 using ShadeTerms = std::array<double, SHADE_TERMS>;
 
 /// What the coefficients are multiplied with. Cull: 1; lights; pixels; lights times tiles (gathering) or times cells a
-/// light; entries of lists; pixels times lists (pruning). Shading: 1; pixels; lights walked; words walked; lights of
-/// the longest walk.
+/// light; entries of lists; pixels times lists (pruning). Shading: 1; pixels; lights walked; words walked.
 [[nodiscard]] CullTerms cull_terms(const AutoCandidate& candidate, const Workload& workload);
 [[nodiscard]] ShadeTerms shade_terms(const AutoCandidate& candidate, const Workload& workload);
 
