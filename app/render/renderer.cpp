@@ -85,8 +85,12 @@ void Renderer::record_readback(vulkan::Recorder& recorder, const GpuImage& image
   recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
 }
 
-// Forward paths leave the G-buffer as it was, decals are painted into it.
-void Renderer::note_surfaces(const Lighting& lighting) {
+void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
+  data_.record_upload(recorder);
+  LightingFrame frame = lighting_frame();
+  frame.surfaces_drawn = relights && surfaces_drawn_;
+  lighting.record(recorder, frame);
+  // Forward paths leave the G-buffer as it was, decals are painted into it.
   if (lighting.info().path != ShadingPath::forward) surfaces_drawn_ = !lighting.info().decals;
 }
 
@@ -108,10 +112,7 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
     context_.submit([&](VkCommandBuffer commands) {
       timestamps_.reset(commands, parts_of(lighting, timing));
       vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
-      data_.record_upload(recorder);
-      LightingFrame frame = lighting_frame();
-      frame.surfaces_drawn = relights && surfaces_drawn_;
-      lighting.record(recorder, frame);
+      record_frame(recorder, lighting, relights);
       timestamps_.finish(commands);
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
@@ -119,7 +120,6 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
     });
     if (i >= warm_up) times.add(timestamps_.read(), lighting);
   }
-  note_surfaces(lighting);
   tracker_.forget(picture.handle());
   tracker_.forget(counts.handle());
   Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
@@ -135,11 +135,9 @@ std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing 
   context_.submit([&](VkCommandBuffer commands) {
     timestamps_.reset(commands, parts_of(lighting, timing));
     vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
-    data_.record_upload(recorder);
-    lighting.record(recorder, lighting_frame());
+    record_frame(recorder, lighting, false);
     timestamps_.finish(commands);
   });
-  note_surfaces(lighting);
   return timestamps_.read();
 }
 

@@ -106,7 +106,7 @@ class Renderer {
  private:
   void draw_surfaces(Lighting* decals = nullptr);
   [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
-  void note_surfaces(const Lighting& lighting);
+  void record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>

@@ -157,6 +157,21 @@ TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
   EXPECT_GT(pieces->bytes / sizeof(shared::LightPiece), 60000);
 }
 
+// Below that no light can miss its place: needles may be in every cell.
+TEST(LamplightMemory, FewLightsHaveRoomInEveryCell) {
+  const Method& method = *find_method("lamplight").value();
+  const auto cell_entries = [&](std::uint32_t lights, const std::vector<std::string>& settings) {
+    Problem problem = problem_of(method, 640, 360, lights, test::LARGE_DEVICE);
+    problem.options = resolve_options(method, settings).value();
+    return make_plan(method, problem).value().capacities.front().entries;
+  };
+  constexpr std::uint64_t CELLS = 10ULL * 6;  // of 64 pixels
+  EXPECT_GE(cell_entries(1024, {}), CELLS * 1024);
+  EXPECT_GE(cell_entries(2048, {}), CELLS * 2048);
+  EXPECT_LT(cell_entries(65536, {}), CELLS * 65536);
+  EXPECT_EQ(cell_entries(1024, {"mean_cells=0"}), CELLS * 2 * shared::PIECE);
+}
+
 TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {
   constexpr std::uint64_t MIB = 1ULL << 20;
   const Method& method = *find_method("lamplight").value();

@@ -8,9 +8,10 @@ layout(constant_id = 3) const uint CELLS = 1;
 layout(constant_id = 4) const uint BLOCK = 256;    // lights
 layout(constant_id = 5) const uint HITS = 1;       // capacity
 layout(constant_id = 6) const uint GROUP_HITS = 1; // that wait in shared memory
+layout(constant_id = 7) const uint GROUP_FEW = 32; // lights
 #ifdef SLICED
-layout(constant_id = 7) const uint CELL_SLICES = 4;
-#define SLICE_CONSTANT 8
+layout(constant_id = 8) const uint CELL_SLICES = 4;
+#define SLICE_CONSTANT 9
 #include "common/slice_constants.glsl"
 #endif
 #define BOUNDS BOUNDS_MASK

@@ -7,6 +7,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 
 layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint GROUP_FEW = 32;  // lights
 #include "common/light_bounds.glsl"
 #include "common/tile_volume.glsl"
 #include "lamplight/shared/lamplight.h"

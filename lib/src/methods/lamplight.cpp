@@ -33,6 +33,7 @@ constexpr std::uint32_t SMALLEST_BLOCK = 32;   // lights
 constexpr std::uint32_t THREADS = 256;
 constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
 constexpr std::uint32_t GROUP_SUBGROUPS = 8;        // more of them than of their lights cost a software device its time
+constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t THREAD_PAIRS = 2;           // of light and row for each thread of it, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t CELL_PIECES = 2;            // for each cell, besides those of mean_cells
@@ -71,6 +72,12 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
 /// Of a pass whose subgroups take lights of their own: GROUP_SUBGROUPS where subgroups are small.
 std::uint32_t light_threads(const Problem& problem) {
   return group_threads(problem, std::min(THREADS, GROUP_SUBGROUPS * problem.traits.subgroup_size));
+}
+
+/// Lights in view of a work group that finds cells, while there are few.
+std::uint32_t few_lights(const Problem& problem, std::uint32_t threads) {
+  const std::uint32_t subgroup = problem.traits.subgroup_size;
+  return parts::divide_up(threads, subgroup) * std::min(FEW_OF_SUBGROUP, subgroup);
 }
 
 std::uint32_t block_size(std::uint32_t lights) {
@@ -185,10 +192,10 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
           .shared_bytes = 32};
 }
 
-Pass view_pass(std::uint32_t threads, const Buffers& b) {
+Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) {
   return {.name = "lights in view",
           .shader = "methods/lamplight_view",
-          .constants = {threads},
+          .constants = {threads, few_lights(problem, threads)},
           .bindings = {{INPUT_FRAME}, {INPUT_SPHERES}, {b.totals, Access::read_write}, {b.seen, Access::write}},
           .extent = {.lights_per_group = threads},
           .shared_bytes = 8};
@@ -198,8 +205,9 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
   const std::uint32_t group_hits = GROUP_HITS * threads;
   Pass pass{.name = "find cells",
             .shader = s.sliced() ? "methods/lamplight_find_sliced" : "methods/lamplight_find",
-            .constants =
-                with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, s.block, s.hits, group_hits}, problem, s),
+            .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, s.block, s.hits, group_hits,
+                                      few_lights(problem, threads)},
+                                     problem, s),
             .bindings = {{INPUT_FRAME},
                          {INPUT_LIGHTS},
                          {INPUT_SPHERES},
@@ -273,7 +281,7 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
   const std::uint32_t threads = group_threads(problem, many_lights ? 2 * THREADS : THREADS);
   std::vector<Pass> passes;
   if (!s.sliced()) passes.push_back(depth_pass(problem, s, b));
-  passes.push_back(view_pass(threads, b));
+  passes.push_back(view_pass(problem, b, threads));
   passes.push_back(find_pass(problem, s, b, threads));
   passes.push_back(scan_pass(problem, s, b, threads));
   passes.push_back(scatter_pass(s, b, threads));
