@@ -96,8 +96,9 @@ TEST_F(Axes, LamplightWithoutDepthBuffer) {
   for (const char* container : {"list", "bits"})
     for (const char* tile : {"8", "32"})
       for (const char* scale : {"log", "linear"})
-        EXPECT_TRUE(check(method, {"depth=none", fmt::format("container={}", container), fmt::format("tile={}", tile),
-                                   fmt::format("scale={}", scale), "slices=7"}));
+        for (const char* cells : {"list", "bits"})
+          EXPECT_TRUE(check(method, {"depth=none", fmt::format("container={}", container), fmt::format("tile={}", tile),
+                                     fmt::format("scale={}", scale), fmt::format("cells={}", cells), "slices=7"}));
 }
 
 TEST_F(Axes, WithoutDepthBoundsWhateverNeedsNone) {

@@ -105,10 +105,12 @@ TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
     renderer_.set_frame(view_, lit.lights);
     return renderer_.render(kept_lighting(renderer_, candidate, ShadingPath::deferred)).counters.overflowed_cells;
   };
-  EXPECT_EQ(overflowed({"mean_cells=8", "mean_capacity=300"}), 0);
-  EXPECT_GT(overflowed({"mean_cells=8", "mean_capacity=1"}), 0);
-  EXPECT_GT(overflowed({"mean_cells=0", "mean_capacity=300"}), 0);
-  EXPECT_GT(overflowed({"mean_cells=0", "mean_capacity=1"}), 0);
+  for (const char* cells : {"cells=list", "cells=bits"}) {
+    EXPECT_EQ(overflowed({cells, "mean_cells=8", "mean_capacity=300"}), 0);
+    EXPECT_GT(overflowed({cells, "mean_cells=8", "mean_capacity=1"}), 0);
+    EXPECT_GT(overflowed({cells, "mean_cells=0", "mean_capacity=300"}), 0);
+    EXPECT_GT(overflowed({cells, "mean_cells=0", "mean_capacity=1"}), 0);
+  }
 }
 
 /// A row with every option that sizes a list set to its least, and lights so wide that all of them are too small.

@@ -42,8 +42,9 @@ TEST_P(Limits, SizesNeverShrinkAsAProblemGrows) {
     bytes["cells"] = plan.value().cells;
     return bytes;
   };
-  // Cells grow with the picture in `lamplight`; the bits that clusters fall back to have a limit of their own.
-  std::set<std::string> may_shrink{"cell depth ranges", "cell counts", "cells",      "pieces",
+  // Cells grow with the picture in `lamplight`, and have bits or lists; the bits that clusters fall back to have a
+  // limit.
+  std::set<std::string> may_shrink{"cell depth ranges", "cell counts", "cell bits",  "cells", "pieces",
                                    "cell lists",        "piece lists", "tile spans", "hits"};
   if (GetParam()->result == "cluster_lists") may_shrink.insert("tile bits");
   for (std::uint32_t lights = 1024; lights < MAX_LIGHTS; lights *= 2)
@@ -170,6 +171,24 @@ TEST(LamplightMemory, FewLightsHaveRoomInEveryCell) {
   EXPECT_GE(cell_entries(2048, {}), CELLS * 2048);
   EXPECT_LT(cell_entries(65536, {}), CELLS * 65536);
   EXPECT_EQ(cell_entries(1024, {"mean_cells=0"}), CELLS * 2 * shared::PIECE);
+}
+
+// Bits need no scan and no scatter, and as much memory as there are lights and cells.
+TEST(LamplightMemory, CellsHaveBitsWhileTheseAreSmall) {
+  const Method& method = *find_method("lamplight").value();
+  const auto passes = [&](std::uint32_t lights, const std::vector<std::string>& settings) {
+    Problem problem = problem_of(method, 1920, 1080, lights, test::LARGE_DEVICE);
+    problem.options = resolve_options(method, settings).value();
+    const Plan plan = make_plan(method, problem).value();
+    const bool has_bits = std::ranges::find(plan.buffers, "cell bits", &BufferDesc::name) != plan.buffers.end();
+    EXPECT_EQ(has_bits, plan.passes.size() == 4);
+    return plan.passes.size();
+  };
+  EXPECT_EQ(passes(1, {}), 4U);
+  EXPECT_EQ(passes(65536, {}), 4U);
+  EXPECT_EQ(passes(262144, {}), 6U);
+  EXPECT_EQ(passes(64, {"cells=list"}), 6U);
+  EXPECT_EQ(passes(262144, {"cells=bits"}), 4U);
 }
 
 TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {

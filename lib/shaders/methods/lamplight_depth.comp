@@ -22,7 +22,8 @@ layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; 
 layout(set = 0, binding = 1) uniform texture2D depth_image;
 layout(set = 0, binding = 2, scalar) writeonly buffer TileBuffer { TileDepths tile_depths[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
-layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[]; };  // [block][cell]
+layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[]; };  // blocks times cells, or bits
+layout(set = 0, binding = 5, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 
 shared uint s_nearest;   // device depth: reversed, so the greatest
 shared uint s_farthest;
@@ -99,7 +100,7 @@ const float LARGEST_HALF = 65504.0;
 float half_below(float z) { return min(0.999 * z, LARGEST_HALF); }
 float half_above(float z) { return z > 0.99 * LARGEST_HALF ? infinity() : 1.001 * z + 1e-6; }
 
-// The count matrix, for the passes that follow: here it costs nothing, because all wait for the depth buffer.
+// What lights find will be counted or kept in: here that costs little, because all wait for the depth buffer.
 void clear_counts() {
   const uint cells = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
   const uint words = (frame.light_count + BLOCK - 1u) / BLOCK * cells;
@@ -130,5 +131,7 @@ void main() {
     depths.x = half_below(z_view_of(frame, uintBitsToFloat(s_nearest)));
     depths.y = half_above(z_view_of(frame, uintBitsToFloat(s_farthest)));
   }
-  cell_depths[gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y] = packHalf2x16(depths);
+  const uint cell = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+  cell_depths[cell] = packHalf2x16(depths);
+  cells[cell] = LightCell(0u, 0u, 0u);
 }

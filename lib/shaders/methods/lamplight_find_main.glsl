@@ -1,18 +1,18 @@
 // Lights in view look for their cells: rectangle of tiles, a first look at the depths, then a walk over the cells of the
-// rectangle. Pairs of light and cell are counted in the matrix, where each learns its rank, and kept for scattering.
+// rectangle. Pairs of light and cell are kept as a list, or, with CELL_BITS, as bits.
 // SPDX-License-Identifier: Apache-2.0
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
 layout(constant_id = 3) const uint CELLS = 1;
-layout(constant_id = 4) const uint BLOCK = 256;    // lights
-layout(constant_id = 5) const uint HITS = 1;       // capacity
-layout(constant_id = 6) const uint GROUP_HITS = 1; // that wait in shared memory
-layout(constant_id = 7) const uint GROUP_FEW = 32; // lights
+layout(constant_id = 4) const uint GROUP_FEW = 32;  // lights
 #ifdef SLICED
 layout(constant_id = 8) const uint CELL_SLICES = 4;
 #define SLICE_CONSTANT 9
 #include "common/slice_constants.glsl"
+const uint CELL_ROWS = CELL_TILES * CELL_TILES * CELL_SLICES;
+#else
+const uint CELL_ROWS = CELL_TILES * CELL_TILES;
 #endif
 #define BOUNDS BOUNDS_MASK
 #define SPOT SPOT_CONE_SPHERE
@@ -26,16 +26,16 @@ layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; 
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer SeenBuffer { uint seen[]; };
-layout(set = 0, binding = 4, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
-layout(set = 0, binding = 5, scalar) writeonly buffer HitBuffer { LightHit hits[]; };
-layout(set = 0, binding = 6, scalar) buffer TotalBuffer { LightTotals totals; };
-#ifndef SLICED
-layout(set = 0, binding = 7, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
-layout(set = 0, binding = 8, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
+#ifdef CELL_BITS
+#include "methods/lamplight_bit_hits.glsl"
+#else
+#include "methods/lamplight_list_hits.glsl"
 #endif
-
-// Room among all hits, by one thread. Where there is none left the total stops growing: it has 32 bits, the sum might not.
-uint reserve_hits(uint count) { return totals.hits <= HITS ? atomicAdd(totals.hits, count) : HITS; }
+#ifndef SLICED
+layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = DEPTH_BINDING + 1, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+#endif
 
 #ifdef SLICED
 // First and last layer of cells that a sphere's depths reach.
@@ -44,40 +44,7 @@ uvec2 layers_of(LightBounds sphere) {
 }
 #endif
 
-void flush_hits(inout uint waiting);
 #include "methods/lamplight_walk.glsl"
-
-// By one subgroup: its waiting hits, to the room that begins there.
-void write_hits(uint begin, uint count) {
-  subgroupMemoryBarrierShared();
-  subgroupBarrier();  // hits are there before they are read
-  for (uint i = gl_SubgroupInvocationID; i < count; i += gl_SubgroupSize) {
-    const LightHit hit = s_hits[first_hit() + i];
-    const uint rank = atomicAdd(counts[hit.light / BLOCK * CELLS + hit.place], 1u);
-    if (begin + i < HITS) hits[begin + i] = LightHit(hit.light, hit.place | rank << HIT_CELL_BITS);
-  }
-  subgroupBarrier();  // and read before others take their place
-}
-
-void flush_hits(inout uint waiting) {
-  uint begin = 0u;
-  if (subgroupElect()) begin = reserve_hits(waiting);
-  write_hits(subgroupBroadcastFirst(begin), waiting);
-  waiting = 0u;
-}
-
-// By all subgroups: what still waits takes its room together, because the total is one number for the whole GPU.
-shared uint s_group_hits;
-shared uint s_begin;
-
-void flush_last_hits(uint waiting) {
-  uint place = 0u;
-  if (subgroupElect()) place = atomicAdd(s_group_hits, waiting);
-  barrier();  // every subgroup's hits before room is reserved
-  if (gl_LocalInvocationIndex == 0u && s_group_hits > 0u) s_begin = reserve_hits(s_group_hits);
-  barrier();  // room before it is filled
-  if (waiting > 0u) write_hits(s_begin + subgroupBroadcastFirst(place), waiting);
-}
 
 #ifdef SLICED
 bool meets_depths(LightBounds sphere, uvec4 tiles) { return true; }
@@ -102,7 +69,10 @@ bool meets_depths(LightBounds sphere, uvec4 tiles) {
 #endif
 
 void main() {
-  if (gl_LocalInvocationIndex == 0u) s_arrived = s_next_strip = s_group_hits = 0u;
+  if (gl_LocalInvocationIndex == 0u) {
+    s_arrived = s_next_strip = 0u;
+    clear_hits();
+  }
   barrier();  // counts of zero before they are added to
   uint light = 0u;
   LightBounds sphere = LightBounds(vec3(0.0), 0.0);
@@ -118,9 +88,9 @@ void main() {
     sphere = view_bounds(frame, spheres[light]);
     any_tile = tiles_of_sphere(frame, sphere, TILE_PX, tiles) && meets_depths(sphere, tiles);
   }
-  uint waiting = 0u;  // hits of the subgroup
+  uint waiting = 0u;  // hits of the subgroup that are not kept yet
   visit_cells(cells_of(light, sphere, tiles, any_tile), waiting);
   barrier();  // the queue of large lights is complete
   visit_waiting_cells(waiting);
-  flush_last_hits(waiting);
+  keep_last_hits(waiting);
 }

@@ -5,16 +5,13 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
-layout(constant_id = 3) const uint BLOCK = 256;      // lights
-layout(constant_id = 4) const uint CELLS = 1;
-layout(constant_id = 5) const uint LIST_ENTRIES = 1;
-layout(constant_id = 6) const uint RUN_WORDS = 8;    // bits of a block
-layout(constant_id = 7) const uint MAY_WRAP = 0;     // 1: all lists together might have 2^32 entries
-layout(constant_id = 8) const uint PAIRS = 512;      // of light and row that wait in shared memory
-layout(constant_id = 9) const uint ROWS = 16;        // that a work group looks at: whole lines of tiles, of one slice
-layout(constant_id = 10) const uint MARK_WORDS = 64; // PIECE_WORDS for each of them
-layout(constant_id = 11) const uint CELL_ROWS = 16;
-layout(constant_id = 12) const bool BITS = false;    // the container: bits, or lists
+layout(constant_id = 3) const uint LIST_ENTRIES = 1;
+layout(constant_id = 4) const uint MAY_WRAP = 0;     // 1: all lists together might have 2^32 entries
+layout(constant_id = 5) const uint PAIRS = 512;      // of light and row that wait in shared memory
+layout(constant_id = 6) const uint ROWS = 16;        // that a work group looks at: whole lines of tiles, of one slice
+layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
+layout(constant_id = 8) const uint CELL_ROWS = 16;
+layout(constant_id = 9) const bool BITS = false;     // the container: bits, or lists
 #ifdef SLICED
 layout(constant_id = 13) const uint CELL_SLICES = 4;
 #define SLICE_CONSTANT 14
@@ -31,20 +28,27 @@ layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; 
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer PieceBuffer { LightPiece cell_pieces[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer EntryBuffer { uint entries[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
-layout(set = 0, binding = 6, scalar) buffer TotalBuffer { LightTotals totals; };
-layout(set = 0, binding = 7, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
-layout(set = 0, binding = 8, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
-layout(set = 0, binding = 9, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
+layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
+layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
+layout(set = 0, binding = 6, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
+#ifdef CELL_BITS
+layout(set = 0, binding = 8, scalar) readonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
+#define DEPTH_BINDING 9
+#include "methods/lamplight_bit_order.glsl"
+#else
+layout(set = 0, binding = 8, scalar) readonly buffer EntryBuffer { uint entries[]; };
+layout(set = 0, binding = 9, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
+#define DEPTH_BINDING 10
+#include "methods/lamplight_list_order.glsl"
+#endif
 #ifndef SLICED
-layout(set = 0, binding = 10, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
 #endif
 #ifdef PRUNED
-layout(set = 0, binding = 11) uniform texture2D depth_image;
+layout(set = 0, binding = DEPTH_BINDING + 1) uniform texture2D depth_image;
 #endif
 
-#include "methods/lamplight_order.glsl"
 #include "methods/lamplight_marks.glsl"
 
 shared uint s_list_size[ROWS];

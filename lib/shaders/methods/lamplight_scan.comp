@@ -1,6 +1,5 @@
 // From counts to places: a group of columns (cells) of the count matrix, by one work group; each thread a strip of blocks.
-// Cells get their entries in any order, a cell's own entries are in the order of the blocks. A cell has whole pieces of
-// PIECE entries, the last one filled in part.
+// Cells get their entries in any order, a cell's own entries are in the order of the blocks.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -25,6 +24,7 @@ layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // 
 layout(set = 0, binding = 2, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
+#include "methods/lamplight_pieces.glsl"
 
 shared uint s_strips[STRIPS][COLUMNS];
 shared uint s_total[COLUMNS];
@@ -36,8 +36,6 @@ const uint HELD = 16u;
 void load_counts(uint cell, uint from, uint to, out uint held[HELD]) {
   [[unroll]] for (uint k = 0u; k < HELD; ++k) held[k] = from + k < to ? counts[(from + k) * CELLS + cell] : 0u;
 }
-
-uint pieces_of(uint entries) { return (entries + PIECE - 1u) / PIECE; }
 
 uint pieces_before(uint column) {
   uint sum = 0u;
@@ -56,16 +54,6 @@ void write_group_counts() {
   totals.lists_y = ROW_GROUPS;
   totals.lists_z = totals.scatter_y = totals.scatter_z = 1u;
   totals.scatter_x = (min(totals.hits, HITS) + SCATTER_THREADS - 1u) / SCATTER_THREADS;
-}
-
-// By the threads of a column. A cell that does not fit leaves the pieces that there is room for to nobody.
-void write_cell(uint cell, uint strip, uint first_piece, uint entries, bool fits) {
-  const uint end = min(first_piece + pieces_of(entries), PIECES);
-  const LightPiece value = LightPiece(fits ? cell : NO_CELL, first_piece * PIECE, first_piece * PIECE + entries);
-  for (uint piece = first_piece + strip; piece < end; piece += STRIPS) cell_pieces[piece] = value;
-  if (strip > 0u) return;
-  cells[cell] = LightCell(first_piece, fits ? pieces_of(entries) : ALL_LIGHTS, entries);
-  if (!fits) atomicAdd(totals.counters.overflowed_cells, CELL_ROWS);
 }
 
 void main() {
@@ -96,8 +84,8 @@ void main() {
 
   if (cell >= CELLS) return;
   const uint first_piece = s_base + pieces_before(column);
-  const bool fits = all_hits && first_piece <= PIECES && pieces_of(s_total[column]) <= PIECES - first_piece;
-  write_cell(cell, strip, first_piece, s_total[column], fits);
+  const bool fits = all_hits && has_pieces(first_piece, s_total[column]);
+  write_cell(cell, strip, STRIPS, first_piece, s_total[column], fits);
   for (uint block = from; block < to; block += HELD) {
     if (height > HELD) load_counts(cell, block, to, held);
     [[unroll]] for (uint k = 0u; k < HELD; ++k) {

@@ -1,9 +1,8 @@
 // A walk over the cells that lights may reach, as far as rectangles, depths of cells and narrow cones tell. The cells of a
 // subgroup's lights are spread over all of its threads; lights of very many wait in a queue and are walked in strips by
-// whichever subgroup is free. Pairs that are found wait in the subgroup's part of shared memory until there are enough to
-// write. Without a depth buffer cells lie in layers, and a light's are a box of them.
-// Needs: TILE_PX, CELL_TILES, GROUP_HITS; `frame`, `lights`; SLICED and layers_of(sphere), or `cell_depths`;
-// flush_hits(waiting), for a subgroup together.
+// whichever subgroup is free. Without a depth buffer cells lie in layers, and a light's are a box of them.
+// Needs: TILE_PX, CELL_TILES; `frame`, `lights`; SLICED and layers_of(sphere), or `cell_depths`;
+// keep_hit(is_hit, light, cell, waiting), for a subgroup together.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_WALK
 #define LAMP_METHODS_LAMPLIGHT_WALK
@@ -28,8 +27,6 @@ shared CellRectangle s_waiting[WAITING];
 shared uint s_arrived;  // may be more than there is room for
 shared uint s_next_strip;
 
-shared LightHit s_hits[GROUP_HITS];  // a subgroup uses its own part
-
 // Of the first and last tile; without tiles none.
 CellRectangle cells_of(uint light, LightBounds sphere, uvec4 tiles, bool any_tile) {
   const uvec2 first = tiles.xy / CELL_TILES;
@@ -51,10 +48,6 @@ CellRectangle rectangle_of_thread(CellRectangle cells, uint thread) {
                        subgroupShuffle(cells.cells, thread), subgroupShuffle(cells.z_near, thread),
                        subgroupShuffle(cells.z_far, thread), subgroupShuffle(cells.light, thread));
 }
-
-// All below is for the threads of a subgroup together. `waiting`: its hits since they were last written.
-uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }
-uint first_hit() { return gl_SubgroupID * hits_room(); }
 
 // Whole part of i / n; exact below 2^22.
 uint quotient(uint i, uint n) { return uint((float(i) + 0.5) / float(n)); }
@@ -78,16 +71,10 @@ bool meets_cell(CellRectangle cells, uint cell) {
   return (cells.light & NARROW) == 0u || cone_meets_cell(cells.light & ~NARROW, cell, depths);
 }
 
-// Cell i of each thread's rectangle, or none.
+// All below is for the threads of a subgroup together. Cell i of each thread's rectangle, or none.
 void visit_cell(CellRectangle cells, uint i, bool any_cell, inout uint waiting) {
   const uint cell = cell_of_rectangle(cells, i);
-  const bool hit = any_cell && meets_cell(cells, cell);
-  const uvec4 those = subgroupBallot(hit);
-  const uint count = subgroupBallotBitCount(those);
-  if (waiting + count > hits_room()) flush_hits(waiting);
-  if (hit) s_hits[first_hit() + waiting + subgroupBallotExclusiveBitCount(those)] =
-      LightHit(cells.light & ~NARROW, cell);
-  waiting += count;
+  keep_hit(any_cell && meets_cell(cells, cell), cells.light & ~NARROW, cell, waiting);
 }
 
 // Each thread with a light of its own.

@@ -19,7 +19,7 @@ struct TileDepths {
   uint mask;     // bit i: a pixel lies in part i of 32 equal ones between z_near and z_far
 };
 
-// A light that may reach a cell.
+// A light that may reach a cell, of those whose cells have lists.
 struct LightHit {
   uint light;
   uint place;  // cell, and above HIT_CELL_BITS the rank among the hits of the same block of lights in the same cell
@@ -30,7 +30,7 @@ LAMP_CONST PIECE = 128u;      // entries
 LAMP_CONST PIECE_WORDS = 4u;  // a bit for each of them
 
 // A cell is a square of tiles, or without depth buffer such a square times some slices of depth. Its rows are its
-// tiles, slice after slice. Its lights ascend through its pieces: piece i has room for PIECE entries from i * PIECE.
+// tiles, slice after slice. Its lights ascend through its pieces: piece i has room for PIECE of them from i * PIECE.
 struct LightCell {
   uint first_piece;
   uint pieces;   // ALL_LIGHTS: its entries did not fit; walk every light
@@ -68,13 +68,14 @@ struct LightTotals {
   uint scatter_z;
   uint seen;           // lights in view
   uint hits;           // pairs of light and cell; beyond the capacity it may stop to grow
+  uint find_done;      // work groups of the pass that finds cells
   uint wanted_pieces;  // whether there is room or not
   uint list_entries;
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 &&
-              sizeof(LightPiece) == 12 && sizeof(LightSpan) == 8 && sizeof(LightTotals) == 68);
+              sizeof(LightPiece) == 12 && sizeof(LightSpan) == 8 && sizeof(LightTotals) == 72);
 }  // namespace lamp::shared
 #endif
 

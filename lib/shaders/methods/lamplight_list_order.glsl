@@ -1,10 +1,14 @@
 // Puts the lights of a piece in order. A cell's entries come as runs, one of each block and in the order of blocks, but in
 // any order within: scattering is a race. Most runs are short; then each light counts who of its run comes before it. A
 // long run is drawn as bits, one for each light of its block, and read off again.
-// Needs: BLOCK, CELLS, RUN_WORDS; `entries`, `places`, `frame`. Gives s_lights.
+// Needs: `entries`, `places`, `frame`. Gives s_lights.
 // SPDX-License-Identifier: Apache-2.0
-#ifndef LAMP_METHODS_LAMPLIGHT_ORDER
-#define LAMP_METHODS_LAMPLIGHT_ORDER
+#ifndef LAMP_METHODS_LAMPLIGHT_LIST_ORDER
+#define LAMP_METHODS_LAMPLIGHT_LIST_ORDER
+
+layout(constant_id = 10) const uint RUN_WORDS = 8;  // bits of a block
+layout(constant_id = 11) const uint BLOCK = 256;    // lights
+layout(constant_id = 12) const uint CELLS = 1;
 
 const uint LONG_RUN = 32u;
 const uint MARGIN = LONG_RUN;  // a run that is not long and reaches into the piece begins and ends within it

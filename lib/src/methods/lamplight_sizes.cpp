@@ -1,0 +1,107 @@
+// Implements lamplight_sizes.h. SPDX-License-Identifier: Apache-2.0
+#include "lamplight_sizes.h"
+
+#include <algorithm>
+#include <bit>
+#include <string_view>
+
+namespace lamp::lamplight {
+namespace {
+
+using shared::PIECE;
+// Tuned on an H100 and an H200, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was
+// tried.
+constexpr std::uint32_t GROUP_ROWS = 32;       // of a cell that a work group looks at
+constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
+constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
+constexpr std::uint32_t MOST_CELL_TILES = 32;  // a side
+constexpr std::uint32_t GOOD_CELLS = 2304;     // not more where cells can be larger; 4K has 2040
+constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most SPARSE_LIGHTS
+constexpr std::uint32_t SPARSE_LIGHTS = 1U << 17;
+constexpr std::uint32_t WANTED_BLOCKS = 256;         // rows of the matrix
+constexpr std::uint32_t LARGEST_BLOCK = 8192;        // lights
+constexpr std::uint32_t SMALLEST_BLOCK = 32;         // lights
+constexpr std::uint32_t WORD_LIGHTS = 32;            // bits
+constexpr std::uint64_t CELL_PIECES = 2;             // for each cell, besides those of mean_cells
+constexpr std::uint64_t FEW_PIECES = 1024;           // as many instead, unless all lights in all cells take fewer
+constexpr std::uint64_t CELL_BITS_BYTES = 5U << 20;  // of all cells, at most, for cells=auto
+constexpr std::uint64_t MEAN_CAPACITY = 32;          // default of the option
+constexpr std::uint64_t LIST_LIGHTS = 4;             // entries for each light that are room as well, within LIST_BUDGET
+constexpr std::uint64_t LIST_BUDGET = 5U << 18;      // entries, 5 MiB: what small pictures leave of it is room as well
+constexpr std::uint64_t MOST_ENTRIES = 1U << 30;     // an entry's place has 31 bits
+static_assert(LARGEST_BLOCK <= 1U << (32 - shared::HIT_CELL_BITS));
+
+std::uint32_t block_size(std::uint32_t lights) {
+  const std::uint32_t wanted = parts::divide_up(parts::divide_up(lights, WANTED_BLOCKS), SMALLEST_BLOCK);
+  return std::clamp(wanted * SMALLEST_BLOCK, SMALLEST_BLOCK, LARGEST_BLOCK);
+}
+
+/// As every limit of the device allows: one work group each in the last pass and a span a tile; PIECE hits.
+std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
+  const std::uint64_t bytes = problem.traits.max_storage_buffer_bytes;
+  const std::uint64_t groups = problem.traits.max_groups[0];
+  return std::min({MOST_ENTRIES / PIECE, groups, groups * group_threads(problem, THREADS) / PIECE,
+                   bytes / s.row_bytes() / s.cell_rows, bytes / sizeof(shared::LightHit) / PIECE});
+}
+
+/// With mean_cells=0 two a cell and no more.
+std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
+  const std::uint64_t lights = parts::capacity(problem);
+  const std::uint64_t room = lights * problem.options.integer("mean_cells");
+  const std::uint64_t all = s.cell_count * ((lights + PIECE - 1) / PIECE);
+  const std::uint64_t few = room == 0 ? 0 : std::min(FEW_PIECES, all);
+  return (room + PIECE - 1) / PIECE + std::max(CELL_PIECES * s.cell_count, few);
+}
+
+/// Tiles, slices, and cells of them.
+Sizes grid_of(const Problem& problem) {
+  const Options& o = problem.options;
+  Sizes s{.tile_px = o.integer("tile"), .cell_tiles = LEAST_CELL_TILES / 2, .slices = 1, .cell_slices = 1};
+  if (o.word("depth") == "none") {
+    s.slices = o.integer("slices");
+    s.cell_slices = CELL_SLICES;
+  }
+  s.tiles = parts::tile_grid(problem, s.tile_px);
+  const std::uint32_t good_cells = parts::capacity(problem) <= SPARSE_LIGHTS ? FEW_CELLS : GOOD_CELLS;
+  do {
+    s.cell_tiles *= 2;
+    s.cells = parts::tile_grid(problem, s.tile_px * s.cell_tiles);
+  } while (s.cells.count() > good_cells && s.cell_tiles < MOST_CELL_TILES);
+  s.cell_count = static_cast<std::uint32_t>(s.cells.count()) * parts::divide_up(s.slices, s.cell_slices);
+  s.cell_rows = s.cell_tiles * s.cell_tiles * s.cell_slices;
+  // Of one slice, in whole lines of tiles.
+  s.group_rows = std::max(std::min(GROUP_ROWS, s.cell_tiles * s.cell_tiles), s.cell_tiles);
+  s.bits = o.word("container") == "bits";
+  return s;
+}
+
+bool wants_cell_bits(const Problem& problem, const Sizes& s) {
+  const std::string_view wanted = problem.options.word("cells");
+  const std::uint64_t words = parts::divide_up(parts::capacity(problem), WORD_LIGHTS);
+  return wanted == "bits" || (wanted == "auto" && words * 4 * s.cell_count <= CELL_BITS_BYTES);
+}
+
+}  // namespace
+
+std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
+  return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
+}
+
+Sizes sizes_of(const Problem& problem) {
+  Sizes s = grid_of(problem);
+  const std::uint64_t lights = parts::capacity(problem);
+  s.cell_bits = wants_cell_bits(problem, s);
+  s.block = s.cell_bits ? WORD_LIGHTS : block_size(parts::capacity(problem));
+  s.blocks = parts::divide_up(parts::capacity(problem), s.block);
+  s.pieces = static_cast<std::uint32_t>(std::min(wanted_pieces(problem, s), most_pieces(problem, s)));
+  s.entries = s.pieces * PIECE;
+  if (s.bits) return s;
+  const std::uint64_t rows = s.tiles.count() * s.slices;
+  const std::uint64_t left = LIST_BUDGET - std::min(LIST_BUDGET, MEAN_CAPACITY * rows);
+  s.listed = static_cast<std::uint32_t>(
+      std::min({rows * problem.options.integer("mean_capacity") + std::min(LIST_LIGHTS * lights, left), MOST_ENTRIES,
+                problem.traits.max_storage_buffer_bytes / 4}));
+  return s;
+}
+
+}  // namespace lamp::lamplight

@@ -1,0 +1,40 @@
+// The sizes of a plan of `lamplight`: tiles, cells of them, and how much room there is for what lights find.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "lamplight/shared/lamplight.h"
+#include "parts.h"
+
+namespace lamp::lamplight {
+
+constexpr std::uint32_t THREADS = 256;  ///< of a work group, where the device takes as many
+
+/// Every size of the plan.
+struct Sizes {
+  std::uint32_t tile_px, cell_tiles;
+  std::uint32_t slices, cell_slices;  ///< of depth; 1 with a depth buffer
+  parts::TileGrid tiles, cells;       ///< of a slice, of a layer
+  std::uint32_t cell_count;           ///< of all layers
+  std::uint32_t cell_rows;            ///< tiles times slices
+  std::uint32_t group_rows;           ///< of them, for a work group of the last pass
+  bool bits;                          ///< the container
+  bool cell_bits;                     ///< a cell has a bit for each light, not a list
+  std::uint32_t block;                ///< lights: of a word of bits, or of a line of the count matrix
+  std::uint32_t blocks;               ///< words of a cell, or lines
+  std::uint32_t pieces;               ///< of PIECE lights in cells, capacity
+  std::uint32_t entries;              ///< lights of cells, pairs, capacity
+  std::uint32_t listed;               ///< lights in lists, capacity; 0 of bits
+
+  [[nodiscard]] bool sliced() const { return slices > 1; }
+  /// What a row keeps of a piece: a span of the lists, or bits.
+  [[nodiscard]] std::uint64_t row_bytes() const { return bits ? shared::PIECE_WORDS * 4 : sizeof(shared::LightSpan); }
+};
+
+/// A power of two that the device takes.
+[[nodiscard]] std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted);
+
+[[nodiscard]] Sizes sizes_of(const Problem& problem);
+
+}  // namespace lamp::lamplight
