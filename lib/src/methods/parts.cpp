@@ -61,9 +61,9 @@ std::string walk_lookup(Plan& plan, const Problem& problem, std::string_view pla
   std::string name(plain);
   if (walk == "plain") return name;
   const bool by_cell = walk == "scalar-cell";
-  if (by_cell ? problem.traits.subgroup_ballot : problem.traits.subgroup_arithmetic) return name += "_scalar";
+  if (problem.traits.subgroup_ballot && (by_cell || problem.traits.subgroup_arithmetic)) return name += "_scalar";
   plan.notes.push_back("walk=plain instead of " + walk + ": the device has no subgroup " +
-                       (by_cell ? "ballot" : "arithmetic") + " in compute and fragment shaders");
+                       (by_cell ? "ballot" : "ballot and arithmetic") + " in compute and fragment shaders");
   return name;
 }
 

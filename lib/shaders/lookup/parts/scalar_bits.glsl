@@ -1,17 +1,22 @@
 // Walks flat bit arrays with one light at a time for the whole subgroup: the words of its threads are merged, and a thread
-// takes part in the lights that are its own. What is loaded for a light is then the same for all threads.
+// takes part in the lights that are its own. What is loaded for a light is then the same for all threads. Which words are
+// worth a look the threads find out together.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
 // Promise: each thread meets exactly the lights of walk_next, in the same order, whichever threads are active with it.
 // Needs: walk_bits.glsl.
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 struct WalkMerged {
   Walk own;
-  uint word;      // the next word to read
+  uint word;      // the next word to look at
   uint end;       // of the words that some thread has
-  uint own_bits;  // of word - 1
-  uint bits;      // of word - 1 and all threads, not yet walked
+  uint block;     // bit i of `open` is word block + i
+  uint open;      // words that may hold a light of some thread, not yet walked
+  uint at;        // the word that is walked
+  uint own_bits;  // of it
+  uint bits;      // of it and all threads, not yet walked
   bool mine;      // the light is among the thread's own
 };
 
@@ -19,21 +24,59 @@ WalkMerged walk_begin_merged(Walk own) {
   const bool any_bit = own.begin < own.end;
   const uint word = subgroupMin(any_bit ? own.begin / 32u : ~0u);
   const uint end = subgroupMax(any_bit ? (own.end + 31u) / 32u : 0u);
-  return WalkMerged(own, word, end, 0u, 0u, false);
+  return WalkMerged(own, word, end, 0u, 0u, 0u, 0u, 0u, false);
+}
+
+const uint FEW_WORDS = 8u;  // are walked without a look
+const uint BLOCK_WORDS = 32u;
+
+// Which of a block's words of the thread's cell hold a light, as far as it looks: every `step`-th word from `first` on.
+uint words_with_lights(uint base, uint block, uint count, uint first, uint step) {
+  uint found = 0u;
+  for (uint i = first; i < count; i += step)
+    if (lookup_bits[base + block + i] != 0u) found |= 1u << i;
+  return found;
+}
+
+// Most words are empty. Threads share out the words of a block, of every cell that some thread has, so that the subgroup
+// sees in one step which of them to walk.
+void look_at_words(inout WalkMerged walk) {
+  walk.block = walk.word;
+  const uint count = min(BLOCK_WORDS, walk.end - walk.word);
+  walk.word += count;
+  walk.open = ~0u >> (32u - count);
+  const uvec4 here = subgroupBallot(true);
+  // Threads that have parted company and meet again at different words walk them all.
+  const uvec2 words = uvec2(walk.block, walk.end);
+  if (count <= FEW_WORDS || subgroupBallot(words == subgroupBroadcastFirst(words)) != here) return;
+  const uint step = subgroupBallotBitCount(here);
+  const uint first = subgroupBallotExclusiveBitCount(here);
+  uint found = 0u;
+  bool waits = walk.own.begin < walk.own.end;
+  for (uvec4 waiting = subgroupBallot(waits); waiting != uvec4(0u); waiting = subgroupBallot(waits)) {
+    const uint base = subgroupMin(waits ? walk.own.base : ~0u);
+    found |= words_with_lights(base, walk.block, count, first, step);
+    waits = waits && walk.own.base != base;
+  }
+  walk.open = subgroupOr(found);
 }
 
 // A thread's own bits are always among the merged ones, so threads that have parted company lose nothing.
 bool walk_next_merged(inout WalkMerged walk, out uint light) {
   while (walk.bits == 0u) {
-    if (walk.word >= walk.end) return false;
-    walk.own_bits = lookup_word(walk.own, walk.word);
+    while (walk.open == 0u) {
+      if (walk.word >= walk.end) return false;
+      look_at_words(walk);
+    }
+    walk.at = walk.block + uint(findLSB(walk.open));
+    walk.open &= walk.open - 1u;
+    walk.own_bits = lookup_word(walk.own, walk.at);
     walk.bits = subgroupOr(walk.own_bits);
-    ++walk.word;
   }
   const uint bit = uint(findLSB(walk.bits));
   walk.bits &= walk.bits - 1u;
   walk.mine = (walk.own_bits >> bit & 1u) != 0u;
-  light = LOOKUP_LIGHT((walk.word - 1u) * 32u + bit);
+  light = LOOKUP_LIGHT(walk.at * 32u + bit);
   return true;
 }
 
