@@ -1,18 +1,22 @@
 // Walks flat bit arrays with one light at a time for the whole subgroup: the words of its threads are merged, and a thread
-// takes part in the lights that are its own. What is loaded for a light is then the same for all threads. Which words are
-// worth a look the threads find out together.
+// takes part in the lights that are its own. What is loaded for a light is then the same for all threads. Where most words
+// are empty, the threads find out together which are not.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
 // Promise: each thread meets exactly the lights of walk_next, in the same order, whichever threads are active with it.
-// Needs: walk_bits.glsl.
+// Needs: walk_bits.glsl. LOOKUP_SPARSE: whether most words that are asked for are empty, and there are more than a few.
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+
+#ifndef LOOKUP_SPARSE
+#define LOOKUP_SPARSE false
+#endif
 
 struct WalkMerged {
   Walk own;
   uint word;      // the next word to look at
   uint end;       // of the words that some thread has
-  uint block;     // bit i of `open` is word block + i
+  uint block;     // with LOOKUP_SPARSE, bit i of `open` is word block + i
   uint open;      // words that may hold a light of some thread, not yet walked
   uint at;        // the word that is walked
   uint own_bits;  // of it
@@ -27,7 +31,6 @@ WalkMerged walk_begin_merged(Walk own) {
   return WalkMerged(own, word, end, 0u, 0u, 0u, 0u, 0u, false);
 }
 
-const uint FEW_WORDS = 8u;  // are walked without a look
 const uint BLOCK_WORDS = 32u;
 
 // Which of a block's words of the thread's cell hold a light, as far as it looks: every `step`-th word from `first` on.
@@ -48,8 +51,8 @@ void look_at_words(inout WalkMerged walk) {
   const uvec4 here = subgroupBallot(true);
   // Threads that have parted company and meet again at different words walk them all.
   const uvec2 words = uvec2(walk.block, walk.end);
-  if (count <= FEW_WORDS || subgroupBallot(words == subgroupBroadcastFirst(words)) != here) return;
-  const uint step = subgroupBallotBitCount(here);
+  if (subgroupBallot(words == subgroupBroadcastFirst(words)) != here) return;
+  const uint step = max(subgroupBallotBitCount(here), 1u);  // 0 where all that are left cover no sample
   const uint first = subgroupBallotExclusiveBitCount(here);
   uint found = 0u;
   bool waits = walk.own.begin < walk.own.end;
@@ -61,15 +64,25 @@ void look_at_words(inout WalkMerged walk) {
   walk.open = subgroupOr(found);
 }
 
+// The next word to walk; false if there is none.
+bool next_open_word(inout WalkMerged walk) {
+  if (!LOOKUP_SPARSE) {
+    walk.at = walk.word++;
+    return walk.at < walk.end;
+  }
+  while (walk.open == 0u) {
+    if (walk.word >= walk.end) return false;
+    look_at_words(walk);
+  }
+  walk.at = walk.block + uint(findLSB(walk.open));
+  walk.open &= walk.open - 1u;
+  return true;
+}
+
 // A thread's own bits are always among the merged ones, so threads that have parted company lose nothing.
 bool walk_next_merged(inout WalkMerged walk, out uint light) {
   while (walk.bits == 0u) {
-    while (walk.open == 0u) {
-      if (walk.word >= walk.end) return false;
-      look_at_words(walk);
-    }
-    walk.at = walk.block + uint(findLSB(walk.open));
-    walk.open &= walk.open - 1u;
+    if (!next_open_word(walk)) return false;
     walk.own_bits = lookup_word(walk.own, walk.at);
     walk.bits = subgroupOr(walk.own_bits);
   }
