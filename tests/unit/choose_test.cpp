@@ -248,10 +248,10 @@ TEST(Choose, GivesLamplightRoom) {
   calibration.costs[candidate("lamplight")] = {};
   Workload w = some_workload(4096);
   EXPECT_TRUE(choose(calibration, w, large_device()).options.empty());
-  w.tile16.entries = 40.0;
+  w.tile16.entries = 400.0;
   w.tile16.exact = 100.0;
   EXPECT_EQ(choose(calibration, w, large_device()).options,
-            (std::vector<std::string>{"mean_cells=80", "mean_capacity=200"}));
+            (std::vector<std::string>{"mean_cells=800", "mean_capacity=200"}));
 }
 
 TEST(Choose, IsTheSameEveryTime) {

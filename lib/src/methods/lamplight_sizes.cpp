@@ -24,6 +24,7 @@ constexpr std::uint32_t SMALLEST_BLOCK = 32;         // lights
 constexpr std::uint32_t WORD_LIGHTS = 32;            // bits
 constexpr std::uint64_t CELL_PIECES = 2;             // for each cell, besides those of mean_cells
 constexpr std::uint64_t FEW_PIECES = 1024;           // as many instead, unless all lights in all cells take fewer
+constexpr std::uint64_t FEW_BITS_PIECES = 4096;      // likewise, of cells with bits: pieces take less memory there
 constexpr std::uint64_t CELL_BITS_BYTES = 5U << 20;  // of all cells, at most, for cells=auto
 constexpr std::uint64_t MEAN_CAPACITY = 32;          // default of the option
 constexpr std::uint64_t LIST_LIGHTS = 4;             // entries for each light that are room as well, within LIST_BUDGET
@@ -49,7 +50,7 @@ std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
   const std::uint64_t lights = parts::capacity(problem);
   const std::uint64_t room = lights * problem.options.integer("mean_cells");
   const std::uint64_t all = s.cell_count * ((lights + PIECE - 1) / PIECE);
-  const std::uint64_t few = room == 0 ? 0 : std::min(FEW_PIECES, all);
+  const std::uint64_t few = room == 0 ? 0 : std::min(s.cell_bits ? FEW_BITS_PIECES : FEW_PIECES, all);
   return (room + PIECE - 1) / PIECE + std::max(CELL_PIECES * s.cell_count, few);
 }
 
