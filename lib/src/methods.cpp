@@ -36,15 +36,19 @@ Result<const Method*> find_method(std::string_view name) {
 
 namespace {
 
-/// A device that ends long loops cannot walk every light: an error where every pixel does, a note where a cell may.
+constexpr std::uint32_t LIGHT_ROUNDS = 3;  ///< of the nested loops of a walk, at most
+
+/// A device that ends long loops cannot walk every light: an error where every pixel does, a note where one may.
 std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
-  if (problem.light_capacity <= problem.traits.max_loop_rounds) return std::nullopt;
-  const std::string ends = std::to_string(problem.light_capacity) +
-                           " lights, but the device ends a thread's loops after " +
-                           std::to_string(problem.traits.max_loop_rounds) + " rounds";
-  if (plan.lookup.name == "all") return Error{"look-up all", "walks " + ends};
-  if (plan.counters != NO_RESOURCE)
-    plan.notes.push_back("a cell that does not fit may walk up to " + ends + ": it can then lose lights");
+  const std::uint32_t rounds = problem.traits.max_loop_rounds;
+  const std::string ends = "the device ends a thread's loops after " + std::to_string(rounds) + " rounds";
+  if (plan.lookup.name == "all") {
+    if (problem.light_capacity <= rounds) return std::nullopt;
+    return Error{"look-up all", "walks " + std::to_string(problem.light_capacity) + " lights, but " + ends};
+  }
+  if (problem.light_capacity > rounds / LIGHT_ROUNDS)
+    plan.notes.push_back("a pixel that walks more than " + std::to_string(rounds / LIGHT_ROUNDS) +
+                         " lights can lose some: " + ends);
   return std::nullopt;
 }
 
