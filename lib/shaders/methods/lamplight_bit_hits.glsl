@@ -1,11 +1,10 @@
 // Hits as bits, where lights are few: a line for each cell, a bit for every light. A bit needs no room, no rank and no
-// place, so nothing is left to scan or to scatter but the cells' counts, and those the work group that ends last turns into
-// pieces.
+// place, so nothing is left to scan or to scatter but the cells' counts, and those the work group that ends last turns
+// into pieces.
 // Needs: CELL_ROWS; `frame`, `totals`. Gives keep_hit, keep_last_hits.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_BIT_HITS
 #define LAMP_METHODS_LAMPLIGHT_BIT_HITS
-#extension GL_KHR_shader_subgroup_arithmetic : require
 
 layout(constant_id = 5) const uint PIECES = 1;           // capacity
 layout(constant_id = 6) const uint ROW_GROUPS = 1;       // work groups of the last pass for a piece
@@ -15,9 +14,9 @@ layout(set = 0, binding = 5, scalar) coherent buffer BitBuffer { uint cell_bits[
 layout(set = 0, binding = 6, scalar) coherent buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 #define DEPTH_BINDING 8
+#include "common/subgroup_scan.glsl"
 #include "methods/lamplight_pieces.glsl"
 
-shared uint s_pieces[GROUP_THREADS];  // of each subgroup's cells
 shared uint s_is_last;
 
 void clear_hits() {}
@@ -32,25 +31,21 @@ void keep_hit(bool is_hit, uint light, uint cell, inout uint waiting) {
 
 // By all threads of a group together.
 void hand_out_pieces() {
-  const uint thread = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+  const uint thread = scan_thread();
   const uint strip = (CELLS + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;  // cells of a thread
   const uint from = min(thread * strip, CELLS);
   const uint to = min(from + strip, CELLS);
   uint own = 0u;
   for (uint cell = from; cell < to; ++cell) own += pieces_of(cells[cell].entries);
-  uint end = subgroupInclusiveAdd(own);
-  if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) s_pieces[gl_SubgroupID] = end;
-  barrier();  // every subgroup's pieces before they are added up
-  for (uint i = 0u; i < gl_SubgroupID; ++i) end += s_pieces[i];
-  uint first = end - own;
+  uint first = subgroup_scan(own);
   for (uint cell = from; cell < to; ++cell) {
     const uint entries = cells[cell].entries;
     write_cell(cell, 0u, 1u, first, entries, has_pieces(first, entries));
     first += pieces_of(entries);
   }
   if (thread != gl_WorkGroupSize.x - 1u) return;
-  totals.wanted_pieces = end;
-  totals.pieces = min(end, PIECES);
+  totals.wanted_pieces = first;  // past its own: all of them
+  totals.pieces = min(first, PIECES);
   totals.lists_y = ROW_GROUPS;
   totals.lists_z = 1u;
 }

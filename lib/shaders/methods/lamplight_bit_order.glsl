@@ -4,12 +4,11 @@
 #ifndef LAMP_METHODS_LAMPLIGHT_BIT_ORDER
 #define LAMP_METHODS_LAMPLIGHT_BIT_ORDER
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 
 layout(constant_id = 10) const uint GROUP_THREADS = 256;
+#include "common/subgroup_scan.glsl"
 
 shared uint s_lights[PIECE];
-shared uint s_subgroup_lights[GROUP_THREADS];  // of each subgroup's words
 
 // Words that a thread loads at once: their way from memory is most of the time.
 const uint HELD = 8u;
@@ -29,7 +28,7 @@ void order_lights(LightPiece piece, uint begin, uint end) {
   const uint words = (frame.light_count + 31u) / 32u;
   const uint strip = (words + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;  // words of a thread
   const uint line = piece.cell * words;
-  const uint from = line + min((gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID) * strip, words);
+  const uint from = line + min(scan_thread() * strip, words);
   const uint to = min(from + strip, line + words);
   uint held[HELD];
   uint own = 0u;
@@ -37,11 +36,7 @@ void order_lights(LightPiece piece, uint begin, uint end) {
     load_words(first, to, held);
     [[unroll]] for (uint k = 0u; k < HELD; ++k) own += uint(bitCount(held[k]));
   }
-  const uint before_next = subgroupInclusiveAdd(own);
-  if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) s_subgroup_lights[gl_SubgroupID] = before_next;
-  barrier();  // every subgroup's lights before they are added up
-  uint entry = piece.begin + before_next - own;
-  for (uint i = 0u; i < gl_SubgroupID; ++i) entry += s_subgroup_lights[i];
+  uint entry = piece.begin + subgroup_scan(own);
   const bool in_piece = entry < end && entry + own > begin;
   for (uint first = from; in_piece && first < to; first += HELD) {
     if (strip > HELD) load_words(first, to, held);

@@ -7,7 +7,7 @@ layout(constant_id = 105) const uint LOOKUP_WORDS = 1;
 layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
 
 #define LOOKUP_LIGHT(bit) (bit)
-#define LOOKUP_SPARSE (LOOKUP_WORDS > 8u)
+#define LOOKUP_SPARSE
 #include "lookup/parts/walk_bits.glsl"
 
 Walk walk_begin(uvec2 pixel, float z_view) {

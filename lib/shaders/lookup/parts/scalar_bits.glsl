@@ -3,20 +3,23 @@
 // are empty, the threads find out together which are not.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Scalarization".
 // Promise: each thread meets exactly the lights of walk_next, in the same order, whichever threads are active with it.
-// Needs: walk_bits.glsl. LOOKUP_SPARSE: whether most words that are asked for are empty, and there are more than a few.
+// Needs: walk_bits.glsl, LOOKUP_WORDS of a cell. LOOKUP_SPARSE: where many words are asked for most are empty.
 // SPDX-License-Identifier: Apache-2.0
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-#ifndef LOOKUP_SPARSE
-#define LOOKUP_SPARSE false
+const uint FEW_WORDS = 8u;  // are not worth a look
+#ifdef LOOKUP_SPARSE
+const bool LOOKS = LOOKUP_WORDS > FEW_WORDS;
+#else
+const bool LOOKS = false;
 #endif
 
 struct WalkMerged {
   Walk own;
   uint word;      // the next word to look at
   uint end;       // of the words that some thread has
-  uint block;     // with LOOKUP_SPARSE, bit i of `open` is word block + i
+  uint block;     // with LOOKS, bit i of `open` is word block + i
   uint open;      // words that may hold a light of some thread, not yet walked
   uint at;        // the word that is walked
   uint own_bits;  // of it
@@ -33,7 +36,7 @@ WalkMerged walk_begin_merged(Walk own) {
 
 const uint BLOCK_WORDS = 32u;
 
-// Which of a block's words of the thread's cell hold a light, as far as it looks: every `step`-th word from `first` on.
+// Which of a block's words hold a light, of the cell whose words begin at `base`: every `step`-th from `first` on.
 uint words_with_lights(uint base, uint block, uint count, uint first, uint step) {
   uint found = 0u;
   for (uint i = first; i < count; i += step)
@@ -66,7 +69,7 @@ void look_at_words(inout WalkMerged walk) {
 
 // The next word to walk; false if there is none.
 bool next_open_word(inout WalkMerged walk) {
-  if (!LOOKUP_SPARSE) {
+  if (!LOOKS) {
     walk.at = walk.word++;
     return walk.at < walk.end;
   }

@@ -12,7 +12,7 @@ layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float looku
 
 #include "lookup/parts/tile_cell.glsl"
 #define LOOKUP_LIGHT(bit) (bit)
-#define LOOKUP_SPARSE (LOOKUP_WORDS > 8u)
+#define LOOKUP_SPARSE
 #include "lookup/parts/walk_bits.glsl"
 
 void lookup_prepare() {}
