@@ -57,7 +57,7 @@ std::string encode(const ExrPixels& pixels) {
 std::string names_of(const Imf::ChannelList& channels) {
   std::string names;
   for (auto channel = channels.begin(); channel != channels.end(); ++channel)
-    names += (names.empty() ? "" : " ") + std::string(channel.name());
+    names += fmt::format("{}{}", names.empty() ? "" : " ", channel.name());
   return names;
 }
 
