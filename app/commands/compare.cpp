@@ -115,6 +115,7 @@ Run add_compare(CLI::App& app) {
   command->add_option("a", o->a, "a method, or auto; with --panels, the scene");
   command->add_option("b", o->b, "another");
   add_common_options(*command, o->request);
+  add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_decal_option(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")

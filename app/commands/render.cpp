@@ -58,14 +58,6 @@ std::filesystem::path with_folder(std::filesystem::path file) {
   return file;
 }
 
-/// "; there is room with mean_capacity=40".
-std::string room_note(std::span<const std::pair<std::string, std::string>> fits_with) {
-  std::string note;
-  for (const auto& [key, value] : fits_with)
-    note += fmt::format("{} {}={}", note.empty() ? "; there is room with" : ",", key, value);
-  return note;
-}
-
 /// "lamplight tile=8, chosen by auto", or the method's name.
 std::string method_words(const MethodChoice& chosen) {
   if (!chosen.by_auto) return std::string(chosen.method->name);
@@ -85,9 +77,7 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
   if (stats.findings)
     line("pairs", fmt::format("{} of pixel and light walked, {:.1f} lights a pixel's list, longest {}",
                               stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
-  if (stats.rendered.counters.overflowed_cells != 0)
-    line("overflow", fmt::format("{} cells did not fit and walked more lights{}",
-                                 stats.rendered.counters.overflowed_cells, room_note(stats.fits_with)));
+  if (stats.rendered.counters.overflowed_cells != 0) line("overflow", overflow_words(stats));
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
     passes += fmt::format("{}{}{} {:.3f}", passes.empty() ? "" : ", ", pass.host ? "on the CPU: " : "", pass.name,
@@ -159,6 +149,7 @@ Run add_render(CLI::App& app) {
   auto o = std::make_shared<RenderOptions>();
   add_common_options(*command, o->request);
   add_method_options(*command, o->request);
+  add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_decal_option(*command, o->request);
   command->add_option("--out", o->out, "picture, .png or .exr")->capture_default_str();

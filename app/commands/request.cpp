@@ -125,6 +125,11 @@ void add_method_options(CLI::App& command, Request& r) {
   command.add_option("--path", r.path, "forward, tiled-deferred, deferred or standard-deferred")->capture_default_str();
 }
 
+void add_grow_option(CLI::App& command, Request& r) {
+  command.add_flag("--grow", r.grow,
+                   "make room for what does not fit, as an engine's Culler does, and say which options that takes");
+}
+
 void add_auto_options(CLI::App& command, Request& r) {
   command.add_flag("--explain", r.explain, "say what auto predicts for each candidate, and why it takes one");
   command
@@ -259,7 +264,7 @@ Setup make_setup(const Request& request) {
 }
 
 Session::Session(const Request& request, const Setup& setup, ContextInfo::Validation validation)
-    : setup_(setup), brdf_(parse_brdf(request.brdf)), shaders_(request.shader_dir) {
+    : setup_(setup), brdf_(parse_brdf(request.brdf)), grow_(request.grow), shaders_(request.shader_dir) {
   context_ = std::make_unique<Context>(ContextInfo{
       .device = request.device, .validation = validation, .pipeline_statistics = request.pipeline_statistics});
   gpu_scene_ = std::make_unique<GpuScene>(*context_, setup.scene);
@@ -270,18 +275,27 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
 }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
-  return {context_->device(),
-          shaders_,
-          {.method = &method,
-           .options = take(resolve_options(method, options)),
-           .width = setup_.view.width(),
-           .height = setup_.view.height(),
-           .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
-           .path = path,
-           .brdf = brdf_,
-           .transparency = !gpu_scene_->blended().empty(),
-           .captured = setup_.scene.captured.has_value(),
-           .decals = !setup_.decals.empty()}};
+  LightingInfo info{.method = &method,
+                    .options = take(resolve_options(method, options)),
+                    .width = setup_.view.width(),
+                    .height = setup_.view.height(),
+                    .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
+                    .path = path,
+                    .brdf = brdf_,
+                    .transparency = !gpu_scene_->blended().empty(),
+                    .captured = setup_.scene.captured.has_value(),
+                    .decals = !setup_.decals.empty()};
+  Lighting lighting(context_->device(), shaders_, info);
+  const Options asked = info.options;
+  // More than once: where one list is too short, it can hide what the next one needs.
+  while (grow_) {
+    std::optional<Options> more = lighting.grown(renderer_->needs(lighting));
+    if (!more) break;
+    info.options = std::move(*more);
+    info.grown = changed_options(asked, info.options);
+    lighting = Lighting(context_->device(), shaders_, info);
+  }
+  return lighting;
 }
 
 }  // namespace lamp::app

@@ -41,12 +41,15 @@ struct Request {
   bool pipeline_statistics = false;
   std::string calibration;  ///< file that `auto` goes by; empty: the user's cache
   bool explain = false;     ///< say what `auto` predicts
+  bool grow = false;        ///< make room until everything fits
 };
 
 /// Adds the options to a command, with their defaults and examples in the help text.
 void add_common_options(CLI::App& command, Request& request);
 /// Adds `--method`, `--option` and `--path`.
 void add_method_options(CLI::App& command, Request& request);
+/// Adds `--grow`.
+void add_grow_option(CLI::App& command, Request& request);
 /// Adds `--explain` and `--calibration`.
 void add_auto_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
@@ -96,6 +99,7 @@ class Session {
   Session(const Request& request, const Setup& setup,
           ContextInfo::Validation validation = ContextInfo::Validation::off);
 
+  /// With `--grow`, with as much room as the frame needs.
   [[nodiscard]] Lighting lighting(const Method& method, const std::vector<std::string>& options,
                                   ShadingPath path) const;
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
@@ -105,6 +109,7 @@ class Session {
  private:
   const Setup& setup_;
   Brdf brdf_;
+  bool grow_;
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<GpuScene> gpu_scene_;

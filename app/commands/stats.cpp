@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/stats.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -28,6 +30,17 @@ void add_statistics(nlohmann::json& json, const PassTime& pass) {
 
 }  // namespace
 
+std::string words_of(std::span<const std::pair<std::string, std::string>> settings) {
+  std::string words;
+  for (const auto& [key, value] : settings) words += fmt::format("{}{}={}", words.empty() ? "" : ", ", key, value);
+  return words;
+}
+
+std::string overflow_words(const Stats& stats) {
+  return fmt::format("{} cells did not fit and walked more lights{}{}", stats.rendered.counters.overflowed_cells,
+                     stats.fits_with.empty() ? "" : "; there is room with ", words_of(stats.fits_with));
+}
+
 Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
   const Plan& plan = lighting.runner().plan();
   Stats stats{.device = info.device.name,
@@ -46,6 +59,8 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
               .notes = plan.notes,
               .ordered = plan.ordered,
               .approximate = plan.approximate};
+  if (const auto& grown = lighting.info().grown; !grown.empty())
+    stats.notes.push_back("room was made with " + words_of(grown));
   stats.rendered.image.pixels = {};
   stats.fits_with = lighting.fits_with(stats.rendered.needed);
   for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, buffer.bytes);

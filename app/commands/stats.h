@@ -50,6 +50,12 @@ struct StatsInfo {
 [[nodiscard]] Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup,
                                Rendered rendered, std::uint32_t frames);
 
+/// "mean_cells=3, mean_capacity=40".
+[[nodiscard]] std::string words_of(std::span<const std::pair<std::string, std::string>> settings);
+
+/// "3 cells did not fit and walked more lights; there is room with mean_capacity=40". Of a frame with overflow.
+[[nodiscard]] std::string overflow_words(const Stats& stats);
+
 [[nodiscard]] nlohmann::json to_json(const Stats& stats);
 
 }  // namespace lamp::app

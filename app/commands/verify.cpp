@@ -163,6 +163,7 @@ void print_table(std::span<const Row> rows) {
                s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
                verdict);
     for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
+    if (s.rendered.counters.overflowed_cells != 0) fmt::print("  {}\n", overflow_words(s));
     if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
     if (f.repeated != 0) fmt::print("  {} reaching lights walked again\n", f.repeated);
     if (f.changed_runs.value_or(0) != 0) fmt::print("  {} of the repeated runs had other lists\n", *f.changed_runs);
@@ -288,6 +289,7 @@ Run add_verify(CLI::App& app) {
                    "method to check, or auto; may be given more than once; default: all of them")
       ->allow_extra_args(false);
   command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
       ->capture_default_str();

@@ -101,6 +101,13 @@ std::span<const std::string_view> path_names() {
   return NAMES;
 }
 
+std::vector<std::pair<std::string, std::string>> changed_options(const Options& before, const Options& after) {
+  std::vector<std::pair<std::string, std::string>> changed;
+  for (const auto& [key, value] : after.all())
+    if (value != before.word(key)) changed.emplace_back(key, value);
+  return changed;
+}
+
 Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
   return take(make_plan(*info.method, problem_of(info, device.traits)));
 }
@@ -114,15 +121,17 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
     decals_.emplace(device, shaders, runner_, glm::uvec2(info.width, info.height));
 }
 
-std::vector<std::pair<std::string, std::string>> Lighting::fits_with(std::span<const std::uint32_t> needed) const {
-  std::vector<std::pair<std::string, std::string>> changed;
+std::optional<Options> Lighting::grown(std::span<const std::uint32_t> needed) const {
   const Plan& plan = runner_.plan();
-  if (needed.size() != plan.capacities.size()) return changed;
-  const std::optional<GrownPlan> grown = grow_plan(*info_.method, problem_of(info_, traits_), plan, needed);
-  if (!grown) return changed;
-  for (const auto& [key, value] : grown->options.all())
-    if (value != info_.options.word(key)) changed.emplace_back(key, value);
-  return changed;
+  if (needed.size() != plan.capacities.size()) return std::nullopt;
+  std::optional<GrownPlan> grown = grow_plan(*info_.method, problem_of(info_, traits_), plan, needed);
+  if (!grown) return std::nullopt;
+  return std::move(grown->options);
+}
+
+std::vector<std::pair<std::string, std::string>> Lighting::fits_with(std::span<const std::uint32_t> needed) const {
+  const std::optional<Options> more = grown(needed);
+  return more ? changed_options(info_.options, *more) : std::vector<std::pair<std::string, std::string>>();
 }
 
 std::span<const vulkan::PipelineStatistic> Lighting::statistics(std::string_view pass) const {

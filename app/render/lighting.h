@@ -40,7 +40,9 @@ struct LightingInfo {
   bool transparency = false;  ///< the scene has blended surfaces
   bool captured = false;      ///< the scene is a captured frame
   bool decals = false;        ///< the frames have decals
-  Rows shaded;                ///< what is shaded: a reference picture may need a part alone; not with a fused look-up
+  /// Of the options, those that room was made with, for what did not fit with the ones asked for.
+  std::vector<std::pair<std::string, std::string>> grown;
+  Rows shaded;  ///< what is shaded: a reference picture may need a part alone; not with a fused look-up
 };
 
 /// What a frame is lit with.
@@ -69,8 +71,10 @@ class Lighting {
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   [[nodiscard]] bool fused() const;
-  /// The options, and their values, that `vulkan::Culler` would grow to after a frame that needed so much (of the
-  /// plan's capacities). Empty if everything fitted, or nothing can grow.
+  /// The options that `vulkan::Culler` would grow to after a frame that needed so much (of the plan's capacities).
+  /// Nothing if everything fitted, or nothing can grow.
+  [[nodiscard]] std::optional<Options> grown(std::span<const std::uint32_t> needed) const;
+  /// Of them, those that change, and their values.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> fits_with(std::span<const std::uint32_t> needed) const;
   /// What the driver says of the pipeline of a pass of this name (of the times); empty where it says nothing.
   [[nodiscard]] std::span<const vulkan::PipelineStatistic> statistics(std::string_view pass) const;
@@ -96,6 +100,10 @@ class Lighting {
   vulkan::Pipeline transparent_;
   std::optional<DecalPass> decals_;  ///< of the deferred paths
 };
+
+/// The options of a method whose values are others than before, and the values.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_options(const Options& before,
+                                                                               const Options& after);
 
 /// A method's plan for these traits, or its error thrown.
 [[nodiscard]] Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device);

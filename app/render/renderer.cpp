@@ -131,6 +131,21 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   return rendered;
 }
 
+std::vector<std::uint32_t> Renderer::needs(Lighting& lighting) {
+  const Plan& plan = lighting.runner().plan();
+  if (plan.counters == NO_RESOURCE) return {};
+  if (!surfaces_drawn_) draw_surfaces();
+  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    data_.record_upload(recorder);
+    lighting.record_cull(recorder, lighting_frame());
+    lighting.runner().record_counts(recorder, counts);
+  });
+  forget(counts);
+  return vulkan::read_counts(plan, counts.mapped()).needed;
+}
+
 std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {
   context_.submit([&](VkCommandBuffer commands) {
     timestamps_.reset(commands, parts_of(lighting, timing));

@@ -68,6 +68,10 @@ class Renderer {
   /// left in the G-buffer are not drawn again.
   [[nodiscard]] Rendered relight(Lighting& lighting);
 
+  /// Culls the frame, draws its surfaces first where there are none yet, and shades nothing: how much is needed of each
+  /// of the plan's capacities. Empty for a plan without any.
+  [[nodiscard]] std::vector<std::uint32_t> needs(Lighting& lighting);
+
   /// Records and submits one frame, reads nothing back but its times.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 

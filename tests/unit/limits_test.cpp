@@ -185,14 +185,31 @@ TEST(LamplightMemory, CellsHaveBitsWhileTheseAreSmall) {
     problem.options = resolve_options(method, settings).value();
     const Plan plan = make_plan(method, problem).value();
     const bool has_bits = std::ranges::find(plan.buffers, "cell bits", &BufferDesc::name) != plan.buffers.end();
-    EXPECT_EQ(has_bits, plan.passes.size() == 4);
+    EXPECT_EQ(has_bits, plan.passes.size() != 6);
     return plan.passes.size();
   };
-  EXPECT_EQ(passes(1, {}), 4U);
+  EXPECT_EQ(passes(129, {}), 4U);
   EXPECT_EQ(passes(65536, {}), 4U);
   EXPECT_EQ(passes(262144, {}), 6U);
   EXPECT_EQ(passes(64, {"cells=list"}), 6U);
   EXPECT_EQ(passes(262144, {"cells=bits"}), 4U);
+  // As few lights as a piece holds: cells look at them all.
+  EXPECT_EQ(passes(1, {}), 2U);
+  EXPECT_EQ(passes(shared::PIECE, {}), 2U);
+  EXPECT_EQ(passes(shared::PIECE, {"cells=bits"}), 4U);
+}
+
+TEST(LamplightMemory, CellsGatherNoMoreThanAPiece) {
+  const Method& method = *find_method("lamplight").value();
+  const auto refusal = [&](std::uint32_t lights, const std::vector<std::string>& settings) {
+    Problem problem = problem_of(method, 640, 360, lights, test::LARGE_DEVICE);
+    problem.options = resolve_options(method, settings).value();
+    const Result<Plan> plan = make_plan(method, problem);
+    return plan ? "" : plan.error().text();
+  };
+  EXPECT_EQ(refusal(shared::PIECE, {"cells=gather"}), "");
+  EXPECT_NE(refusal(shared::PIECE + 1, {"cells=gather"}).find("up to 128 lights"), std::string::npos);
+  EXPECT_NE(refusal(64, {"cells=gather", "depth=none"}).find("option cells"), std::string::npos);
 }
 
 TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {

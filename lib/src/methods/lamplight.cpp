@@ -6,6 +6,7 @@
 // distribution; lists of any length ascend; what does not fit is counted and walked the long way.
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "lamplight/shared/lamplight.h"
@@ -52,9 +53,9 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   plan.counters = b.totals;
   if (!s.sliced()) {
     b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
-    b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
+    if (!s.gathers) b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
   }
-  b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
+  if (!s.gathers) b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
   const std::uint64_t matrix_bytes = std::uint64_t{s.blocks} * s.cell_count * 4;
   b.matrix = plan.add({.name = s.cell_bits ? "cell bits" : "cell counts", .bytes = matrix_bytes, .zeroed = s.sliced()});
   b.cells = plan.add(
@@ -94,17 +95,20 @@ std::string shader_of(std::string_view name, const Sizes& s) {
 Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t cell_px = s.tile_px * s.cell_tiles;
   const std::uint32_t threads = group_threads(problem, std::clamp(cell_px * cell_px / 8, 64U, 512U));
-  return {.name = "tile depth",
-          .shader = "methods/lamplight_depth",
-          .constants = {threads, s.tile_px, s.cell_tiles, s.block},
-          .bindings = {{INPUT_FRAME},
-                       {INPUT_DEPTH},
-                       {b.tile_depths, Access::write},
-                       {b.cell_depths, Access::write},
-                       {b.matrix, Access::write},
-                       {b.cells, Access::write}},
-          .extent = {.x = s.cells.width, .y = s.cells.height},
-          .shared_bytes = 32};
+  Pass pass{.name = "tile depth",
+            .shader = s.gathers ? "methods/lamplight_depth_gather" : "methods/lamplight_depth",
+            .constants = {threads, s.tile_px, s.cell_tiles},
+            .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.tile_depths, Access::write}, {b.cells, Access::write}},
+            .extent = {.x = s.cells.width, .y = s.cells.height},
+            .shared_bytes = 32};
+  if (s.gathers) {
+    pass.bindings.insert(pass.bindings.end(), {{INPUT_SPHERES}, {b.matrix, Access::write}, {b.pieces, Access::write}});
+    pass.shared_bytes += shared::PIECE_WORDS * 4;
+  } else {
+    pass.constants.push_back(s.block);
+    pass.bindings.insert(pass.bindings.end(), {{b.matrix, Access::write}, {b.cell_depths, Access::write}});
+  }
+  return pass;
 }
 
 Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) {
@@ -191,6 +195,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                    {b.lists, Access::write}},
       .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)},
       .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 72 + 80};
+  if (s.gathers) pass.extent = {.x = s.cell_count, .y = s.cell_rows / s.group_rows};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
@@ -204,8 +209,10 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
   const std::uint32_t threads = group_threads(problem, many_lights ? 2 * THREADS : THREADS);
   std::vector<Pass> passes;
   if (!s.sliced()) passes.push_back(depth_pass(problem, s, b));
-  passes.push_back(view_pass(problem, b, threads));
-  passes.push_back(find_pass(problem, s, b, threads));
+  if (!s.gathers) {
+    passes.push_back(view_pass(problem, b, threads));
+    passes.push_back(find_pass(problem, s, b, threads));
+  }
   if (!s.cell_bits) {
     passes.push_back(scan_pass(problem, s, b, threads));
     passes.push_back(scatter_pass(s, b, threads));
@@ -243,6 +250,9 @@ Plan plan_lamplight(const Problem& problem) {
 std::optional<Error> check_lamplight(const Problem& problem) {
   if (problem.options.word("depth") == "none" && problem.options.word("prune") == "pixel")
     return Error{"option prune", "pixel looks at the depth buffer, and depth=none does not; expected prune=none"};
+  if (problem.options.word("cells") == "gather" && !lamplight::can_gather(problem))
+    return Error{"option cells", "gather is for up to " + std::to_string(PIECE) +
+                                     " lights and a depth buffer; expected auto, list or bits"};
   return std::nullopt;
 }
 
@@ -253,9 +263,10 @@ std::vector<OptionSpec> lamplight_options() {
            .fallback = "list",
            .choices = {"list", "bits"}},
           {.key = "cells",
-           .help = "what a cell keeps until then: a list, or a bit for every light; auto: bits up to 5 MiB",
+           .help = "how cells get lights: these find them and are kept as a list, or as a bit for every light; gather: "
+                   "cells look at all of up to 128; auto: gather, bits up to 5 MiB, list",
            .fallback = "auto",
-           .choices = {"auto", "list", "bits"}},
+           .choices = {"auto", "list", "bits", "gather"}},
           {.key = "prune",
            .help = "pixel: lights that reach no pixel of a tile are dropped",
            .fallback = "none",

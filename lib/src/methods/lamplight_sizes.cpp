@@ -47,6 +47,7 @@ std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
 
 /// With mean_cells=0 two a cell and no more.
 std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
+  if (s.gathers) return s.cell_count;
   const std::uint64_t lights = parts::capacity(problem);
   const std::uint64_t room = lights * problem.options.integer("mean_cells");
   const std::uint64_t all = s.cell_count * ((lights + PIECE - 1) / PIECE);
@@ -76,7 +77,13 @@ Sizes grid_of(const Problem& problem) {
   return s;
 }
 
+bool wants_gathering(const Problem& problem, const Sizes& s) {
+  const std::string_view wanted = problem.options.word("cells");
+  return wanted == "gather" || (wanted == "auto" && can_gather(problem) && s.cell_count <= most_pieces(problem, s));
+}
+
 bool wants_cell_bits(const Problem& problem, const Sizes& s) {
+  if (s.gathers) return true;
   const std::string_view wanted = problem.options.word("cells");
   const std::uint64_t words = parts::divide_up(parts::capacity(problem), WORD_LIGHTS);
   return wanted == "bits" || (wanted == "auto" && words * 4 * s.cell_count <= CELL_BITS_BYTES);
@@ -88,9 +95,14 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
 }
 
+bool can_gather(const Problem& problem) {
+  return parts::capacity(problem) <= PIECE && problem.options.word("depth") == "buffer";
+}
+
 Sizes sizes_of(const Problem& problem) {
   Sizes s = grid_of(problem);
   const std::uint64_t lights = parts::capacity(problem);
+  s.gathers = wants_gathering(problem, s);
   s.cell_bits = wants_cell_bits(problem, s);
   s.block = s.cell_bits ? WORD_LIGHTS : block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);

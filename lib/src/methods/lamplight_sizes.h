@@ -21,6 +21,7 @@ struct Sizes {
   std::uint32_t group_rows;           ///< of them, for a work group of the last pass
   bool bits;                          ///< the container
   bool cell_bits;                     ///< a cell has a bit for each light, not a list
+  bool gathers;                       ///< and looks at every light itself: one piece holds them all
   std::uint32_t block;                ///< lights: of a word of bits, or of a line of the count matrix
   std::uint32_t blocks;               ///< words of a cell, or lines
   std::uint32_t pieces;               ///< of PIECE lights in cells, capacity
@@ -36,5 +37,8 @@ struct Sizes {
 [[nodiscard]] std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted);
 
 [[nodiscard]] Sizes sizes_of(const Problem& problem);
+
+/// Whether cells can look at every light themselves.
+[[nodiscard]] bool can_gather(const Problem& problem);
 
 }  // namespace lamp::lamplight
