@@ -289,7 +289,7 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
   const Options asked = info.options;
   // More than once: where one list is too short, it can hide what the next one needs.
   while (grow_) {
-    std::optional<Options> more = lighting.grown(renderer_->needs(lighting));
+    std::optional<Options> more = lighting.grown(renderer_->cull(lighting).needed);
     if (!more) break;
     info.options = std::move(*more);
     info.grown = changed_options(asked, info.options);

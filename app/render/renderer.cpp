@@ -131,7 +131,7 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   return rendered;
 }
 
-std::vector<std::uint32_t> Renderer::needs(Lighting& lighting) {
+vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   const Plan& plan = lighting.runner().plan();
   if (plan.counters == NO_RESOURCE) return {};
   if (!surfaces_drawn_) draw_surfaces();
@@ -143,7 +143,7 @@ std::vector<std::uint32_t> Renderer::needs(Lighting& lighting) {
     lighting.runner().record_counts(recorder, counts);
   });
   forget(counts);
-  return vulkan::read_counts(plan, counts.mapped()).needed;
+  return vulkan::read_counts(plan, counts.mapped());
 }
 
 std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {

@@ -68,9 +68,9 @@ class Renderer {
   /// left in the G-buffer are not drawn again.
   [[nodiscard]] Rendered relight(Lighting& lighting);
 
-  /// Culls the frame, draws its surfaces first where there are none yet, and shades nothing: how much is needed of each
-  /// of the plan's capacities. Empty for a plan without any.
-  [[nodiscard]] std::vector<std::uint32_t> needs(Lighting& lighting);
+  /// Culls the frame and shades nothing; draws its surfaces first where there are none yet. What did not fit, and what
+  /// is needed of the plan's capacities; nothing of a plan that does not count.
+  [[nodiscard]] vulkan::FrameCounts cull(Lighting& lighting);
 
   /// Records and submits one frame, reads nothing back but its times.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);

@@ -57,6 +57,23 @@ TEST_F(Outputs, RenderSaysWhatWouldFit) {
   EXPECT_FALSE(fits.contains("fits_with"));
 }
 
+TEST_F(Outputs, GrowMakesRoomAndSaysSo) {
+  const auto grown = [this](std::vector<std::string> arguments) {
+    const std::vector<std::string> tight = {"--method", "clustered", "--option", "mean_capacity=1", "--json", "--grow"};
+    arguments.insert(arguments.end(), tight.begin(), tight.end());
+    return json_of(small(arguments));
+  };
+  const nlohmann::json rendered = grown({"render"});
+  const nlohmann::json verified = grown({"verify", "--runs", "3"}).at(0);
+  EXPECT_EQ(verified.at("changed_runs"), 0);
+  for (const nlohmann::json& stats : {rendered, verified}) {
+    EXPECT_EQ(stats.at("overflowed_cells"), 0);
+    const std::string capacity = stats.at("options").at("mean_capacity");
+    EXPECT_GT(std::stoi(capacity), 1);
+    EXPECT_EQ(stats.at("notes").back(), "room was made with mean_capacity=" + capacity);
+  }
+}
+
 TEST_F(Outputs, EitherVerifierFindsTheSame) {
   const nlohmann::json oracle = json_of(small({"verify", "--json", "--verifier", "oracle"}));
   const nlohmann::json gpu = json_of(small({"verify", "--json", "--verifier", "gpu"}));

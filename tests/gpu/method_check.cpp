@@ -59,6 +59,16 @@ std::uint32_t check_picture(Renderer& renderer, Lighting& lighting, const LitCas
   return rendered.counters.overflowed_cells;
 }
 
+void check_fused_picture(Renderer& renderer, const LitCase& lit, const Candidate& candidate, std::uint32_t overflowed) {
+  Lighting& fused = kept_lighting(renderer, candidate, ShadingPath::tiled_deferred);
+  const std::uint32_t fused_overflowed = check_picture(renderer, fused, lit);
+  // Shared memory has each tile's own list; one that all tiles share can run out before.
+  if (fused.runner().plan().capacities.size() == 1) {
+    EXPECT_EQ(fused_overflowed, overflowed);
+  }
+  EXPECT_LE(fused_overflowed, overflowed);
+}
+
 }  // namespace
 
 const Method& brute_force() { return *take(find_method("all")); }
@@ -101,21 +111,18 @@ Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, Sh
 Findings check_method(Renderer& renderer, const LitCase& lit, const Candidate& candidate, Check check) {
   renderer.set_frame(lit.view, lit.lights);
   Lighting& lighting = kept_lighting(renderer, candidate, ShadingPath::deferred);
-  const std::uint32_t overflowed = check_picture(renderer, lighting, lit);  // draws the depth that visits read, too
+  const bool lists_alone = check == Check::lists;
+  // Either draws the depth that visits read, too.
+  const std::uint32_t overflowed =
+      lists_alone ? renderer.cull(lighting).counters.overflowed_cells : check_picture(renderer, lighting, lit);
   const Findings findings = find(renderer, lighting, lit, Passes::separate);
   check_findings(findings, lit, lighting.runner().plan());
   if (check == Check::separate || !lighting.runner().plan().fused) return findings;
 
   SCOPED_TRACE("fused");
-  Lighting& fused = kept_lighting(renderer, candidate, ShadingPath::tiled_deferred);
-  const std::uint32_t fused_overflowed = check_picture(renderer, fused, lit);
-  // Shared memory has each tile's own list; one that all tiles share can run out before.
-  if (fused.runner().plan().capacities.size() == 1) {
-    EXPECT_EQ(fused_overflowed, overflowed);
-  }
-  EXPECT_LE(fused_overflowed, overflowed);
-  const Findings fused_findings = find(renderer, fused, lit, Passes::fused);
-  check_findings(fused_findings, lit, fused.runner().plan());
+  if (!lists_alone) check_fused_picture(renderer, lit, candidate, overflowed);
+  const Findings fused_findings = find(renderer, lighting, lit, Passes::fused);
+  check_findings(fused_findings, lit, lighting.runner().plan());
   if (overflowed == 0) {
     EXPECT_EQ(fused_findings.evaluations, findings.evaluations);
   }

@@ -35,7 +35,11 @@ struct Candidate {
 /// The same, kept until a few dozen others have been asked for: for tests that come back to it.
 [[nodiscard]] Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path);
 
-enum class Check : std::uint8_t { separate, separate_and_fused };
+enum class Check : std::uint8_t {
+  separate,
+  separate_and_fused,
+  lists,  ///< of both, but no pictures
+};
 
 /// Expects of the look-ups, separate and fused: no miss unless the plan is approximate, ascending where it says so, no
 /// more lights than there are, the same sum from both; and of their pictures: brute force's, bit for bit where lists
