@@ -11,6 +11,7 @@
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
+#include "lamplight/shared/lamplight.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -38,11 +39,13 @@ class Axes : public GpuTest {
         lit_(make_case(renderer_, view_, test_lights(scene_.air, view_, {.count = LIGHTS}))) {}
 
   /// Checks the combination; false if the library refuses it.
-  bool check(const Method& method, const std::vector<std::string>& settings) {
+  bool check(const Method& method, const std::vector<std::string>& settings) { return check(method, settings, lit_); }
+
+  bool check(const Method& method, const std::vector<std::string>& settings, const LitCase& lit) {
     SCOPED_TRACE(fmt::format("{} {}", method.name, fmt::join(settings, " ")));
     const Result<Options> options = resolve_options(method, settings);
     EXPECT_TRUE(options.ok());
-    const auto capacity = static_cast<std::uint32_t>(lit_.lights.size());
+    const auto capacity = static_cast<std::uint32_t>(lit.lights.size());
     const Result<Plan> plan = make_plan(method, {.width = WIDTH,
                                                  .height = HEIGHT,
                                                  .light_capacity = capacity,
@@ -52,7 +55,7 @@ class Axes : public GpuTest {
       EXPECT_NE(plan.error().text().find("option"), std::string::npos) << plan.error().text();
       return false;
     }
-    check_method(renderer_, lit_, {.method = &method, .settings = settings, .light_capacity = capacity},
+    check_method(renderer_, lit, {.method = &method, .settings = settings, .light_capacity = capacity},
                  is_new(plan.value()) ? Check::separate_and_fused : Check::lists);
     return true;
   }
@@ -108,6 +111,19 @@ TEST_F(Axes, LamplightWithoutDepthBuffer) {
         for (const char* cells : {"list", "bits"})
           EXPECT_TRUE(check(method, {"depth=none", fmt::format("container={}", container), fmt::format("tile={}", tile),
                                      fmt::format("scale={}", scale), fmt::format("cells={}", cells), "slices=7"}));
+}
+
+// Cells that look at every light themselves, which the other tests have too many lights for.
+TEST_F(Axes, LamplightOfFewLights) {
+  const Method& method = *take(find_method("lamplight"));
+  const LitCase few = make_case(renderer_, view_, test_lights(scene_.air, view_, {.count = shared::PIECE}));
+  for (const char* container : {"list", "bits"})
+    for (const char* tile : {"8", "32"})
+      for (const char* prune : {"none", "pixel"})
+        EXPECT_TRUE(check(method,
+                          {"cells=gather", fmt::format("container={}", container), fmt::format("tile={}", tile),
+                           fmt::format("prune={}", prune)},
+                          few));
 }
 
 TEST_F(Axes, WithoutDepthBoundsWhateverNeedsNone) {

@@ -188,7 +188,7 @@ TEST(LamplightMemory, CellsHaveBitsWhileTheseAreSmall) {
     EXPECT_EQ(has_bits, plan.passes.size() != 6);
     return plan.passes.size();
   };
-  EXPECT_EQ(passes(129, {}), 4U);
+  EXPECT_EQ(passes(shared::PIECE + 1, {}), 4U);
   EXPECT_EQ(passes(65536, {}), 4U);
   EXPECT_EQ(passes(262144, {}), 6U);
   EXPECT_EQ(passes(64, {"cells=list"}), 6U);
@@ -201,8 +201,9 @@ TEST(LamplightMemory, CellsHaveBitsWhileTheseAreSmall) {
 
 TEST(LamplightMemory, CellsGatherNoMoreThanAPiece) {
   const Method& method = *find_method("lamplight").value();
+  DeviceTraits traits = test::LARGE_DEVICE;
   const auto refusal = [&](std::uint32_t lights, const std::vector<std::string>& settings) {
-    Problem problem = problem_of(method, 640, 360, lights, test::LARGE_DEVICE);
+    Problem problem = problem_of(method, 640, 360, lights, traits);
     problem.options = resolve_options(method, settings).value();
     const Result<Plan> plan = make_plan(method, problem);
     return plan ? "" : plan.error().text();
@@ -210,6 +211,8 @@ TEST(LamplightMemory, CellsGatherNoMoreThanAPiece) {
   EXPECT_EQ(refusal(shared::PIECE, {"cells=gather"}), "");
   EXPECT_NE(refusal(shared::PIECE + 1, {"cells=gather"}).find("up to 128 lights"), std::string::npos);
   EXPECT_NE(refusal(64, {"cells=gather", "depth=none"}).find("option cells"), std::string::npos);
+  traits.max_groups[0] = 59;  // one less than there are cells
+  EXPECT_NE(refusal(64, {"cells=gather"}).find("option cells"), std::string::npos);
 }
 
 TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {

@@ -48,6 +48,24 @@ bool inside_edges(vec3 center, float radius, vec4 x_edges, vec4 y_edges, vec4 le
   return all(lessThanEqual(edges_outside(center, x_edges, y_edges), radius * lengths));
 }
 
+// The edges of a rectangle of pixels, for a look at many spheres.
+struct RectangleEdges {
+  vec4 x_edges;
+  vec4 y_edges;
+  vec4 lengths;  // edge_lengths
+};
+
+RectangleEdges rectangle_edges(Frame frame, vec2 min_px, vec2 max_px) {
+  RectangleEdges edges;
+  tile_edges(frame, min_px, max_px, edges.x_edges, edges.y_edges);
+  edges.lengths = edge_lengths(edges.x_edges, edges.y_edges);
+  return edges;
+}
+
+bool inside_edges(vec3 center, float radius, RectangleEdges edges) {
+  return inside_edges(center, radius, edges.x_edges, edges.y_edges, edges.lengths);
+}
+
 // The larger of width and height at a depth.
 float tile_width(TileSides sides, float z_view) {
   const vec2 size = vec2(sides.x_edges.z - sides.x_edges.x, sides.y_edges.z - sides.y_edges.x) +

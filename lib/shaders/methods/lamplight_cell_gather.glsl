@@ -5,6 +5,7 @@
 #define LAMP_METHODS_LAMPLIGHT_CELL_GATHER
 #include "common/light_bounds.glsl"
 #include "common/tile_volume.glsl"
+#include "common/volume_tests.glsl"
 
 layout(set = 0, binding = 4, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
@@ -19,15 +20,11 @@ void prepare_cell() {
 
 void keep_lights_that_meet(vec2 depths) {
   const vec2 corner_px = vec2(gl_WorkGroupID.xy * TILE_PX * CELL_TILES);
-  vec4 x_edges;
-  vec4 y_edges;
-  tile_edges(frame, corner_px, min(corner_px + float(TILE_PX * CELL_TILES), vec2(frame.size_px)), x_edges, y_edges);
-  const vec4 lengths = edge_lengths(x_edges, y_edges);
+  const vec2 end_px = min(corner_px + float(TILE_PX * CELL_TILES), vec2(frame.size_px));
+  const RectangleEdges sides = rectangle_edges(frame, corner_px, end_px);
   for (uint light = gl_LocalInvocationIndex; light < frame.light_count; light += gl_WorkGroupSize.x) {
     const LightBounds sphere = view_bounds(frame, spheres[light]);
-    const float z = -sphere.center.z;
-    if (sphere.radius >= 0.0 && z + sphere.radius >= depths.x && z - sphere.radius <= depths.y &&
-        inside_edges(sphere.center, sphere.radius, x_edges, y_edges, lengths))
+    if (sphere_touches_depths(sphere, depths.x, depths.y) && inside_edges(sphere.center, sphere.radius, sides))
       atomicOr(s_words[light / 32u], 1u << (light % 32u));
   }
 }

@@ -21,25 +21,6 @@ layout(set = 0, binding = 3, scalar) writeonly buffer SeenBuffer { uint seen[]; 
 shared uint s_seen_count;
 shared uint s_begin;
 
-// The sides of the picture, as of a tile: x and y limits as lines over the depth, and the lengths of their normals.
-struct PictureSides {
-  vec4 x_edges;
-  vec4 y_edges;
-  vec4 lengths;
-};
-
-PictureSides picture_sides() {
-  PictureSides sides;
-  tile_edges(frame, vec2(0.0), vec2(frame.size_px), sides.x_edges, sides.y_edges);
-  sides.lengths = edge_lengths(sides.x_edges, sides.y_edges);
-  return sides;
-}
-
-bool in_view(LightBounds sphere, PictureSides sides) {
-  return sphere.radius >= 0.0 &&
-         inside_edges(sphere.center, sphere.radius, sides.x_edges, sides.y_edges, sides.lengths);
-}
-
 // By one thread: room for the group's lights, and work groups of the next pass for them.
 void reserve_seen() {
   const uint begin = s_seen_count == 0u ? 0u : atomicAdd(totals.seen, s_seen_count);
@@ -51,9 +32,10 @@ void main() {
   const uint light = gl_GlobalInvocationID.x;
   if (gl_LocalInvocationIndex == 0u) s_seen_count = 0u;
   if (light == 0u) totals.find_y = totals.find_z = 1u;
+  const RectangleEdges picture = rectangle_edges(frame, vec2(0.0), vec2(frame.size_px));
   LightBounds sphere = LightBounds(vec3(0.0), REACHES_NOTHING);
   if (light < frame.light_count) sphere = view_bounds(frame, spheres[light]);
-  const bool is_seen = in_view(sphere, picture_sides());
+  const bool is_seen = sphere.radius >= 0.0 && inside_edges(sphere.center, sphere.radius, picture);
   const uvec4 those = subgroupBallot(is_seen);
   barrier();  // a count of zero before it is added to
   uint place = 0u;

@@ -251,8 +251,10 @@ std::optional<Error> check_lamplight(const Problem& problem) {
   if (problem.options.word("depth") == "none" && problem.options.word("prune") == "pixel")
     return Error{"option prune", "pixel looks at the depth buffer, and depth=none does not; expected prune=none"};
   if (problem.options.word("cells") == "gather" && !lamplight::can_gather(problem))
-    return Error{"option cells", "gather is for up to " + std::to_string(PIECE) +
-                                     " lights and a depth buffer; expected auto, list or bits"};
+    return Error{
+        "option cells",
+        "gather is for up to " + std::to_string(PIECE) +
+            " lights, a depth buffer and as many cells as the device takes work groups; expected auto, list or bits"};
   return std::nullopt;
 }
 

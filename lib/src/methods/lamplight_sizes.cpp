@@ -77,11 +77,6 @@ Sizes grid_of(const Problem& problem) {
   return s;
 }
 
-bool wants_gathering(const Problem& problem, const Sizes& s) {
-  const std::string_view wanted = problem.options.word("cells");
-  return wanted == "gather" || (wanted == "auto" && can_gather(problem) && s.cell_count <= most_pieces(problem, s));
-}
-
 bool wants_cell_bits(const Problem& problem, const Sizes& s) {
   if (s.gathers) return true;
   const std::string_view wanted = problem.options.word("cells");
@@ -96,13 +91,16 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
 }
 
 bool can_gather(const Problem& problem) {
-  return parts::capacity(problem) <= PIECE && problem.options.word("depth") == "buffer";
+  if (parts::capacity(problem) > PIECE || problem.options.word("depth") == "none") return false;
+  const Sizes s = grid_of(problem);
+  return s.cell_count <= most_pieces(problem, s);
 }
 
 Sizes sizes_of(const Problem& problem) {
   Sizes s = grid_of(problem);
   const std::uint64_t lights = parts::capacity(problem);
-  s.gathers = wants_gathering(problem, s);
+  const std::string_view wanted = problem.options.word("cells");
+  s.gathers = wanted == "gather" || (wanted == "auto" && can_gather(problem));
   s.cell_bits = wants_cell_bits(problem, s);
   s.block = s.cell_bits ? WORD_LIGHTS : block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);

@@ -38,7 +38,8 @@ struct Sizes {
 
 [[nodiscard]] Sizes sizes_of(const Problem& problem);
 
-/// Whether cells can look at every light themselves.
+/// Whether cells can look at every light themselves, and `cells=gather` may be asked for: one piece holds the lights,
+/// and the device takes a piece for each cell.
 [[nodiscard]] bool can_gather(const Problem& problem);
 
 }  // namespace lamp::lamplight
