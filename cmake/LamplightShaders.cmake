@@ -7,12 +7,19 @@ set(LAMPLIGHT_SHADER_INCLUDES ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders ${CMAKE_C
 file(GLOB LAMPLIGHT_LOOKUPS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders/lookup/*.glsl)
 file(GLOB LAMPLIGHT_FUSED_LOOKUPS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders/lookup/fused/*.glsl)
 
+set(LAMPLIGHT_SPIRV_FROM "" CACHE PATH "A build of these sources whose SPIR-V to take; without: it is compiled")
+
 # lamplight_shaders(TARGET FUNCTION ROOT): makes the library TARGET, which defines
 # `std::span<const lamp::ShaderCode> lamp::FUNCTION()` for all shaders below ROOT.
 function(lamplight_shaders target function root)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${root}/*.comp ${root}/*.vert ${root}/*.frag)
   list(SORT sources)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${target})
+  set(spirv_folder ${out})
+  if(LAMPLIGHT_SPIRV_FROM)
+    file(RELATIVE_PATH folder ${PROJECT_BINARY_DIR} ${out})
+    set(spirv_folder ${LAMPLIGHT_SPIRV_FROM}/${folder})
+  endif()
   set(declarations "")
   set(rows "")
   set(spirv "")
@@ -40,16 +47,18 @@ function(lamplight_shaders target function root)
         file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lookup/${lookup}/lookup.glsl CONTENT "#include \"${include}\"\n")
         set(lookup_include "-I${PROJECT_BINARY_DIR}/lookup/${lookup}")
       endif()
-      set(file ${out}/${number}.inc)
-      add_custom_command(
-        OUTPUT ${file}
-        COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
-        COMMAND ${GLSLC} --target-env=vulkan1.3 -O -Werror -mfmt=num -MD -MF ${file}.d
-                "-I$<JOIN:${LAMPLIGHT_SHADER_INCLUDES};${root},;-I>" ${lookup_include} ${source} -o ${file}
-        DEPENDS ${source}
-        DEPFILE ${file}.d
-        COMMENT "Shader ${variant_name}"
-        COMMAND_EXPAND_LISTS VERBATIM)
+      set(file ${spirv_folder}/${number}.inc)
+      if(NOT LAMPLIGHT_SPIRV_FROM)
+        add_custom_command(
+          OUTPUT ${file}
+          COMMAND ${CMAKE_COMMAND} -E make_directory ${spirv_folder}
+          COMMAND ${GLSLC} --target-env=vulkan1.3 -O -Werror -mfmt=num -MD -MF ${file}.d
+                  "-I$<JOIN:${LAMPLIGHT_SHADER_INCLUDES};${root},;-I>" ${lookup_include} ${source} -o ${file}
+          DEPENDS ${source}
+          DEPFILE ${file}.d
+          COMMENT "Shader ${variant_name}"
+          COMMAND_EXPAND_LISTS VERBATIM)
+      endif()
       list(APPEND spirv ${file})
       string(APPEND declarations "const std::uint32_t CODE_${number}[] = {\n#include \"${file}\"\n};\n")
       string(APPEND rows "    {\"${variant_name}\", CODE_${number}, \"${source}\", \"${lookup}\"},\n")

@@ -1,6 +1,13 @@
 # What every target of the project has in common: language level, warnings, sanitizers.
 include_guard()
 
+set(LAMPLIGHT_JOIN "" CACHE STRING "What to compile several files at once: nothing, tests or all. Quicker from scratch, \
+slower after a change; hides a missing #include; needs Python")
+set_property(CACHE LAMPLIGHT_JOIN PROPERTY STRINGS "" tests all)
+if(LAMPLIGHT_JOIN)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+endif()
+
 function(lamplight_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
@@ -24,6 +31,25 @@ function(lamplight_configure target)
   endif()
 endfunction()
 
+# Compiles the target's sources in groups, if LAMPLIGHT_JOIN is one of those named.
+function(lamplight_join target)
+  if(NOT LAMPLIGHT_JOIN IN_LIST ARGN)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/joint_sources.py ${sources}
+                  OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+  foreach(line IN LISTS lines)
+    string(REGEX MATCH "^([0-9]+) (.+)$" match ${line})
+    set_source_files_properties(${CMAKE_MATCH_2} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1})
+    # The group follows from what the file defines.
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_MATCH_2})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-shadow)  # a name may be another file's
+endfunction()
+
 # lamplight_precompile(TARGET HEADER...): precompiles headers of others, which take most of the time of a build; our own
 # headers stay out, so that a change rebuilds only what includes it. Every file still includes what it uses.
 function(lamplight_precompile target)
@@ -44,5 +70,6 @@ function(lamplight_library target)
   endforeach()
   add_library(${target} STATIC ${sources})
   lamplight_configure(${target})
+  lamplight_join(${target} all)
   target_link_libraries(${target} PUBLIC ${arg_LINK})
 endfunction()

@@ -72,7 +72,7 @@ std::uint32_t longest(std::span<const Shown> all) {
   std::uint32_t most = 1;
   for (const Shown& shown : all)
     for (const std::uint32_t count : shown.counts)
-      if (count != NO_CELL) most = std::max(most, count);
+      if (count != SKY_CELL) most = std::max(most, count);
   return most;
 }
 

@@ -14,7 +14,7 @@ namespace lamp::app {
 namespace {
 
 /// What is measured: every point of a device's plan, by every candidate.
-struct Point {
+struct MeasuredPoint {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t lights = 0;
@@ -25,10 +25,11 @@ struct Point {
 // with lights that reach next to nothing, pixels and lights cost what they cost alone: else lists, which grow with
 // both, would be given their part.
 constexpr float TINY = 0.02F;
-constexpr Point GPU_POINTS[] = {{480, 270, 64},     {480, 270, 4096},    {1920, 1080, 0},          {1920, 1080, 64},
-                                {1920, 1080, 2048}, {1920, 1080, 32768}, {1920, 1080, 32768, TINY}};
-constexpr Point SOFTWARE_POINTS[] = {{96, 54, 64},   {96, 54, 1024},   {256, 144, 0},
-                                     {256, 144, 64}, {256, 144, 2048}, {256, 144, 2048, TINY}};
+constexpr MeasuredPoint GPU_POINTS[] = {{480, 270, 64},           {480, 270, 4096},   {1920, 1080, 0},
+                                        {1920, 1080, 64},         {1920, 1080, 2048}, {1920, 1080, 32768},
+                                        {1920, 1080, 32768, TINY}};
+constexpr MeasuredPoint SOFTWARE_POINTS[] = {{96, 54, 64},   {96, 54, 1024},   {256, 144, 0},
+                                             {256, 144, 64}, {256, 144, 2048}, {256, 144, 2048, TINY}};
 
 // Pairs of pixel and light that brute force is asked to walk at most.
 constexpr std::uint64_t GPU_PAIRS = 10'000'000'000;
@@ -58,14 +59,13 @@ struct Stage {
 
 CostSample measure(Stage& stage, const AutoCandidate& candidate, const Workload& workload) {
   const Method& method = parse_method(std::string(candidate.method));
-  std::vector<std::string> options;
-  if (!candidate.option.empty()) options.emplace_back(candidate.option);
-  Lighting lighting(stage.context.device(), stage.shaders,
-                    {.method = &method,
-                     .options = take(resolve_options(method, options)),
-                     .width = workload.width,
-                     .height = workload.height,
-                     .light_capacity = workload.capacity});
+  Lighting lighting(
+      stage.context.device(), stage.shaders,
+      {.method = &method,
+       .options = take(resolve_options(method, candidate.settings())),
+       .width = workload.width,
+       .height = workload.height,
+       .light_capacity = std::clamp(workload.capacity, candidate.least_capacity, candidate.most_capacity)});
   FrameTimes times(static_cast<std::size_t>(stage.frames));
   for (int frame = 0; frame < WARM_UP + stage.frames; ++frame) {
     const std::vector<vulkan::Timestamps::Time> frame_times = stage.renderer.time(lighting, times.next());
@@ -83,11 +83,11 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   const Scene scene = calibration_scene();
   const OpenAir air = find_open_air(scene);
   GpuScene gpu_scene(context, scene);
-  const std::span<const Point> points = software ? std::span<const Point>(SOFTWARE_POINTS) : GPU_POINTS;
+  const std::span<const MeasuredPoint> points = software ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
   const std::uint64_t most_pairs = software ? SOFTWARE_PAIRS : GPU_PAIRS;
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
-  for (const Point& point : points) {
+  for (const MeasuredPoint& point : points) {
     Stage stage{
         .context = context,
         .shaders = shaders,
@@ -102,6 +102,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const std::uint64_t pairs = std::uint64_t{point.width} * point.height * point.lights;
       if (candidates[i].walk == nullptr && pairs > most_pairs) continue;
+      if (point.lights > candidates[i].most_capacity) continue;
       samples[i].push_back(measure(stage, candidates[i], workload));
     }
   }

@@ -51,7 +51,7 @@ Side measure(const CompareOptions& o, Session& session, const Setup& setup, cons
 std::vector<std::uint32_t> differences(const Side& a, const Side& b) {
   std::vector<std::uint32_t> counts(a.counts.size());
   std::ranges::transform(a.counts, b.counts, counts.begin(), [](std::uint32_t x, std::uint32_t y) {
-    return x == NO_CELL ? NO_CELL : std::max(x, y) - std::min(x, y);
+    return x == SKY_CELL ? SKY_CELL : std::max(x, y) - std::min(x, y);
   });
   return counts;
 }

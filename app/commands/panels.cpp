@@ -42,7 +42,7 @@ const std::vector<std::vector<std::string>>& tests() {
 std::uint32_t largest(std::span<const std::uint32_t> counts) {
   std::uint32_t most = 1;
   for (const std::uint32_t count : counts)
-    if (count != NO_CELL) most = std::max(most, count);
+    if (count != SKY_CELL) most = std::max(most, count);
   return most;
 }
 

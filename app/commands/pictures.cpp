@@ -23,7 +23,7 @@ std::vector<gpu::Visit> visit_all(Session& session, Lighting& lighting) {
 std::vector<std::uint32_t> walked_lights(std::span<const gpu::Visit> visits) {
   std::vector<std::uint32_t> counts;
   counts.reserve(visits.size());
-  for (const gpu::Visit& visit : visits) counts.push_back(visit.cell == NO_CELL ? NO_CELL : visit.visited);
+  for (const gpu::Visit& visit : visits) counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
   return counts;
 }
 

@@ -16,7 +16,7 @@ namespace lamp::app {
 /// Visits of the whole picture, checked against nothing.
 [[nodiscard]] std::vector<gpu::Visit> visit_all(Session& session, Lighting& lighting);
 
-/// Lights walked at each pixel; NO_CELL for sky.
+/// Lights walked at each pixel; SKY_CELL for sky.
 [[nodiscard]] std::vector<std::uint32_t> walked_lights(std::span<const gpu::Visit> visits);
 
 struct HeatmapRequest {

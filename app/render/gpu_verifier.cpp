@@ -16,7 +16,6 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t NO_CELL = ~0U;
 constexpr VkAccessFlags2 READ = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
 constexpr VkAccessFlags2 WRITE = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 
@@ -60,7 +59,7 @@ std::optional<std::size_t> add_up(std::span<const gpu::Survey> surveys, Findings
   std::optional<std::size_t> first_miss;
   for (std::size_t i = 0; i < surveys.size(); ++i) {
     const gpu::Survey& survey = surveys[i];
-    if (survey.cell == NO_CELL) continue;
+    if (survey.cell == gpu::SKY_CELL) continue;
     if (survey.missed != 0 && !first_miss) first_miss = i;
     sums.missed += survey.missed;
     sums.evaluations += survey.visited;
@@ -80,7 +79,7 @@ class GpuVerifier::Cells {
   void add(std::span<const gpu::Survey> surveys) {
     for (const gpu::Survey& survey : surveys) {
       first_places_.push_back(0);
-      if (survey.cell == NO_CELL) continue;
+      if (survey.cell == gpu::SKY_CELL) continue;
       if (last_ == nullptr || survey.cell != last_cell_) {
         const auto [found, is_new] = cells_.try_emplace(survey.cell, Cell{survey.visited, survey.list, places_});
         if (is_new) places_ += survey.visited;

@@ -46,9 +46,9 @@ glm::u8vec4 lay_over(glm::u8vec3 heat, glm::u8vec4 below) {
 
 glm::u8vec4 pixel_color(const Heatmap& map, std::size_t pixel, std::uint32_t top) {
   const std::uint32_t count = map.counts[pixel];
-  if (map.overlay == nullptr) return {count == NO_CELL ? SKY : heat_color(count, top), 255};
+  if (map.overlay == nullptr) return {count == SKY_CELL ? SKY : heat_color(count, top), 255};
   const glm::u8vec4 below = map.overlay->pixels[pixel];
-  if (count == NO_CELL) return {glm::u8vec3(OVERLAY_SKY * glm::vec3(below)), 255};
+  if (count == SKY_CELL) return {glm::u8vec3(OVERLAY_SKY * glm::vec3(below)), 255};
   return lay_over(heat_color(count, top), below);
 }
 
@@ -58,7 +58,7 @@ HeatSummary summarize(const Heatmap& map) {
   std::uint64_t sum = 0;
   std::uint64_t pixels = 0;
   for (const std::uint32_t count : map.counts) {
-    if (count == NO_CELL) continue;
+    if (count == SKY_CELL) continue;
     sum += count;
     ++pixels;
     summary.max = std::max(summary.max, count);

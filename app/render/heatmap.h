@@ -9,20 +9,20 @@
 #include <string>
 
 #include "image/image.h"
+#include "render/shaders/sky_cell.h"
 
 namespace lamp::app {
+
+using gpu::SKY_CELL;
 
 struct Heatmap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::span<const std::uint32_t> counts;  ///< width * height: lights in the pixel's cell; NO_CELL where there is none
+  std::span<const std::uint32_t> counts;  ///< width * height: lights in the pixel's cell; SKY_CELL is drawn dark
   std::uint32_t scale_max = 0;            ///< lights at the top of the scale; 0: the next power of two over the largest
   std::string title;                      ///< drawn into the picture ("tiled, 4096 lights")
   const LdrImage* overlay = nullptr;      ///< not null: the map is laid over this picture
 };
-
-/// Pixels without a cell (sky) are drawn dark and counted nowhere.
-inline constexpr std::uint32_t NO_CELL = ~0U;
 
 /// The colour of a count on the scale 1 .. scale_max (log2), 0 black.
 [[nodiscard]] glm::u8vec3 heat_color(std::uint32_t count, std::uint32_t scale_max);

@@ -13,7 +13,6 @@ namespace lamp::app {
 namespace {
 
 constexpr std::uint64_t BAND_PIXELS = 1U << 19;
-constexpr std::uint32_t NO_CELL_SEEN = ~0U;
 
 double ratio(std::uint64_t above, std::uint64_t below) {
   if (below != 0) return static_cast<double>(above) / static_cast<double>(below);
@@ -61,7 +60,7 @@ void Verification::add(const Truth& truth, std::span<const gpu::Visit> visits) {
   std::uint64_t last_cell = ~0ULL;
   std::size_t unique_end = cell_lights_.size();
   for (std::size_t pixel = 0; pixel < visits.size(); ++pixel) {
-    if (visits[pixel].cell == NO_CELL_SEEN) continue;
+    if (visits[pixel].cell == gpu::SKY_CELL) continue;
     add_pixel(truth, pixel, visits[pixel]);
     if (visits[pixel].cell != last_cell)
       cell_lengths_.push_back(std::uint64_t{visits[pixel].cell} << 32 | visits[pixel].visited);

@@ -7,6 +7,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <sstream>
+
+#include "lamplight/shared/lamplight.h"
 
 namespace lamp {
 namespace {
@@ -62,9 +66,10 @@ void add_room(std::vector<std::string>& options, const Plan& plan, std::string_v
 
 std::vector<std::string> options_of(const AutoCandidate& candidate, const Workload& workload,
                                     const DeviceTraits& traits) {
-  std::vector<std::string> options;
-  if (!candidate.option.empty()) options.emplace_back(candidate.option);
+  std::vector<std::string> options = candidate.settings();
   if (candidate.method != "lamplight") return options;
+  // By itself it would be the candidate whose cells gather.
+  if (workload.capacity < candidate.least_capacity) options.emplace_back("cells=bits");
   const Result<Plan> plan = plan_of(candidate.method, options, workload, traits);
   if (!plan.ok()) return options;
   const TileLoad& load = load_of(candidate, workload);
@@ -101,15 +106,20 @@ std::string reason_of(const Prediction& chosen, const std::vector<Prediction>& p
 }  // namespace
 
 std::string AutoCandidate::label() const {
-  return std::string(method) + (option.empty() ? "" : " ") + std::string(option);
+  return std::string(method) + (options.empty() ? "" : " ") + std::string(options);
+}
+
+std::vector<std::string> AutoCandidate::settings() const {
+  std::istringstream words{std::string(options)};
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 std::span<const AutoCandidate> auto_candidates() {
-  static constexpr std::array<AutoCandidate, 9> TABLE{{
+  static constexpr std::array<AutoCandidate, 11> TABLE{{
       {.method = "all"},
       {.method = "tiled", .walk = &TileLoad::walked, .listed = &TileLoad::interval, .gathers = true},
       {.method = "tiled",
-       .option = "tile=8",
+       .options = "tile=8",
        .tile_px = 8,
        .walk = &TileLoad::walked,
        .listed = &TileLoad::interval,
@@ -121,8 +131,29 @@ std::span<const AutoCandidate> auto_candidates() {
        .bits = true},
       {.method = "clustered", .walk = &TileLoad::slab, .listed = &TileLoad::column, .gathers = true},
       {.method = "tight", .walk = &TileLoad::exact, .listed = &TileLoad::exact, .gathers = true, .prunes = true},
-      {.method = "lamplight", .walk = &TileLoad::exact, .listed = &TileLoad::exact},
-      {.method = "lamplight", .option = "tile=8", .tile_px = 8, .walk = &TileLoad::exact, .listed = &TileLoad::exact},
+      {.method = "lamplight",
+       .walk = &TileLoad::exact,
+       .listed = &TileLoad::exact,
+       .least_capacity = shared::PIECE + 1},
+      {.method = "lamplight",
+       .options = "tile=8",
+       .tile_px = 8,
+       .walk = &TileLoad::exact,
+       .listed = &TileLoad::exact,
+       .least_capacity = shared::PIECE + 1},
+      {.method = "lamplight",
+       .options = "cells=gather",
+       .walk = &TileLoad::exact,
+       .listed = &TileLoad::exact,
+       .gathers = true,
+       .most_capacity = shared::PIECE},
+      {.method = "lamplight",
+       .options = "tile=8 cells=gather",
+       .tile_px = 8,
+       .walk = &TileLoad::exact,
+       .listed = &TileLoad::exact,
+       .gathers = true,
+       .most_capacity = shared::PIECE},
       {.method = "drobot-zbin",
        .tile_px = 8,
        .walk = &TileLoad::slab,

@@ -106,7 +106,7 @@ Drawn draw(const Golden& golden, const std::vector<Light>& lights) {
   }
   std::vector<std::uint32_t> counts;
   for (const gpu::Visit& visit : renderer.visit(lighting, empty_truth(golden.width, golden.height)))
-    counts.push_back(visit.cell == NO_CELL ? NO_CELL : visit.visited);
+    counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
   drawn.image = draw_heatmap({.width = golden.width, .height = golden.height, .counts = counts, .scale_max = 64});
   return drawn;
 }

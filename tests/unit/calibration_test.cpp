@@ -78,7 +78,7 @@ TEST_F(CalibrationFile, WhatIsDamagedIsNotTrusted) {
     change(document);
     bad.push_back(document.dump());
   };
-  with([](json& d) { d["version"] = 2; });
+  with([](json& d) { d["version"] = 1; });
   with([](json& d) { d["format"] = "lamplight-results"; });
   with([](json& d) { d["device"] = 5; });
   with([](json& d) { d.erase("candidates"); });

@@ -176,12 +176,11 @@ TEST(AutoCandidates, AreMethodsWithTheirOptions) {
     const auto method = find_method(c.method);
     ASSERT_TRUE(method.ok()) << c.method;
     EXPECT_FALSE(method.value()->approximate) << "what may miss lights is no candidate";
-    std::vector<std::string> options;
-    if (!c.option.empty()) options.emplace_back(c.option);
-    EXPECT_TRUE(resolve_options(*method.value(), options).ok()) << c.label();
+    EXPECT_TRUE(resolve_options(*method.value(), c.settings()).ok()) << c.label();
+    EXPECT_LE(c.least_capacity, c.most_capacity) << c.label();
   }
-  for (const char* label :
-       {"all", "tiled", "tiled-bits", "clustered", "tight", "lamplight", "lamplight tile=8", "drobot-zbin"})
+  for (const char* label : {"all", "tiled", "tiled-bits", "clustered", "tight", "lamplight", "lamplight tile=8",
+                            "lamplight cells=gather", "lamplight tile=8 cells=gather", "drobot-zbin"})
     EXPECT_LT(candidate(label), auto_candidates().size()) << label;
 }
 
@@ -199,7 +198,8 @@ TEST(Choose, TakesTheLeast) {
   for (std::size_t i = 0; i < auto_candidates().size(); ++i) {
     Calibration calibration = even_calibration();
     calibration.costs[i] = {};
-    const Choice choice = choose(calibration, some_workload(4096), large_device());
+    const std::uint32_t lights = std::min(4096U, auto_candidates()[i].most_capacity);
+    const Choice choice = choose(calibration, some_workload(lights), large_device());
     EXPECT_EQ(choice.predicted.label, auto_candidates()[i].label());
     EXPECT_EQ(choice.method, auto_candidates()[i].method);
     EXPECT_EQ(choice.predictions.size(), auto_candidates().size());
@@ -252,6 +252,20 @@ TEST(Choose, GivesLamplightRoom) {
   w.tile16.exact = 100.0;
   EXPECT_EQ(choose(calibration, w, large_device()).options,
             (std::vector<std::string>{"mean_cells=800", "mean_capacity=200"}));
+}
+
+TEST(Choose, CellsGatherFewLightsAlone) {
+  Calibration calibration = even_calibration();
+  const std::size_t gather = candidate("lamplight cells=gather");
+  calibration.costs[gather] = {};
+  const Choice few = choose(calibration, some_workload(128), large_device());
+  EXPECT_EQ(few.options, (std::vector<std::string>{"cells=gather"}));
+  EXPECT_EQ(few.predictions[candidate("lamplight")].options, (std::vector<std::string>{"cells=bits"}))
+      << "as it was measured, not what it would be by itself with so few lights";
+  const Choice more = choose(calibration, some_workload(129), large_device());
+  EXPECT_NE(more.predicted.label, "lamplight cells=gather");
+  EXPECT_FALSE(more.predictions[gather].refused.empty());
+  EXPECT_TRUE(more.predictions[candidate("lamplight")].options.empty());
 }
 
 TEST(Choose, IsTheSameEveryTime) {

@@ -61,7 +61,7 @@ TEST(HeatColor, ScaleIsLogarithmicAndEndsAtItsTop) {
 }
 
 TEST(DrawHeatmap, PixelsHaveTheColorOfTheirCount) {
-  const std::array<std::uint32_t, 4> counts{0, 3, 16, NO_CELL};
+  const std::array<std::uint32_t, 4> counts{0, 3, 16, SKY_CELL};
   const LdrImage image = draw(2, 2, counts);
   ASSERT_EQ(image.pixels.size(), 4U);  // too small for a legend
   EXPECT_EQ(glm::u8vec3(image.pixels[0]), glm::u8vec3(0));
@@ -104,7 +104,7 @@ TEST(DrawHeatmap, LegendShowsTitleScaleAndNumbers) {
   EXPECT_NE(legend(draw(640, 4, counts, "tiled", 2), 4),
             legend(draw(640, 4, std::vector(counts.size(), 2U), "tiled", 2), 4));
   std::vector<std::uint32_t> sky = counts;
-  sky[0] = NO_CELL;  // changes neither mean nor maximum
+  sky[0] = SKY_CELL;  // changes neither mean nor maximum
   EXPECT_EQ(legend(draw(640, 4, sky), 4), plain);
   sky[0] = 8;
   EXPECT_NE(legend(draw(640, 4, sky), 4), plain);
@@ -112,10 +112,10 @@ TEST(DrawHeatmap, LegendShowsTitleScaleAndNumbers) {
 
 TEST(DrawHeatmap, OddMapsHaveLegendsToo) {
   const std::string long_title(500, 'x');
-  const std::vector<std::uint32_t> sky(std::size_t{300} * 2, NO_CELL);
+  const std::vector<std::uint32_t> sky(std::size_t{300} * 2, SKY_CELL);
   EXPECT_GT(draw(300, 2, sky, long_title).height, 2U);
-  for (const std::uint32_t count : {0U, 1U, 99999U, NO_CELL - 1}) {
-    for (const std::uint32_t top : {0U, 1U, 3U, 100U, NO_CELL}) {
+  for (const std::uint32_t count : {0U, 1U, 99999U, SKY_CELL - 1}) {
+    for (const std::uint32_t top : {0U, 1U, 3U, 100U, SKY_CELL}) {
       const std::vector<std::uint32_t> counts(std::size_t{250} * 2, count);
       const LdrImage image = draw(250, 2, counts, "", top);
       EXPECT_GT(image.height, 2U);
@@ -124,7 +124,7 @@ TEST(DrawHeatmap, OddMapsHaveLegendsToo) {
 }
 
 TEST(DrawHeatmap, OverlayShowsMapAndPicture) {
-  const std::array<std::uint32_t, 4> counts{4, 4, 1, NO_CELL};
+  const std::array<std::uint32_t, 4> counts{4, 4, 1, SKY_CELL};
   const LdrImage below{4, 1, {{0, 0, 0, 255}, {250, 250, 250, 255}, {0, 0, 0, 255}, {200, 100, 50, 255}}};
   const LdrImage image =
       draw_heatmap({.width = 4, .height = 1, .counts = counts, .scale_max = 4, .title = "", .overlay = &below});

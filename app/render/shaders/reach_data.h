@@ -5,6 +5,7 @@
 #define LAMP_REACH_DATA_H
 
 #include "lamplight/shared/glsl.h"
+#include "sky_cell.h"
 
 #ifdef __cplusplus
 namespace lamp::app::gpu {
@@ -27,7 +28,7 @@ struct PixelTruth {
 // What the walk of a pixel held.
 struct Survey {
   uint visited;    // lights walked
-  uint cell;       // of the look-up; NO_CELL for sky
+  uint cell;       // of the look-up; SKY_CELL for sky
   uint useful;     // lights of the truth
   uint missed;     // of them, those that the walk did not bring
   uint repeated;   // reaching lights that it brought again

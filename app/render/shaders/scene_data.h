@@ -5,6 +5,7 @@
 #define LAMP_SCENE_DATA_H
 
 #include "lamplight/shared/glsl.h"
+#include "sky_cell.h"
 
 #ifdef __cplusplus
 namespace lamp::app::gpu {
@@ -57,7 +58,7 @@ struct Surroundings {
 // What the visit shader found at a pixel.
 struct Visit {
   uint visited;       // lights walked
-  uint cell;          // of the look-up; NO_CELL for sky
+  uint cell;          // of the look-up; SKY_CELL for sky
   uint missed;        // lights of the truth that the walk did not bring
   uint first_missed;  // the first of them
   uint unordered;     // 1: a light did not ascend

@@ -55,7 +55,7 @@ void main() {
   const uint index = (pixel.y - buffer_row) * frame.size_px.x + pixel.x;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
   if (depth <= 0.0) {
-    surveys[index] = Survey(0u, NONE, 0u, 0u, 0u, 0u, 0u);
+    surveys[index] = Survey(0u, SKY_CELL, 0u, 0u, 0u, 0u, 0u);
     return;
   }
   const float z_view = z_view_of(frame, depth);

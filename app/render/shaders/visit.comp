@@ -48,7 +48,7 @@ void main() {
   const uint index = (pixel.y - first_row) * frame.size_px.x + pixel.x;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
   if (depth <= 0.0) {
-    visits[index] = Visit(0u, NONE, 0u, NONE, 0u, 0u);
+    visits[index] = Visit(0u, SKY_CELL, 0u, NONE, 0u, 0u);
     return;
   }
   const float z_view = z_view_of(frame, depth);

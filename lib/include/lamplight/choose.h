@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,14 +46,17 @@ struct Workload {
 /// A method with options, and how its cost follows from a workload.
 struct AutoCandidate {
   std::string_view method;
-  std::string_view option;  ///< "tile=8", or empty
+  std::string_view options;  ///< KEY=VALUE, separated by spaces
   std::uint32_t tile_px = 16;
   double TileLoad::* walk = nullptr;    ///< what a pixel walks; null: every light
   double TileLoad::* listed = nullptr;  ///< what a tile writes; null: nothing is culled
   bool gathers = false;                 ///< every tile asks every light; else every light looks for its cells
   bool bits = false;                    ///< a pixel walks words of 32 lights too
   bool prunes = false;                  ///< every pixel tests every light of its tile while culling
+  std::uint32_t least_capacity = 0;     ///< room for lights that it is measured with, at least
+  std::uint32_t most_capacity = std::numeric_limits<std::uint32_t>::max();  ///< and at most; it is no method for more
   [[nodiscard]] std::string label() const;
+  [[nodiscard]] std::vector<std::string> settings() const;  ///< the options, one each
 };
 
 /// All that `auto` chooses from.
