@@ -20,9 +20,7 @@ constexpr double LIGHTS = 1e4;
 constexpr double PIXELS = 1e6;
 constexpr double PAIRS = 1e7;
 
-constexpr std::uint32_t FEW_LIGHTS = 64;
-constexpr double CLEARLY_FASTER = 0.8;  // of the time of `tiled`
-constexpr double ROOM = 2.0;            // over the estimate, where the room that a plan has by itself will not do
+constexpr double ROOM = 2.0;  // over the estimate, where the room that a plan has by itself will not do
 
 const TileLoad& load_of(const AutoCandidate& candidate, const Workload& workload) {
   return candidate.tile_px == 8 ? workload.tile8 : workload.tile16;
@@ -68,8 +66,6 @@ std::vector<std::string> options_of(const AutoCandidate& candidate, const Worklo
                                     const DeviceTraits& traits) {
   std::vector<std::string> options = candidate.settings();
   if (candidate.method != "lamplight") return options;
-  // By itself it would be the candidate whose cells gather.
-  if (workload.capacity < candidate.least_capacity) options.emplace_back("cells=bits");
   const Result<Plan> plan = plan_of(candidate.method, options, workload, traits);
   if (!plan.ok()) return options;
   const TileLoad& load = load_of(candidate, workload);
@@ -90,8 +86,21 @@ std::string times(double ratio) {
   return text.data();
 }
 
-std::string reason_of(const Prediction& chosen, const std::vector<Prediction>& predictions, bool by_rule) {
-  if (by_rule) return "with 64 lights or fewer it is taken unless another is predicted to be clearly faster";
+/// With so little room the method is another candidate by itself: the one that is measured with no more.
+bool stands_for(const AutoCandidate& few, const AutoCandidate& many, const Workload& workload) {
+  return workload.capacity < many.least_capacity && few.method == many.method && few.tile_px == many.tile_px &&
+         few.most_capacity < many.least_capacity;
+}
+
+void refuse_stood_for(std::vector<Prediction>& predictions, const Workload& workload) {
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  for (std::size_t many = 0; many < candidates.size(); ++many)
+    for (std::size_t few = 0; few < candidates.size(); ++few)
+      if (stands_for(candidates[few], candidates[many], workload) && predictions[few].refused.empty())
+        predictions[many].refused = "with so few lights it is " + predictions[few].label;
+}
+
+std::string reason_of(const Prediction& chosen, const std::vector<Prediction>& predictions) {
   const Prediction* next = nullptr;
   for (const Prediction& other : predictions) {
     if (&other == &chosen || !other.refused.empty()) continue;
@@ -197,16 +206,12 @@ Choice choose(const Calibration& calibration, const Workload& workload, const De
     prediction.refused = refusal(prediction, workload, traits);
     choice.predictions.push_back(std::move(prediction));
   }
+  refuse_stood_for(choice.predictions, workload);
   const Prediction* best = nullptr;
-  const Prediction* tiled = nullptr;
   for (const Prediction& prediction : choice.predictions) {
     if (!prediction.refused.empty()) continue;
-    if (prediction.label == "tiled") tiled = &prediction;
     if (best == nullptr || prediction.ms() < best->ms()) best = &prediction;
   }
-  const bool by_rule =
-      tiled != nullptr && best != tiled && workload.lights <= FEW_LIGHTS && best->ms() > CLEARLY_FASTER * tiled->ms();
-  if (by_rule) best = tiled;
   const bool nothing = workload.capacity == 0;
   // Brute force has no buffers that a device could refuse; a picture too large for it is too large for everything.
   if (best == nullptr || nothing) best = &choice.predictions.front();
@@ -214,7 +219,7 @@ Choice choose(const Calibration& calibration, const Workload& workload, const De
   choice.method = best->method;
   choice.options = best->options;
   choice.reason =
-      nothing ? "there are no lights to cull, in this frame or another" : reason_of(*best, choice.predictions, by_rule);
+      nothing ? "there are no lights to cull, in this frame or another" : reason_of(*best, choice.predictions);
   return choice;
 }
 

@@ -227,15 +227,11 @@ TEST(Choose, WhatCannotRunIsNoCandidate) {
   EXPECT_FALSE(choice.predictions[candidate("tiled-bits")].refused.empty());
 }
 
-TEST(Choose, FewLightsAreTiledUnlessAnotherIsClearlyFaster) {
+TEST(Choose, NoRoomForLightsIsNothingToCull) {
   Calibration calibration = even_calibration();
   for (CandidateCost& cost : calibration.costs) cost = {.cull = {2.0}};
   calibration.costs[candidate("all")] = {.shade = {5.0}};
   calibration.costs[candidate("tight")] = {.cull = {1.7}};
-  EXPECT_EQ(choose(calibration, some_workload(64), large_device()).method, "tiled");
-  EXPECT_EQ(choose(calibration, some_workload(65), large_device()).method, "tight");
-  calibration.costs[candidate("tight")] = {.cull = {1.5}};
-  EXPECT_EQ(choose(calibration, some_workload(64), large_device()).method, "tight");
   Workload none = some_workload(0);
   none.capacity = 10;
   EXPECT_EQ(choose(calibration, none, large_device()).method, "tight") << "there may be lights in the next frame";
@@ -257,15 +253,20 @@ TEST(Choose, GivesLamplightRoom) {
 TEST(Choose, CellsGatherFewLightsAlone) {
   Calibration calibration = even_calibration();
   const std::size_t gather = candidate("lamplight cells=gather");
-  calibration.costs[gather] = {};
+  const std::size_t plain = candidate("lamplight");
+  calibration.costs[plain] = {};
   const Choice few = choose(calibration, some_workload(128), large_device());
-  EXPECT_EQ(few.options, (std::vector<std::string>{"cells=gather"}));
-  EXPECT_EQ(few.predictions[candidate("lamplight")].options, (std::vector<std::string>{"cells=bits"}))
-      << "as it was measured, not what it would be by itself with so few lights";
+  EXPECT_NE(few.predicted.label, "lamplight") << "it is no such thing with so few lights";
+  EXPECT_FALSE(few.predictions[plain].refused.empty());
+  EXPECT_TRUE(few.predictions[gather].refused.empty());
   const Choice more = choose(calibration, some_workload(129), large_device());
-  EXPECT_NE(more.predicted.label, "lamplight cells=gather");
+  EXPECT_EQ(more.predicted.label, "lamplight");
   EXPECT_FALSE(more.predictions[gather].refused.empty());
-  EXPECT_TRUE(more.predictions[candidate("lamplight")].options.empty());
+  DeviceTraits few_pieces = large_device();
+  few_pieces.max_groups[0] = 100;
+  const Choice small = choose(calibration, some_workload(128), few_pieces);
+  EXPECT_FALSE(small.predictions[gather].refused.empty()) << "a piece for each cell is too much for the device";
+  EXPECT_TRUE(small.predictions[plain].refused.empty());
 }
 
 TEST(Choose, IsTheSameEveryTime) {

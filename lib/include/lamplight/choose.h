@@ -113,8 +113,7 @@ struct Choice {
   std::string reason;                   ///< one line
 };
 
-/// The candidate whose predicted cull and shading together take least, among those that can run. With 64 lights or
-/// fewer, `tiled` unless another is clearly faster: there the model errs by more than the methods differ.
+/// The candidate whose predicted cull and shading together take least, among those that can run.
 /// `calibration.costs` must have one entry a candidate.
 [[nodiscard]] Choice choose(const Calibration& calibration, const Workload& workload, const DeviceTraits& traits);
 
