@@ -14,6 +14,7 @@
 #include "commands/bench_pictures.h"
 #include "commands/stats.h"
 #include "render/frame_times.h"
+#include "render/wake.h"
 
 namespace lamp::app {
 namespace {
@@ -24,12 +25,6 @@ using nlohmann::json;
 /// walks a million lights a pixel would take longer than all others together. A flight needs each of its frames.
 constexpr double LONGEST_MS = 2000.0;
 constexpr std::size_t FEWEST_FRAMES = 3;
-/// Of a GPU for the host, after which it is woken up.
-constexpr double LONG_WAIT_MS = 5.0;
-/// The longer a GPU waits, the deeper it sleeps: an H200 that waited for seconds is at a sixth of its clock, and 50 ms
-/// of work do not wake it.
-constexpr double LEAST_WAKE_MS = 50.0;
-constexpr double MOST_WAKE_MS = 1000.0;
 
 /// An entry under measurement.
 struct Candidate {
@@ -222,16 +217,9 @@ bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) 
   return candidate.spent_ms > LONGEST_MS && (!warm || candidate.frames.size() >= FEWEST_FRAMES);
 }
 
-/// A GPU that waited for the host to move a million lights has lowered its clocks: untimed frames until it is awake.
-void wake(Renderer& renderer, std::list<Candidate>& candidates, double waited_ms) {
-  const auto timed = std::ranges::find_if(candidates, &Candidate::timed);
-  if (timed == candidates.end() || waited_ms < LONG_WAIT_MS) return;
-  const double enough_ms = std::clamp(waited_ms, LEAST_WAKE_MS, MOST_WAKE_MS);
-  for (double ms = 0.0; ms < enough_ms;) ms += span_ms(renderer.time(*timed->lighting, Timing::parts));
-}
-
 void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
   const std::uint32_t rounds = info.group.warm_up + info.group.frames;
+  const auto any_timed = std::ranges::find_if(candidates, &Candidate::timed);
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const bool warm = round >= info.group.warm_up;
     const std::uint32_t number = warm ? round - info.group.warm_up : 0;
@@ -239,7 +227,8 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     const BenchFrame frame = bench_frame(scene, info.group, number);
     renderer.set_frame(frame.view, frame.lights);
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
-    if (!info.device.software()) wake(renderer, candidates, waited.count());
+    if (!info.device.software() && any_timed != candidates.end())
+      wake(renderer, *any_timed->lighting, waited.count());  // the host moves a million lights
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.timed() || has_enough(info, candidate, warm)) continue;

@@ -1,12 +1,15 @@
 // Measures what the cost model is fitted to: each candidate on a few sizes and counts of lights.
 // Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
+#include <list>
 #include <vector>
 
 #include "commands/calibration.h"
 #include "commands/request.h"
 #include "gpu/check.h"
 #include "render/frame_times.h"
+#include "render/wake.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
 
@@ -50,29 +53,47 @@ Scene calibration_scene() {
   return scene;
 }
 
-struct Stage {
-  Context& context;
-  const ShaderLibrary& shaders;
-  Renderer renderer;
-  int frames;
+/// A candidate under measurement at one point.
+struct Timed {
+  std::size_t candidate;
+  Lighting lighting;
+  FrameTimes times;
 };
 
-CostSample measure(Stage& stage, const AutoCandidate& candidate, const Workload& workload) {
+LightingInfo lighting_info(const AutoCandidate& candidate, const Workload& workload) {
   const Method& method = parse_method(std::string(candidate.method));
-  Lighting lighting(
-      stage.context.device(), stage.shaders,
-      {.method = &method,
-       .options = take(resolve_options(method, candidate.settings())),
-       .width = workload.width,
-       .height = workload.height,
-       .light_capacity = std::clamp(workload.capacity, candidate.least_capacity, candidate.most_capacity)});
-  FrameTimes times(static_cast<std::size_t>(stage.frames));
-  for (int frame = 0; frame < WARM_UP + stage.frames; ++frame) {
-    const std::vector<vulkan::Timestamps::Time> frame_times = stage.renderer.time(lighting, times.next());
-    if (frame >= WARM_UP) times.add(frame_times, lighting);
+  return {.method = &method,
+          .options = take(resolve_options(method, candidate.settings())),
+          .width = workload.width,
+          .height = workload.height,
+          .light_capacity = std::clamp(workload.capacity, candidate.least_capacity, candidate.most_capacity)};
+}
+
+/// All that can be asked to take the workload.
+std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const Workload& workload) {
+  const std::uint64_t pairs = std::uint64_t{workload.width} * workload.height * workload.lights;
+  const bool too_much = pairs > (context.row().kind == "CPU" ? SOFTWARE_PAIRS : GPU_PAIRS);
+  const std::span<const AutoCandidate> all = auto_candidates();
+  std::list<Timed> timed;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if ((all[i].walk == nullptr && too_much) || workload.lights > all[i].most_capacity) continue;
+    timed.push_back({i, Lighting(context.device(), shaders, lighting_info(all[i], workload)), FrameTimes(GPU_FRAMES)});
   }
-  // The least of each: what disturbs a frame makes it longer, never shorter.
-  const auto least = [&](double FrameTime::* part) { return std::ranges::min(times.frames(), {}, part).*part; };
+  return timed;
+}
+
+/// In turns, so that what changes with time (clocks, other work) meets all alike.
+void time_rounds(Renderer& renderer, std::list<Timed>& timed, int frames) {
+  for (int frame = 0; frame < WARM_UP + frames; ++frame)
+    for (Timed& one : timed) {
+      const std::vector<vulkan::Timestamps::Time> times = renderer.time(one.lighting, one.times.next());
+      if (frame >= WARM_UP) one.times.add(times, one.lighting);
+    }
+}
+
+/// The least of each: what disturbs a frame makes it longer, never shorter.
+CostSample sample_of(const Timed& timed, const Workload& workload) {
+  const auto least = [&](double FrameTime::* part) { return std::ranges::min(timed.times.frames(), {}, part).*part; };
   return {.workload = workload, .cull_ms = least(&FrameTime::cull_ms), .shade_ms = least(&FrameTime::shade_ms)};
 }
 
@@ -84,27 +105,23 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   const OpenAir air = find_open_air(scene);
   GpuScene gpu_scene(context, scene);
   const std::span<const MeasuredPoint> points = software ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
-  const std::uint64_t most_pairs = software ? SOFTWARE_PAIRS : GPU_PAIRS;
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
   for (const MeasuredPoint& point : points) {
-    Stage stage{
-        .context = context,
-        .shaders = shaders,
-        .renderer = {context, shaders, gpu_scene, point.width, point.height, std::max(point.lights, SOFTWARE_CAPACITY)},
-        .frames = software ? SOFTWARE_FRAMES : GPU_FRAMES};
+    const auto before = std::chrono::steady_clock::now();
+    Renderer renderer(context, shaders, gpu_scene, point.width, point.height,
+                      std::max(point.lights, SOFTWARE_CAPACITY));
     const View view = view_of(scene.cameras.front(), point.width, point.height, "camera");
     const std::vector<shared::Light> lights =
         pack(place_lights(air, {.count = point.lights, .min_range = point.range, .max_range = point.range}));
-    stage.renderer.set_frame(view, lights);
-    Workload workload = estimate_workload(view, stage.renderer.draw_depth(), lights);
+    renderer.set_frame(view, lights);
+    Workload workload = estimate_workload(view, renderer.draw_depth(), lights);
     if (software) workload.capacity = SOFTWARE_CAPACITY;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const std::uint64_t pairs = std::uint64_t{point.width} * point.height * point.lights;
-      if (candidates[i].walk == nullptr && pairs > most_pairs) continue;
-      if (point.lights > candidates[i].most_capacity) continue;
-      samples[i].push_back(measure(stage, candidates[i], workload));
-    }
+    std::list<Timed> timed = candidates_for(context, shaders, workload);
+    const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
+    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host compiled
+    time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
+    for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, workload));
   }
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};
   for (std::size_t i = 0; i < candidates.size(); ++i) calibration.costs.push_back(fit_cost(candidates[i], samples[i]));
