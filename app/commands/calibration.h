@@ -10,7 +10,8 @@
 
 namespace lamp::app {
 
-/// Measures every candidate on a small built-in scene: about a second on a GPU, some on a software device.
+/// Measures every candidate on a small built-in scene: seconds on a GPU, most of them compilation; longer on a software
+/// device.
 [[nodiscard]] Calibration measure_calibration(Context& context, const ShaderLibrary& shaders);
 
 struct KnownCalibration {

@@ -1,7 +1,7 @@
 // Every method against the oracle and brute force: scenes x projections x sizes x light counts x mixes.
 // The design. At 1x1 and 17x31 pixels: methods x scenes x projections x counts, on reliefs of the scenes
-// (test_scenes.h); the mix rotates with all of these, so that each method meets each count with each mix; every other
-// time the fused look-up is checked too. The scenes themselves at 257x129: half of scenes x projections, as on a
+// (test_scenes.h), at 1x1 every other count in turn; the mix rotates with all of these, so that each method meets each
+// count with each mix at both sizes; every other time the fused look-up is checked too. The scenes themselves at 257x129: half of scenes x projections, as on a
 // chessboard, with counts and mixes that rotate; at 640x360: each scene once. Each method meets all of them (checked
 // below); only brute force sits out what is too slow for it. Adversarial scenes: adversarial_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -128,6 +128,7 @@ TEST_P(SmallMatrix, MissesNothingAndEqualsBruteForce) {
     Stage& stage = relief(GetParam(), size).stage;
     for (std::size_t c = 0; c < std::size(LIGHT_COUNTS); ++c) {
       const std::uint32_t count = LIGHT_COUNTS[c];
+      if (size.x == 1 && (c + GetParam().round) % 2 != 0) continue;
       const Mix mix = MIXES[(c + GetParam().round + (size.x == 1 ? 1 : 0)) % std::size(MIXES)];
       SCOPED_TRACE(fmt::format("{}x{}, {} lights, {}", size.x, size.y, count, MIX_NAMES[static_cast<int>(mix)]));
       check_method(stage.renderer(), stage.lit_case(count, mix),
