@@ -1,10 +1,10 @@
 // Every method against the oracle and brute force: scenes x projections x sizes x light counts x mixes.
 // The design. At 1x1 and 17x31 pixels: methods x scenes x projections x counts, on reliefs of the scenes
 // (test_scenes.h), at 1x1 every other count in turn; the mix rotates with all of these, so that each method meets each
-// count with each mix at both sizes; every other time the fused look-up is checked too. The scenes themselves at 257x129: half of scenes x projections, as on a
-// chessboard, with counts and mixes that rotate; at 640x360: each scene once. Each method meets all of them (checked
-// below); only brute force sits out what is too slow for it. Adversarial scenes: adversarial_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// count with each mix at both sizes; every other time the fused look-up is checked too. The scenes themselves at
+// 257x129: half of scenes x projections, as on a chessboard, with counts and mixes that rotate; at 640x360: each scene
+// once. Each method meets all of them (checked below); only brute force sits out what is too slow for it. Adversarial
+// scenes: adversarial_test.cpp. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>
