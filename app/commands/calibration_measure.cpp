@@ -2,6 +2,7 @@
 // Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <list>
 #include <vector>
 
@@ -69,16 +70,20 @@ LightingInfo lighting_info(const AutoCandidate& candidate, const Workload& workl
           .light_capacity = std::clamp(workload.capacity, candidate.least_capacity, candidate.most_capacity)};
 }
 
-/// All that can be asked to take the workload.
+/// All that can be asked to take the workload. Drivers take long to compile, so each is made by a thread of its own.
 std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const Workload& workload) {
   const std::uint64_t pairs = std::uint64_t{workload.width} * workload.height * workload.lights;
   const bool too_much = pairs > (context.row().kind == "CPU" ? SOFTWARE_PAIRS : GPU_PAIRS);
   const std::span<const AutoCandidate> all = auto_candidates();
-  std::list<Timed> timed;
+  std::vector<std::future<Timed>> made;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if ((all[i].walk == nullptr && too_much) || workload.lights > all[i].most_capacity) continue;
-    timed.push_back({i, Lighting(context.device(), shaders, lighting_info(all[i], workload)), FrameTimes(GPU_FRAMES)});
+    made.push_back(std::async(std::launch::async, [&, i] {
+      return Timed{i, Lighting(context.device(), shaders, lighting_info(all[i], workload)), FrameTimes(GPU_FRAMES)};
+    }));
   }
+  std::list<Timed> timed;
+  for (std::future<Timed>& one : made) timed.push_back(one.get());
   return timed;
 }
 
