@@ -108,7 +108,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   const bool software = context.row().kind == "CPU";
   const Scene scene = calibration_scene();
   const OpenAir air = find_open_air(scene);
-  GpuScene gpu_scene(context, scene);
+  const GpuScene gpu_scene(context, scene);
   const std::span<const MeasuredPoint> points = software ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
