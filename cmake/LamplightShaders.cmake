@@ -7,7 +7,8 @@ set(LAMPLIGHT_SHADER_INCLUDES ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders ${CMAKE_C
 file(GLOB LAMPLIGHT_LOOKUPS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders/lookup/*.glsl)
 file(GLOB LAMPLIGHT_FUSED_LOOKUPS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders/lookup/fused/*.glsl)
 
-set(LAMPLIGHT_SPIRV_FROM "" CACHE PATH "A build of these sources whose SPIR-V to take; without: it is compiled")
+set(LAMPLIGHT_SPIRV_FROM "" CACHE PATH "A build of these sources, up to date, whose SPIR-V to take; \
+without: it is compiled")
 
 # lamplight_shaders(TARGET FUNCTION ROOT): makes the library TARGET, which defines
 # `std::span<const lamp::ShaderCode> lamp::FUNCTION()` for all shaders below ROOT.

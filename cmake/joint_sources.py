@@ -16,15 +16,15 @@ ALIAS = re.compile(r"^using (\w+) =", re.MULTILINE)
 LOCAL_CONSTANT = re.compile(r"^ +(?:static )?constexpr [\w:<>, ]+? (\w+)(?:\[\w*\])? =", re.MULTILINE)
 
 
-def groups(files, most=MOST):
-    """Lists of files, `most` at most, of which none defines a name of another. In the order of their names."""
+def groups(files):
+    """Lists of files, MOST at most, of which none defines a name of another. In the order of their names."""
     packed = []
     for file in sorted(files):
         text = pathlib.Path(file).read_text()
         own = set(DEFINITION.findall(text)) | set(ALIAS.findall(text))
         all_names = own | set(LOCAL_CONSTANT.findall(text))
         for together, taken_own, taken in packed:
-            if len(together) < most and not own & taken and not all_names & taken_own:
+            if len(together) < MOST and not own & taken and not all_names & taken_own:
                 together.append(file)
                 taken_own |= own
                 taken |= all_names
