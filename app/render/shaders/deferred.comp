@@ -7,14 +7,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lamplight/shared/frame.h"
-#include "lamplight/shared/light.h"
 #include "scene_data.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 11) const bool WALK = true;  // false: only the surroundings; light volumes add the rest
 layout(constant_id = 12) const uint FIRST_ROW = 0;  // of the picture that is shaded; not 0 only for a part of a reference
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   Surroundings surroundings;
   DirectionalData directional_lights[];
@@ -22,22 +20,23 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
-#include "common/shade_cell.glsl"
+#include "common/shade_group.glsl"
 #include "common/surroundings.glsl"
 
 void main() {
   lookup_prepare();
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy + uvec2(0u, FIRST_ROW));
-  if (any(greaterThanEqual(uvec2(pixel), frame.size_px))) return;
-  const float depth = texelFetch(depth_image, pixel, 0).x;
-  if (depth <= 0.0) {
-    imageStore(hdr_image, pixel, vec4(surroundings.sky, 1.0));
-    return;
-  }
+  const bool inside = all(lessThan(uvec2(pixel), frame.size_px));
+  const float depth = inside ? texelFetch(depth_image, pixel, 0).x : 0.0;
+  const bool lit = depth > 0.0;
   const float z_view = z_view_of(frame, depth);
-  const Surface s = read_surface(pixel, z_view);
-  precise vec3 sum = vec3(0.0);
-  if (WALK) sum = shade_cell(s, uvec2(pixel), z_view);
-  const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
-  imageStore(hdr_image, pixel, vec4(shade_surroundings(s, emission) + sum, 1.0));
+  vec3 sum = surroundings.sky;
+  Reflector r;
+  if (lit) {
+    const Surface s = read_surface(pixel, z_view);
+    r = reflector(s);
+    sum = shade_surroundings(s, r, texelFetch(emission_image, pixel, 0).rgb);
+  }
+  if (WALK) add_group(sum, r, lit, uvec2(pixel), z_view);
+  if (inside) imageStore(hdr_image, pixel, vec4(sum, 1.0));
 }

@@ -6,10 +6,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "common/frame.glsl"
 #include "common/material.glsl"
-#include "lamplight/shared/light.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   Surroundings surroundings;
   DirectionalData directional_lights[];
@@ -33,6 +31,8 @@ void main() {
   const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
   Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
   if (BOXES) apply_decals(s, uvec2(gl_FragCoord.xy), z_view);
-  const vec3 sum = shade_cell(s, uvec2(gl_FragCoord.xy), z_view);
-  out_color = vec4(shade_surroundings(s, emission) + sum, max(color.a, material.least_alpha));
+  const Reflector r = reflector(s);
+  vec3 sum = shade_surroundings(s, r, emission);
+  add_cell(sum, r, uvec2(gl_FragCoord.xy), z_view);
+  out_color = vec4(sum, max(color.a, material.least_alpha));
 }

@@ -5,11 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lamplight/shared/frame.h"
-#include "lamplight/shared/light.h"
 #include "scene_data.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   Surroundings surroundings;
   DirectionalData directional_lights[];
@@ -28,5 +26,8 @@ void main() {
   const float z_view = z_view_of(frame, depth);
   const Surface s = read_surface(pixel, z_view);
   const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
-  out_color = vec4(shade_surroundings(s, emission) + shade_cell(s, uvec2(pixel), z_view), 1.0);
+  const Reflector r = reflector(s);
+  vec3 sum = shade_surroundings(s, r, emission);
+  add_cell(sum, r, uvec2(pixel), z_view);
+  out_color = vec4(sum, 1.0);
 }

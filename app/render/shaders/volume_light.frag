@@ -5,12 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lamplight/shared/frame.h"
-#include "lamplight/shared/light.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
 #include "common/deferred_surface.glsl"
-#include "common/punctual.glsl"
+#include "common/lights.glsl"
 
 layout(location = 0) flat in uint in_light;
 layout(location = 0) out vec4 out_color;
@@ -20,5 +18,7 @@ void main() {
   const float depth = texelFetch(depth_image, pixel, 0).x;
   if (depth <= 0.0) discard;
   const Surface s = read_surface(pixel, z_view_of(frame, depth));
-  out_color = vec4(shade_light(s, lights[in_light]), 0.0);
+  vec3 sum = vec3(0.0);
+  add_light(sum, reflector(s), in_light);
+  out_color = vec4(sum, 0.0);
 }

@@ -9,6 +9,7 @@ struct Walk {
   uint end;
 };
 
+#define LOOKUP_TOGETHER true
 void lookup_prepare() {}
 
 uint lookup_cell(uvec2 pixel, float z_view) { return 0u; }
@@ -20,7 +21,6 @@ Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
   return Walk(first, min(end, lookup_frame.light_count));
 }
 
-bool walk_next(inout Walk walk, out uint light) {
-  light = walk.at++;
-  return light < walk.end;
-}
+uint lookup_light_at(Walk walk, uint place) { return place; }
+
+#include "lookup/parts/walk_places.glsl"

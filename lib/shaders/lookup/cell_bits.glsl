@@ -2,6 +2,8 @@
 // light.
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/lamplight_cell.glsl"
+#include "lookup/parts/nth_bit.glsl"
+#define LOOKUP_TOGETHER (LOOKUP_SLICES == 1u)
 
 layout(set = 0, binding = 18, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
 layout(set = 0, binding = 19, scalar) readonly buffer LookupPieceLists { uint lookup_piece_lists[]; };
@@ -22,20 +24,43 @@ Walk walk_begin(uvec2 pixel, float z_view) {
   return Walk(0u, cell.first_piece * PIECE - 32u, 0u, (cell.entries + 31u) / 32u, first, false);
 }
 
-bool walk_next(inout Walk walk, out uint light) {
-  light = walk.word;
+// The next word with lights left; false if there is none. Not for all lights.
+bool walk_word(inout Walk walk) {
   while (walk.bits == 0u) {
     if (walk.word >= walk.words) return false;
-    if (walk.all) {
-      ++walk.word;
-      return true;
-    }
     const uint piece = walk.word / PIECE_WORDS;
     walk.bits = lookup_bits[walk.first_bit + piece * (LOOKUP_CELL_ROWS - 1u) * PIECE_WORDS + walk.word];
     walk.base += 32u;
     ++walk.word;
   }
+  return true;
+}
+
+bool walk_next(inout Walk walk, out uint light) {
+  if (walk.all) {
+    light = walk.word++;
+    return light < walk.words;
+  }
+  if (!walk_word(walk)) return false;
   light = lookup_piece_lists[walk.base + uint(findLSB(walk.bits))];
   walk.bits &= walk.bits - 1u;
   return true;
+}
+
+uint walk_take(inout Walk walk, uint most, uint rank, out uint light) {
+  uint taken = 0u;
+  light = walk.word + rank;
+  if (walk.all) {
+    taken = min(walk.words - walk.word, most);
+    walk.word += taken;
+    return taken;
+  }
+  while (walk_word(walk)) {
+    const uint count = uint(bitCount(walk.bits));
+    if (taken + count > most) break;
+    if (rank - taken < count) light = lookup_piece_lists[walk.base + nth_bit(walk.bits, rank - taken)];
+    taken += count;
+    walk.bits = 0u;
+  }
+  return taken;
 }

@@ -2,6 +2,7 @@
 // piece whose lists did not fit means all of its lights.
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/lamplight_cell.glsl"
+#define LOOKUP_TOGETHER (LOOKUP_SLICES == 1u)
 
 layout(set = 0, binding = 18, scalar) readonly buffer LookupSpans { LightSpan lookup_spans[]; };
 layout(set = 0, binding = 19, scalar) readonly buffer LookupPieceLists { uint lookup_piece_lists[]; };
@@ -23,7 +24,8 @@ Walk walk_begin(uvec2 pixel, float z_view) {
   return Walk(0u, 0u, first, first + cell.pieces * LOOKUP_CELL_ROWS, false, false);
 }
 
-bool walk_next(inout Walk walk, out uint light) {
+// The next span with lights left; false if there is none.
+bool walk_span(inout Walk walk) {
   while (walk.at >= walk.end) {
     if (walk.span >= walk.spans) return false;
     const LightSpan span = lookup_spans[walk.span];
@@ -32,7 +34,28 @@ bool walk_next(inout Walk walk, out uint light) {
     walk.at = span.first & ~COARSE;
     walk.end = walk.at + span.count;
   }
-  light = walk.all ? walk.at : walk.coarse ? lookup_piece_lists[walk.at] : lookup_lists[walk.at];
+  return true;
+}
+
+uint lookup_light_at(Walk walk, uint place) {
+  return walk.all ? place : walk.coarse ? lookup_piece_lists[place] : lookup_lists[place];
+}
+
+bool walk_next(inout Walk walk, out uint light) {
+  if (!walk_span(walk)) return false;
+  light = lookup_light_at(walk, walk.at);
   ++walk.at;
   return true;
+}
+
+uint walk_take(inout Walk walk, uint most, uint rank, out uint light) {
+  uint taken = 0u;
+  light = 0u;
+  while (taken < most && walk_span(walk)) {
+    const uint count = min(walk.end - walk.at, most - taken);
+    if (rank - taken < count) light = lookup_light_at(walk, walk.at + rank - taken);
+    taken += count;
+    walk.at += count;
+  }
+  return taken;
 }

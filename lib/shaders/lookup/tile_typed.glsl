@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/shared/frame.h"
 #define LOOKUP_BY_TYPE
+#define LOOKUP_TOGETHER (LOOKUP_RANGES == 1u)
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 32;
 layout(constant_id = 101) const uint LOOKUP_RANGES = 1;
@@ -47,9 +48,6 @@ Walk walk_begin_spots(uvec2 pixel, float z_view) {
   return Walk(first, first + (header.y >> 16), false);
 }
 
-bool walk_next(inout Walk walk, out uint light) {
-  if (walk.at >= walk.end) return false;
-  light = walk.overflowed ? walk.at : lookup_lists[walk.at];
-  ++walk.at;
-  return true;
-}
+uint lookup_light_at(Walk walk, uint place) { return walk.overflowed ? place : lookup_lists[place]; }
+
+#include "lookup/parts/walk_places.glsl"

@@ -5,55 +5,47 @@
 #ifndef LAMP_PUNCTUAL
 #define LAMP_PUNCTUAL
 #include "common/brdf.glsl"
-#include "lamplight/shared/light.h"
 
-const float NEAREST_M2 = 1e-4;  // a point light has no size; closer than 1 cm it gets no brighter
+const float NEAREST_M = 0.01;  // a point light has no size; closer it gets no brighter
+
+// What shading asks of a light.
+struct Emitter {
+  vec3 position;         // world, m
+  float inverse_range2;  // 1 / m^2
+  vec3 intensity;        // cd
+  float spot_scale;      // of a spot, > 0; of a point 0, and the rest is unset
+  vec3 direction;        // unit; where a spot looks
+  float cos_outer;       // beyond 1: reaches nothing
+};
+
+bool is_spot(Emitter e) { return e.spot_scale > 0.0; }
 
 // 1 in the middle of a cone, 0 from the outer angle on.
-float cone_window(Light light, vec3 to_light) {
-  precise const float cos_angle = -dot(to_light, light.direction);
-  // The cosine of two rounded unit vectors may exceed 1; an angle of 0 reaches nothing all the same.
-  if (!(cos_angle > light.cos_outer) || light.outer_angle <= 0.0) return 0.0;
-  precise const float t = clamp((cos_angle - light.cos_outer) * light.spot_scale, 0.0, 1.0);
+float cone_window(Emitter e, vec3 to_light) {
+  const float cos_angle = -fused_dot(to_light, e.direction);
+  precise const float t = clamp((cos_angle - e.cos_outer) * e.spot_scale, 0.0, 1.0);
   return t * t;
 }
 
-// What a light's distance leaves of it: the direction to it, and its attenuation, 0 from the range on.
-struct Falloff {
-  vec3 to_light;
-  float attenuation;
-};
-
-Falloff falloff(Surface s, Light light) {
-  precise const vec3 offset = light.position - s.position;
-  precise const float d2 = dot(offset, offset);
-  precise const float range2 = light.range * light.range;
-  if (!(d2 < range2)) return Falloff(vec3(0.0), 0.0);
-  precise const vec3 to_light = offset / max(sqrt(d2), 1e-6);
-  precise const float ratio2 = d2 / range2;
-  precise const float window = clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
-  precise const float attenuation = window / max(d2, NEAREST_M2);
-  return Falloff(to_light, attenuation);
-}
-
-vec3 shade_point(Surface s, Light light) {
-  const Falloff f = falloff(s, light);
-  if (f.attenuation <= 0.0) return vec3(0.0);
-  precise const vec3 reflected = light.intensity * f.attenuation * reflect_light(s, f.to_light);
-  return reflected;
-}
-
-vec3 shade_spot(Surface s, Light light) {
-  const Falloff f = falloff(s, light);
-  if (f.attenuation <= 0.0) return vec3(0.0);
-  const float cone = cone_window(light, f.to_light);
-  if (cone <= 0.0) return vec3(0.0);
-  precise const vec3 reflected = light.intensity * (cone * f.attenuation) * reflect_light(s, f.to_light);
-  return reflected;
-}
-
-vec3 shade_light(Surface s, Light light) {
-  return light.type == LIGHT_SPOT ? shade_spot(s, light) : shade_point(s, light);
+// `spot` is is_spot(e), for callers that know it beforehand.
+void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
+  precise const vec3 offset = e.position - r.position;
+  const float d2 = fused_dot(offset, offset);
+  precise const float ratio2 = d2 * e.inverse_range2;
+  const float n_offset = fused_dot(r.normal, offset);
+  if (!(ratio2 < 1.0) || n_offset <= 0.0) return;
+  precise const float inverse = inversesqrt(max(d2, 1e-12));
+  precise const vec3 to_light = offset * inverse;
+  precise const float bounded = min(inverse, 1.0 / NEAREST_M);
+  precise float attenuation = fma(-ratio2, ratio2, 1.0) * (bounded * bounded);
+  if (spot) {
+    const float cone = cone_window(e, to_light);
+    if (cone <= 0.0) return;
+    attenuation *= cone;
+  }
+  precise const float n_l = n_offset * inverse;
+  precise const vec3 arriving = e.intensity * attenuation;
+  sum = fma(reflect_light(r, to_light, n_l), arriving, sum);
 }
 
 #endif

@@ -5,12 +5,12 @@
 #define LAMP_SURROUNDINGS
 #include "common/brdf.glsl"
 
-vec3 shade_surroundings(Surface s, vec3 emitted) {
+vec3 shade_surroundings(Surface s, Reflector r, vec3 emitted) {
   precise vec3 sum = emitted + surroundings.ambient * s.base_color * (s.occlusion / PI);
   for (uint i = 0u; i < surroundings.directional_count; ++i) {
-    precise const vec3 reflected =
-        directional_lights[i].illuminance * reflect_light(s, -directional_lights[i].direction);
-    sum += reflected;
+    const vec3 to_light = -directional_lights[i].direction;
+    const float n_l = fused_dot(r.normal, to_light);
+    if (n_l > 0.0) sum = fma(reflect_light(r, to_light, n_l), directional_lights[i].illuminance, sum);
   }
   return sum;
 }

@@ -47,9 +47,6 @@ Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
   return walk_of_cell_in(lookup_cell(pixel, z_view), first, end);
 }
 
-bool walk_next(inout Walk walk, out uint light) {
-  if (walk.at >= walk.end) return false;
-  light = walk.overflowed ? walk.at : lookup_lists[walk.at];
-  ++walk.at;
-  return true;
-}
+uint lookup_light_at(Walk walk, uint place) { return walk.overflowed ? place : lookup_lists[place]; }
+
+#include "lookup/parts/walk_places.glsl"

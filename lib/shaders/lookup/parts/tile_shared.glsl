@@ -37,9 +37,6 @@ Walk walk_begin(uvec2 pixel, float z_view) {
   return Walk(range * CAPACITY, range * CAPACITY + s_light_count[range], false);
 }
 
-bool walk_next(inout Walk walk, out uint light) {
-  if (walk.at >= walk.end) return false;
-  light = walk.overflowed ? walk.at : s_lights[walk.at] & ~TYPE_BIT;
-  ++walk.at;
-  return true;
-}
+uint lookup_light_at(Walk walk, uint place) { return walk.overflowed ? place : s_lights[place] & ~TYPE_BIT; }
+
+#include "lookup/parts/walk_places.glsl"

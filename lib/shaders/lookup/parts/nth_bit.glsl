@@ -1,0 +1,18 @@
+// The place of a set bit by its rank: halves of the word that hold too few are passed over.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LOOKUP_NTH_BIT
+#define LOOKUP_NTH_BIT
+
+// `rank` < bitCount(bits).
+uint nth_bit(uint bits, uint rank) {
+  uint place = 0u;
+  for (uint width = 16u; width > 0u; width /= 2u) {
+    const uint below = uint(bitCount(bitfieldExtract(bits, int(place), int(width))));
+    if (rank < below) continue;
+    rank -= below;
+    place += width;
+  }
+  return place;
+}
+
+#endif
