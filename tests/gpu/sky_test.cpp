@@ -3,11 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "gpu/dispatch.h"
 #include "gpu/method_check.h"
+#include "gpu/over_depth.h"
 #include "gpu/test_surfaces.h"
-#include "render/frame_data.h"
-#include "render/pass_uses.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -66,57 +64,6 @@ std::vector<float> half_a_sky(const View& view) {
   return depth;
 }
 
-/// A plan, run over a depth buffer that nothing has drawn.
-class OverDepth {
- public:
-  OverDepth(const View& view, const std::vector<float>& depth)
-      : view_(view), depth_(depth_image(WIDTH, HEIGHT, depth)), data_(test_context().device(), COUNT) {
-    data_.set(view, covering_lights());
-  }
-
-  /// Lights named at every pixel by count_everywhere.
-  std::vector<std::uint32_t> counts(vulkan::PlanRunner& runner, Passes which) {
-    const bool fused = which == Passes::fused;
-    const vulkan::PlanInputs inputs = data_.plan_inputs(depth_.sampled());
-    const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
-    vulkan::PipelineInfo info{.name = "count everywhere", .constants = lookup.constants, .bindings = {{0}, {1}}};
-    info.constants.push_back({0, fused ? runner.plan().fused->group_width : 8});
-    info.constants.push_back({1, fused ? runner.plan().fused->group_height : 8});
-    for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
-    const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(
-        test_context().device(), info, test_shader("count_everywhere@" + std::string(lookup.name))));
-    const vulkan::Buffer found = host_buffer("counts", std::size_t{WIDTH} * HEIGHT * sizeof(std::uint32_t));
-    std::vector<vulkan::Bound> bound = lookup.resources;
-    bound.push_back({0, data_.frame()});
-    bound.push_back({1, vulkan::Resource::storage(found.handle())});
-    test_context().submit([&](VkCommandBuffer commands) {
-      vulkan::AccessTracker tracker;
-      tracker.assume(depth_.sampled());
-      vulkan::Recorder recorder(test_context().device(), commands, tracker);
-      data_.record_upload(recorder);
-      runner.record(recorder, inputs, which);
-      std::vector<vulkan::Use> uses{{.resource = vulkan::Resource::storage(found.handle()),
-                                     .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                     .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
-      for (const vulkan::Bound& b : lookup.resources)
-        uses.push_back(reads(b.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
-      recorder.begin_pass("count everywhere", uses);
-      recorder.bind(pipeline, bound);
-      const std::uint32_t side_x = fused ? runner.plan().fused->group_width : 8;
-      const std::uint32_t side_y = fused ? runner.plan().fused->group_height : 8;
-      vkCmdDispatch(commands, (WIDTH + side_x - 1) / side_x, (HEIGHT + side_y - 1) / side_y, 1);
-      recorder.end_pass();
-      recorder.barrier({host_reads(vulkan::Resource::storage(found.handle()))});
-    });
-    return contents<std::uint32_t>(found);
-  }
-
- private:
-  View view_;
-  GpuImage depth_;
-  FrameData data_;
-};
-
 Plan plan_of(const Method& method) {
   return take(make_plan(method, {.width = WIDTH,
                                  .height = HEIGHT,
@@ -130,14 +77,14 @@ class Sky : public GpuTest {};
 TEST_F(Sky, EmptyTilesListNothing) {
   const Scene scene = wall_scene({});
   const View view = camera_view(scene);
-  OverDepth over(view, half_a_sky(view));
+  OverDepth over(view, half_a_sky(view), covering_lights());
   for (const Method* method : tiled_rows()) {
     vulkan::PlanRunner runner =
         take(vulkan::PlanRunner::create(test_context().device(), plan_of(*method), shader_library().source()));
     for (const Passes which : {Passes::separate, Passes::fused}) {
       if (which == Passes::fused && !runner.plan().fused) continue;
       SCOPED_TRACE(std::string(method->name) + (which == Passes::fused ? ", fused" : ""));
-      const std::vector<std::uint32_t> counts = over.counts(runner, which);
+      const std::vector<std::uint32_t> counts = over.per_pixel("count_everywhere", runner, which);
       std::uint64_t in_sky = 0;
       std::uint64_t elsewhere = 0;
       for (std::uint32_t y = 0; y < HEIGHT; ++y)

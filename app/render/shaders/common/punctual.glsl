@@ -21,8 +21,7 @@ struct Emitter {
 bool is_spot(Emitter e) { return e.spot_scale > 0.0; }
 
 // 1 in the middle of a cone, 0 from the outer angle on.
-float cone_window(Emitter e, vec3 to_light) {
-  const float cos_angle = -fused_dot(to_light, e.direction);
+float cone_window(Emitter e, float cos_angle) {
   precise const float t = clamp((cos_angle - e.cos_outer) * e.spot_scale, 0.0, 1.0);
   return t * t;
 }
@@ -34,18 +33,19 @@ void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
   precise const float ratio2 = d2 * e.inverse_range2;
   const float n_offset = fused_dot(r.normal, offset);
   if (!(ratio2 < 1.0) || n_offset <= 0.0) return;
-  precise const float inverse = inversesqrt(max(d2, 1e-12));
-  precise const vec3 to_light = offset * inverse;
+  precise const float inverse = min(inversesqrt(d2), 1e6);
   precise const float bounded = min(inverse, 1.0 / NEAREST_M);
   precise float attenuation = fma(-ratio2, ratio2, 1.0) * (bounded * bounded);
   if (spot) {
-    const float cone = cone_window(e, to_light);
+    precise const float cos_angle = -fused_dot(offset, e.direction) * inverse;
+    const float cone = cone_window(e, cos_angle);
     if (cone <= 0.0) return;
     attenuation *= cone;
   }
   precise const float n_l = n_offset * inverse;
-  precise const vec3 arriving = e.intensity * attenuation;
-  sum = fma(reflect_light(r, to_light, n_l), arriving, sum);
+  precise const float v_l = fused_dot(r.to_eye, offset) * inverse;
+  precise const float n_l_share = n_l * attenuation;
+  sum = fma(reflect_light(r, v_l, n_l, n_l_share), e.intensity, sum);
 }
 
 #endif

@@ -10,7 +10,9 @@ vec3 shade_surroundings(Surface s, Reflector r, vec3 emitted) {
   for (uint i = 0u; i < surroundings.directional_count; ++i) {
     const vec3 to_light = -directional_lights[i].direction;
     const float n_l = fused_dot(r.normal, to_light);
-    if (n_l > 0.0) sum = fma(reflect_light(r, to_light, n_l), directional_lights[i].illuminance, sum);
+    if (n_l <= 0.0) continue;
+    const float v_l = fused_dot(r.to_eye, to_light);
+    sum = fma(reflect_light(r, v_l, n_l, n_l), directional_lights[i].illuminance, sum);
   }
   return sum;
 }

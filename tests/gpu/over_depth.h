@@ -1,0 +1,30 @@
+// A plan, run over a depth buffer that nothing has drawn, and a test shader over its look-up.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/dispatch.h"
+#include "lamplight/view.h"
+#include "render/frame_data.h"
+
+namespace lamp::app {
+
+class OverDepth {
+ public:
+  /// `depth`: device depths of all the view's pixels, row by row.
+  OverDepth(const View& view, const std::vector<float>& depth, const std::vector<shared::Light>& lights);
+
+  /// Records the plan, then `shader`, compiled against the plan's look-up: 0 is the frame, 1 a word for each pixel,
+  /// which it writes and this returns.
+  [[nodiscard]] std::vector<std::uint32_t> per_pixel(const std::string& shader, vulkan::PlanRunner& runner,
+                                                     vulkan::PlanRunner::Passes which);
+
+ private:
+  glm::uvec2 size_;
+  GpuImage depth_;
+  FrameData data_;
+};
+
+}  // namespace lamp::app
