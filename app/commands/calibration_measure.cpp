@@ -25,14 +25,14 @@ struct MeasuredPoint {
   float range = 0.0F;  ///< m, of all lights; 0: automatic
 };
 
-// Small and large pictures, few and many lights, so that every term of the model leads somewhere. Without lights, and
+// Small and large pictures, few and many lights, so that every term of the model leads somewhere. With one light, and
 // with lights that reach next to nothing, pixels and lights cost what they cost alone: else lists, which grow with
-// both, would be given their part.
+// both, would be given their part. No light at all is another matter: passes end at once, and auto does not ask.
 constexpr float TINY = 0.02F;
-constexpr MeasuredPoint GPU_POINTS[] = {{480, 270, 64},           {480, 270, 4096},   {1920, 1080, 0},
+constexpr MeasuredPoint GPU_POINTS[] = {{480, 270, 64},           {480, 270, 4096},   {1920, 1080, 1, TINY},
                                         {1920, 1080, 64},         {1920, 1080, 2048}, {1920, 1080, 32768},
                                         {1920, 1080, 32768, TINY}};
-constexpr MeasuredPoint SOFTWARE_POINTS[] = {{96, 54, 64},   {96, 54, 1024},   {256, 144, 0},
+constexpr MeasuredPoint SOFTWARE_POINTS[] = {{96, 54, 64},   {96, 54, 1024},   {256, 144, 1, TINY},
                                              {256, 144, 64}, {256, 144, 2048}, {256, 144, 2048, TINY}};
 
 // Pairs of pixel and light that brute force is asked to walk at most.
