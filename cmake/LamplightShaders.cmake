@@ -7,8 +7,8 @@ set(LAMPLIGHT_SHADER_INCLUDES ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders ${CMAKE_C
 file(GLOB LAMPLIGHT_LOOKUPS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders/lookup/*.glsl)
 file(GLOB LAMPLIGHT_FUSED_LOOKUPS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../lib/shaders/lookup/fused/*.glsl)
 
-set(LAMPLIGHT_SPIRV_FROM "" CACHE PATH "A build of these sources, up to date, whose SPIR-V to take; \
-without: it is compiled")
+set(LAMPLIGHT_SPIRV_FROM "" CACHE PATH "A build folder of these sources whose SPIR-V to take, after it is brought up \
+to date; without: it is compiled here")
 
 # lamplight_shaders(TARGET FUNCTION ROOT): makes the library TARGET, which defines
 # `std::span<const lamp::ShaderCode> lamp::FUNCTION()` for all shaders below ROOT.
@@ -80,6 +80,12 @@ std::span<const ShaderCode> @function@() { return TABLE; }
 }
 ")
   add_library(${target} STATIC ${out}.cpp)
+  if(LAMPLIGHT_SPIRV_FROM)
+    # The terminal is one builder's at a time, so no two build that folder at once.
+    add_custom_target(${target}_spirv COMMAND ${CMAKE_COMMAND} --build ${LAMPLIGHT_SPIRV_FROM} --target ${target}
+                      BYPRODUCTS ${spirv} USES_TERMINAL COMMENT "SPIR-V of ${target}, from ${LAMPLIGHT_SPIRV_FROM}")
+    add_dependencies(${target} ${target}_spirv)
+  endif()
   lamplight_configure(${target})
   set_source_files_properties(${out}.cpp PROPERTIES OBJECT_DEPENDS "${spirv}")
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/lib/include)
