@@ -47,21 +47,22 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   if (scene.captured && !r.size_given)
     r.size = fmt::format("{}x{}", scene.captured->view.width(), scene.captured->view.height());
   if (scene.captured && !r.lights_given) r.lights = 0;
-  Series series{.name = "scene",
-                .title = fmt::format("{}, {} lights, {}", r.scene, r.lights, r.size),
-                .chart = {.x = "method"},
-                .scenes = {r.scene},
-                .sizes = {r.size},
-                .lights = {r.lights},
-                .spots = {r.spots},
-                .ranges = {r.range},
-                .cameras = {r.camera},
-                .projections = {r.projection},
-                .paths = {r.path},
-                .brdf = r.brdf,
-                .seed = r.seed,
-                .frame = r.frame,
-                .pictures = true};
+  Series series;
+  series.name = "scene";
+  series.title = fmt::format("{}, {} lights, {}", r.scene, r.lights, r.size);
+  series.scenes = {r.scene};
+  series.sizes = {r.size};
+  series.lights = {r.lights};
+  series.spots = {r.spots};
+  series.ranges = {r.range};
+  series.cameras = {r.camera};
+  series.projections = {r.projection};
+  series.paths = {r.path};
+  series.brdf = r.brdf;
+  series.seed = r.seed;
+  series.frame = r.frame;
+  series.pictures = true;
+  series.chart.x = "method";
   std::vector<std::string> names = o.methods;
   if (names.empty())
     for (const Method& method : methods()) names.emplace_back(method.name);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "gpu/check.h"
 
@@ -155,6 +156,7 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
                               mesh_state(VK_COMPARE_OP_EQUAL, {VK_FORMAT_R32G32B32A32_SFLOAT}), "forward+");
     return;
   }
+  assert(info_.shaded.first % SHADE_GROUP_PX == 0 && "work groups lie within tiles");
   const bool volumes = info_.path == ShadingPath::standard_deferred;
   const FusedLookUp* fused_lookup = fused() ? &*runner_.plan().fused : nullptr;
   const vulkan::BoundLookUp lookup = runner_.lookup({}, fused() ? Passes::fused : Passes::separate);

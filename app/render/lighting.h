@@ -42,7 +42,8 @@ struct LightingInfo {
   bool decals = false;        ///< the frames have decals
   /// Of the options, those that room was made with, for what did not fit with the ones asked for.
   std::vector<std::pair<std::string, std::string>> grown;
-  Rows shaded;  ///< what is shaded: a reference picture may need a part alone; not with a fused look-up
+  /// What is shaded: a reference picture may need a part alone. `first` is a multiple of 8; not with a fused look-up.
+  Rows shaded;
 };
 
 /// What a frame is lit with.

@@ -18,7 +18,7 @@ std::vector<std::uint32_t> OverDepth::per_pixel(const std::string& shader, vulka
   const bool fused = which == Passes::fused;
   const vulkan::PlanInputs inputs = data_.plan_inputs(depth_.sampled());
   const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
-  vulkan::PipelineInfo info{.name = shader.c_str(), .constants = lookup.constants, .bindings = {{0}, {1}}};
+  vulkan::PipelineInfo info{.name = shader, .constants = lookup.constants, .bindings = {{0}, {1}}};
   info.constants.push_back({0, fused ? runner.plan().fused->group_width : 8});
   info.constants.push_back({1, fused ? runner.plan().fused->group_height : 8});
   for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> OverDepth::per_pixel(const std::string& shader, vulka
                                    .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
     for (const vulkan::Bound& b : lookup.resources)
       uses.push_back(reads(b.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
-    recorder.begin_pass(shader.c_str(), uses);
+    recorder.begin_pass(shader, uses);
     recorder.bind(pipeline, bound);
     const std::uint32_t side_x = fused ? runner.plan().fused->group_width : 8;
     const std::uint32_t side_y = fused ? runner.plan().fused->group_height : 8;

@@ -4,7 +4,7 @@
 #ifndef LAMP_METHODS_LAMPLIGHT_CELL_CLEAR
 #define LAMP_METHODS_LAMPLIGHT_CELL_CLEAR
 
-layout(constant_id = 3) const uint BLOCK = 256;  // lights
+layout(constant_id = 4) const uint BLOCK = 256;  // lights
 
 layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[]; };  // blocks times cells, or bits
 layout(set = 0, binding = 5, scalar) writeonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats

@@ -10,6 +10,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
+layout(constant_id = 3) const uint HELD = 2;  // 1 or MOST_HELD
 #define BOUNDS BOUNDS_MASK
 #include "common/tile_ranges.glsl"
 #include "lamplight/shared/lamplight.h"
@@ -27,8 +28,9 @@ layout(set = 0, binding = 3, scalar) writeonly buffer CellBuffer { LightCell cel
 shared uint s_nearest;   // device depth: reversed, so the greatest
 shared uint s_farthest;
 
-// Squares of 2 x 2 pixels that a thread loads at once and holds in registers: 32 threads read a tile of 16 pixels once.
-const uint HELD = 2u;
+// HELD squares of 2 x 2 pixels are loaded at once by a thread and held in registers: with two, 32 threads read a tile of 16
+// pixels once.
+const uint MOST_HELD = 2u;
 const uint SQUARES_ACROSS = TILE_PX / 2u;
 const uint SQUARES = SQUARES_ACROSS * SQUARES_ACROSS;
 
@@ -42,10 +44,11 @@ vec4 square_depths(uvec2 tile, uint square) {
               texelFetch(depth_image, ivec2(low.x, high.y), 0).x, texelFetch(depth_image, high, 0).x);
 }
 
-void load_depths(uvec2 tile, uint first, out vec4 depths[HELD]) {
-  [[unroll]] for (uint k = 0u; k < HELD; ++k) {
+void load_depths(uvec2 tile, uint first, out vec4 depths[MOST_HELD]) {
+  [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
     const uint square = first + k * gl_SubgroupSize + gl_SubgroupInvocationID;
-    depths[k] = SQUARES % (HELD * gl_SubgroupSize) == 0u || square < SQUARES ? square_depths(tile, square) : vec4(0.0);
+    const bool there = k < HELD && (SQUARES % (HELD * gl_SubgroupSize) == 0u || square < SQUARES);
+    depths[k] = there ? square_depths(tile, square) : vec4(0.0);
   }
 }
 
@@ -59,12 +62,12 @@ uvec4 parts_of_depths(mat4 clip, vec4 depths, float z_near, float scale) {
 // For all threads of a subgroup together; every one of them returns the tile's ranges.
 TileDepths depths_of_tile(uvec2 tile) {
   const uint stride = HELD * gl_SubgroupSize;
-  vec4 depths[HELD];
+  vec4 depths[MOST_HELD];
   uint nearest = 0u;
   uint farthest = ~0u;
   for (uint first = 0u; first < SQUARES; first += stride) {
     load_depths(tile, first, depths);
-    [[unroll]] for (uint k = 0u; k < HELD; ++k) {
+    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
       const uvec4 bits = floatBitsToUint(depths[k]);
       const uvec4 surfaces = mix(bits, uvec4(~0u), equal(bits, uvec4(0u)));  // not sky
       nearest = max(nearest, max(max(bits.x, bits.y), max(bits.z, bits.w)));
@@ -85,7 +88,7 @@ TileDepths depths_of_tile(uvec2 tile) {
   uint mask = 0u;
   for (uint first = 0u; first < SQUARES; first += stride) {
     if (SQUARES > stride) load_depths(tile, first, depths);
-    [[unroll]] for (uint k = 0u; k < HELD; ++k) {
+    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
       const uvec4 parts = parts_of_depths(clip, depths[k], z_near, scale);
       [[unroll]] for (int i = 0; i < 4; ++i) mask |= depths[k][i] > 0.0 ? 1u << parts[i] : 0u;
     }

@@ -69,20 +69,19 @@ float blinn_phong(Reflector r, float n_h) {
   return lobe;
 }
 
-// Reflected radiance on a surface that faces the light, for an irradiance of 1 where it comes straight from above, times
-// `n_l_share`: n.l, which is > 0, or a share of it. `v_l` is v.l. The half vector is not made: of unit vectors it is
-// (v + l) / sqrt(2 + 2 v.l).
-vec3 reflect_light(Reflector r, float v_l, float n_l, float n_l_share) {
+// Radiance towards the eye, of a surface that faces the light (n.l > 0). `arriving`: the irradiance, n.l times what
+// distance and cone leave of the light. The half vector is not made: of unit vectors it is (v + l) / sqrt(2 + 2 v.l).
+vec3 reflect_light(Reflector r, float v_l, float n_l, float arriving) {
   precise const float inverse_length = inversesqrt(max(fma(v_l, 2.0, 2.0), 1e-12));
   precise const float n_h = clamp((r.n_eye + n_l) * inverse_length, 0.0, 1.0);
   precise const float grazing = clamp(1.0 - fma(v_l, inverse_length, inverse_length), 0.0, 1.0);
   precise const float grazing2 = grazing * grazing;
   precise const float g = grazing2 * grazing2 * grazing;
-  precise const float specular = (BRDF == BRDF_BLINN_PHONG ? blinn_phong(r, n_h) : ggx(r, n_h, n_l)) * n_l_share;
+  precise const float specular = (BRDF == BRDF_BLINN_PHONG ? blinn_phong(r, n_h) : ggx(r, n_h, n_l)) * arriving;
   // Schlick: fresnel = f0 + (1 - f0) g, and diffuse light is what it leaves.
   precise const float grazed = specular * g;
   precise const vec3 reflected =
-      fma(r.diffuse, vec3(fma(-g, n_l_share, n_l_share)), fma(r.f0, vec3(specular - grazed), vec3(grazed)));
+      fma(r.diffuse, vec3(fma(-g, arriving, arriving)), fma(r.f0, vec3(specular - grazed), vec3(grazed)));
   return reflected;
 }
 

@@ -44,8 +44,8 @@ void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
   }
   precise const float n_l = n_offset * inverse;
   precise const float v_l = fused_dot(r.to_eye, offset) * inverse;
-  precise const float n_l_share = n_l * attenuation;
-  sum = fma(reflect_light(r, v_l, n_l, n_l_share), e.intensity, sum);
+  precise const float arriving = n_l * attenuation;
+  sum = fma(reflect_light(r, v_l, n_l, arriving), e.intensity, sum);
 }
 
 #endif

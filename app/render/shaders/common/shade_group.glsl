@@ -1,7 +1,7 @@
-// The light of all lights of a pixel's cell, for a work group of GROUP_PX x GROUP_PX pixels. Where its pixels all have one
-// cell, its threads load a light each, all at once, into shared memory, and every pixel reads them there: a walk by each
-// thread waits for every light's index and then for the light (H200, a million lights of which a pixel sees 16, 3840x2160:
-// 880 us against 640).
+// The light of all lights of a pixel's cell, for a work group of 8 x 8 pixels. Where these all have one cell, its threads
+// load a light each, all at once, into shared memory, and every pixel reads them there: a walk by each thread waits for
+// every light's index and then for the light (H200, a million lights of which a pixel sees 16, 3840x2160: 880 us against
+// 640).
 // Needs: a look-up, `frame`; all threads of the group.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_SHADE_GROUP
@@ -9,7 +9,7 @@
 #include "common/shade_cell.glsl"
 
 #ifdef LOOKUP_TOGETHER
-const uint GROUP_LIGHTS = 64u;
+const uint GROUP_LIGHTS = 64u;  // a group's threads
 shared vec4 s_places[GROUP_LIGHTS];       // position, inverse_range2
 shared vec4 s_intensities[GROUP_LIGHTS];  // intensity, spot_scale
 shared vec4 s_cones[GROUP_LIGHTS];        // direction, cos_outer
