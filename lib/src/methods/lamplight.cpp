@@ -92,8 +92,8 @@ std::string shader_of(std::string_view name, const Sizes& s) {
   return std::string("methods/lamplight_").append(name).append(s.cell_bits ? "_cell_bits" : "");
 }
 
-/// What a thread of the depth pass loads at once. Subgroups of fewer than 32 read a tile twice either way, and a software
-/// device takes a third less time for that one by one.
+/// What a thread of the depth pass loads at once. Subgroups of fewer than 32 read a tile twice either way, and a
+/// software device takes a third less time for that one by one.
 std::uint32_t squares_held(const Problem& problem) { return problem.traits.subgroup_size < 32 ? 1 : 2; }
 
 Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
