@@ -10,17 +10,11 @@ layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) writeonly buffer CountBuffer { uint counts[]; };
 #include "lookup.glsl"
-
-uint count(uvec2 pixel, float z_view) {
-  uint lights = 0u;
-  uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) ++lights;
-  return lights;
-}
+#include "count_walked.glsl"
 
 void main() {
   lookup_prepare();
   const uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.size_px))) return;
-  counts[pixel.x + frame.size_px.x * pixel.y] = count(pixel, 1e-6) + count(pixel, 1e6);
+  counts[pixel.x + frame.size_px.x * pixel.y] = count_walked(pixel);
 }

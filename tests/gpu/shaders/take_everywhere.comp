@@ -11,17 +11,11 @@ layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) writeonly buffer CountBuffer { uint counts[]; };
 #include "lookup.glsl"
+#include "count_walked.glsl"
 
 const uint DIFFERENT = ~0u;
 const uint ROOM = 64u;
 shared uint s_taken[ROOM];
-
-uint count_plainly(uvec2 pixel, float z_view) {
-  uint lights = 0u;
-  uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) ++lights;
-  return lights;
-}
 
 #ifdef LOOKUP_TOGETHER
 bool meets_taken(inout Walk own, uint count) {
@@ -57,7 +51,7 @@ uint count_taken(uvec2 pixel, uint most) {
 void main() {
   lookup_prepare();
   const uvec2 pixel = gl_GlobalInvocationID.xy;
-  uint lights = count_plainly(pixel, 1e-6) + count_plainly(pixel, 1e6);
+  uint lights = count_walked(pixel);
 #ifdef LOOKUP_TOGETHER
   if (LOOKUP_TOGETHER) {
     const uvec3 taken = uvec3(count_taken(pixel, 32u), count_taken(pixel, 33u), count_taken(pixel, ROOM));

@@ -40,9 +40,9 @@ void add_group(inout vec3 sum, Reflector r, bool lit, uvec2 pixel, float z_view)
   }
   const uint thread = gl_LocalInvocationIndex;
   uint light;
+  uint count;
   Walk walk = walk_begin(pixel, z_view);
-  for (uint count = walk_take(walk, GROUP_LIGHTS, thread, light); count > 0u;
-       count = walk_take(walk, GROUP_LIGHTS, thread, light)) {
+  while ((count = walk_take(walk, GROUP_LIGHTS, thread, light)) > 0u) {
     if (thread < count) share(thread, emitter_at(light));
     barrier();  // all are there
     for (uint i = 0u; lit && i < count; ++i) add_shared(sum, r, i);

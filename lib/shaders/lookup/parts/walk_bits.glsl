@@ -2,8 +2,6 @@
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Data Container: Flat".
 // Needs: `lookup_bits`, the macro LOOKUP_LIGHT.
 // SPDX-License-Identifier: Apache-2.0
-#include "lookup/parts/nth_bit.glsl"
-
 struct Walk {
   uint base;   // of the cell's words
   uint begin;  // bits begin .. end - 1 count
@@ -24,7 +22,6 @@ uint lookup_word(Walk walk, uint word) {
   return bits;
 }
 
-// The next word with lights left; false if there is none.
 bool walk_word(inout Walk walk) {
   while (walk.bits == 0u) {
     if (walk.word * 32u >= walk.end) return false;
@@ -34,22 +31,6 @@ bool walk_word(inout Walk walk) {
   return true;
 }
 
-bool walk_next(inout Walk walk, out uint light) {
-  if (!walk_word(walk)) return false;
-  light = LOOKUP_LIGHT((walk.word - 1u) * 32u + uint(findLSB(walk.bits)));
-  walk.bits &= walk.bits - 1u;
-  return true;
-}
+uint lookup_light_of(Walk walk, uint bit) { return LOOKUP_LIGHT((walk.word - 1u) * 32u + bit); }
 
-uint walk_take(inout Walk walk, uint most, uint rank, out uint light) {
-  uint taken = 0u;
-  light = 0u;
-  while (walk_word(walk)) {
-    const uint count = uint(bitCount(walk.bits));
-    if (taken + count > most) break;
-    if (rank - taken < count) light = LOOKUP_LIGHT((walk.word - 1u) * 32u + nth_bit(walk.bits, rank - taken));
-    taken += count;
-    walk.bits = 0u;
-  }
-  return taken;
-}
+#include "lookup/parts/walk_words.glsl"
