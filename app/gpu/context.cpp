@@ -75,6 +75,44 @@ bool can_describe_pipelines(VkPhysicalDevice physical) {
   return has.pipelineExecutableInfo == VK_TRUE;
 }
 
+/// Extensions and features that are enabled where the device has them.
+class OptionalFeatures {
+ public:
+  OptionalFeatures(VkPhysicalDevice physical, bool pipeline_statistics, void* next)
+      : extensions(vulkan::useful_extensions(physical)),
+        conservative_raster(!extensions.empty()),
+        describes(pipeline_statistics && can_describe_pipelines(physical)),
+        unchecked(vulkan::has_pipeline_robustness(physical)),
+        chain_(next) {
+    if (describes) add(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME, describe_);
+    if (unchecked) add(VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME, robustness_);
+  }
+  OptionalFeatures(const OptionalFeatures&) = delete;
+  OptionalFeatures& operator=(const OptionalFeatures&) = delete;
+
+  [[nodiscard]] const void* chain() const { return chain_; }
+
+  std::vector<const char*> extensions;
+  bool conservative_raster;
+  bool describes;
+  bool unchecked;
+
+ private:
+  template <class Features>
+  void add(const char* extension, Features& features) {
+    extensions.push_back(extension);
+    features.pNext = chain_;
+    chain_ = &features;
+  }
+
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR describe_{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+      .pipelineExecutableInfo = VK_TRUE};
+  VkPhysicalDevicePipelineRobustnessFeaturesEXT robustness_{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT, .pipelineRobustness = VK_TRUE};
+  void* chain_;
+};
+
 std::uint32_t graphics_queue_family(VkPhysicalDevice physical) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -148,17 +186,11 @@ void Context::create_device(bool pipeline_statistics) {
                                       .queueCount = 1,
                                       .pQueuePriorities = &priority};
   const auto required = vulkan::required_extensions();
-  const std::vector<const char*> useful = vulkan::useful_extensions(physical_);
+  const OptionalFeatures optional(physical_, pipeline_statistics, &features.base);
   std::vector<const char*> extensions(required.begin(), required.end());
-  extensions.insert(extensions.end(), useful.begin(), useful.end());
-  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{
-      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
-      .pNext = &features.base,
-      .pipelineExecutableInfo = VK_TRUE};
-  const bool describes = pipeline_statistics && can_describe_pipelines(physical_);
-  if (describes) extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  extensions.insert(extensions.end(), optional.extensions.begin(), optional.extensions.end());
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                  .pNext = describes ? static_cast<const void*>(&statistics) : &features.base,
+                                  .pNext = optional.chain(),
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
@@ -166,8 +198,9 @@ void Context::create_device(bool pipeline_statistics) {
   check(vkCreateDevice(physical_, &create, nullptr, &handle_), "creating the device");
   vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
   device_ = take(vulkan::make_device(physical_, handle_), Exit::no_device);
-  device_.traits.conservative_raster = !useful.empty();
-  device_.pipeline_statistics = describes;
+  device_.traits.conservative_raster = optional.conservative_raster;
+  device_.pipeline_statistics = optional.describes;
+  device_.pipeline_robustness = optional.unchecked;
   pipelines_ = std::make_unique<vulkan::PipelineStore>();
   device_.pipelines = pipelines_.get();
 

@@ -20,7 +20,9 @@ FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity,
   const std::uint64_t sphere_bytes = std::max<std::uint64_t>(1, records) * sizeof(shared::LightSphere);
   const std::uint64_t decal_bytes = std::max<std::uint64_t>(1, decal_capacity) * sizeof(gpu::DecalData);
   constexpr VkBufferUsageFlags STORAGE = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  frame_ = take(vulkan::Buffer::create(device, {.name = "frame", .bytes = sizeof(shared::Frame), .usage = STORAGE}));
+  frame_ = take(vulkan::Buffer::create(
+      device,
+      {.name = "frame", .bytes = sizeof(shared::Frame), .usage = STORAGE | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}));
   lights_ = take(vulkan::Buffer::create(device, {.name = "lights", .bytes = light_bytes, .usage = STORAGE}));
   spheres_ = take(vulkan::Buffer::create(device, {.name = "spheres", .bytes = sphere_bytes, .usage = STORAGE}));
   decals_ = take(vulkan::Buffer::create(device, {.name = "decals", .bytes = decal_bytes, .usage = STORAGE}));

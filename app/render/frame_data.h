@@ -22,6 +22,10 @@ class FrameData {
   void record_upload(vulkan::Recorder& recorder);
 
   [[nodiscard]] vulkan::Resource frame() const { return vulkan::Resource::storage(frame_.handle()); }
+  /// The same as a uniform buffer: no instruction loads it on some GPUs.
+  [[nodiscard]] vulkan::Resource frame_constants() const {
+    return {.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, .buffer = frame_.handle()};
+  }
   [[nodiscard]] vulkan::Resource lights() const { return vulkan::Resource::storage(lights_.handle()); }
   [[nodiscard]] vulkan::Resource spheres() const { return vulkan::Resource::storage(spheres_.handle()); }
   [[nodiscard]] vulkan::Resource decals() const { return vulkan::Resource::storage(decals_.handle()); }

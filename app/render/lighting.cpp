@@ -161,6 +161,7 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
   const FusedLookUp* fused_lookup = fused() ? &*runner_.plan().fused : nullptr;
   const vulkan::BoundLookUp lookup = runner_.lookup({}, fused() ? Passes::fused : Passes::separate);
   vulkan::PipelineInfo info{.name = "deferred shading", .bindings = gbuffer_bindings()};
+  info.bindings.front().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   append(info.bindings, {{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}});
   info.constants = {{0, fused_lookup != nullptr ? fused_lookup->group_width : SHADE_GROUP_PX},
                     {1, fused_lookup != nullptr ? fused_lookup->group_height : SHADE_GROUP_PX},
@@ -281,7 +282,7 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
   const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
   const vulkan::BoundLookUp lookup = runner_.lookup(inputs, fused() ? Passes::fused : Passes::separate);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
-  append(bound, {{0, frame.data.frame()},
+  append(bound, {{0, frame.data.frame_constants()},
                  {2, frame.targets.hdr.storage()},
                  {3, frame.data.lights()},
                  {4, frame.scene.surroundings()}});
@@ -289,7 +290,7 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                  .stages = COMPUTE,
                                  .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                                  .discard = true},
-                                reads(frame.data.frame(), COMPUTE),
+                                {frame.data.frame_constants(), COMPUTE, VK_ACCESS_2_UNIFORM_READ_BIT},
                                 reads(frame.data.lights(), COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.

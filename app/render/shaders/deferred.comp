@@ -12,7 +12,7 @@
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 11) const bool WALK = true;  // false: only the surroundings; light volumes add the rest
 layout(constant_id = 12) const uint FIRST_ROW = 0;  // of the picture that is shaded; not 0 only for a part of a reference
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   Surroundings surroundings;
   DirectionalData directional_lights[];

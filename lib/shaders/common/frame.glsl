@@ -25,8 +25,9 @@ vec3 view_position(Frame frame, vec2 pixel, float z_view) {
 
 vec3 world_position(Frame frame, vec2 pixel, float z_view) {
   const vec3 p = view_position(frame, pixel, z_view);
-  precise const vec3 world = frame.world_from_view[0].xyz * p.x + frame.world_from_view[1].xyz * p.y +
-                             frame.world_from_view[2].xyz * p.z + frame.world_from_view[3].xyz;
+  const mat4 m = frame.world_from_view;
+  precise const vec3 world =
+      fma(m[0].xyz, vec3(p.x), fma(m[1].xyz, vec3(p.y), fma(m[2].xyz, vec3(p.z), m[3].xyz)));
   return world;
 }
 

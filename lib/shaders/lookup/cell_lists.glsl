@@ -9,19 +9,18 @@ layout(set = 0, binding = 19, scalar) readonly buffer LookupPieceLists { uint lo
 layout(set = 0, binding = 20, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
 
 struct Walk {
-  uint at;
+  uint at;     // with COARSE: in the lists of pieces
   uint end;
-  uint span;    // the next
-  uint spans;   // end of the cell's
-  bool coarse;  // `at` is in the lists of pieces
-  bool all;     // `at` is a light
+  uint span;   // the next
+  uint spans;  // end of the cell's
+  bool all;    // `at` is a light
 };
 
 Walk walk_begin(uvec2 pixel, float z_view) {
   const LightCell cell = lookup_light_cell(pixel, z_view);
-  if (cell.pieces == ALL_LIGHTS) return Walk(0u, lookup_frame.light_count, 0u, 0u, false, true);
+  if (cell.pieces == ALL_LIGHTS) return Walk(0u, lookup_frame.light_count, 0u, 0u, true);
   const uint first = cell.first_piece * LOOKUP_CELL_ROWS + lookup_row(pixel, z_view);
-  return Walk(0u, 0u, first, first + cell.pieces * LOOKUP_CELL_ROWS, false, false);
+  return Walk(0u, 0u, first, first + cell.pieces * LOOKUP_CELL_ROWS, false);
 }
 
 // The next span with lights left; false if there is none.
@@ -30,15 +29,15 @@ bool walk_span(inout Walk walk) {
     if (walk.span >= walk.spans) return false;
     const LightSpan span = lookup_spans[walk.span];
     walk.span += LOOKUP_CELL_ROWS;
-    walk.coarse = (span.first & COARSE) != 0u;
-    walk.at = span.first & ~COARSE;
-    walk.end = walk.at + span.count;
+    walk.at = span.first;
+    walk.end = span.first + span.count;
   }
   return true;
 }
 
 uint lookup_light_at(Walk walk, uint place) {
-  return walk.all ? place : walk.coarse ? lookup_piece_lists[place] : lookup_lists[place];
+  if (walk.all) return place;
+  return (place & COARSE) != 0u ? lookup_piece_lists[place & ~COARSE] : lookup_lists[place];
 }
 
 bool walk_next(inout Walk walk, out uint light) {

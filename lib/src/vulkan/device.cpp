@@ -47,6 +47,15 @@ std::vector<const char*> useful_extensions(VkPhysicalDevice physical) {
   return {VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
 }
 
+bool has_pipeline_robustness(VkPhysicalDevice physical) {
+  if (!has_extension(physical, VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME)) return false;
+  VkPhysicalDevicePipelineRobustnessFeaturesEXT has{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT};
+  VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &has};
+  vkGetPhysicalDeviceFeatures2(physical, &features);
+  return has.pipelineRobustness == VK_TRUE;
+}
+
 std::optional<Error> check_device(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(physical, &properties);

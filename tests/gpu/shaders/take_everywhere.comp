@@ -33,10 +33,13 @@ uint count_taken(uvec2 pixel, uint most) {
   Walk walk = own;
   uint lights = 0u;
   bool alike = true;
+  bool over = false;
   for (;;) {
     uint light;
     const uint count = walk_take(walk, most, gl_LocalInvocationIndex, light);
     if (count == 0u) break;
+    alike = alike && !over;
+    over = count + 32u <= most;
     if (gl_LocalInvocationIndex < min(count, ROOM)) s_taken[gl_LocalInvocationIndex] = light;
     barrier();  // all are there
     alike = meets_taken(own, count) && count <= most && alike;

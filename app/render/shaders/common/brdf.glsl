@@ -21,17 +21,20 @@ struct Surface {
   float occlusion;
 };
 
-// What all lights have in common at a surface.
+// What all lights have in common at a surface. Constants are taken in here, because loops over lights are bound by the
+// number of their instructions.
 struct Reflector {
-  vec3 position;  // world, m
-  vec3 normal;    // unit
-  vec3 to_eye;    // unit
-  vec3 f0;        // reflectance where the light comes straight from above
-  vec3 diffuse;   // what f0 leaves of the base colour, over pi
-  float a2;       // squared alpha, which is squared roughness
-  float n_eye;    // cosine between normal and to_eye
-  float n_v;      // its absolute value, not 0
-  float v_root;   // of the masking towards the eye
+  vec3 position;      // world, m
+  vec3 normal;        // unit
+  vec3 half_eye;      // half the unit vector to the eye
+  vec3 f0;            // reflectance where the light comes straight from above
+  vec3 diffuse;       // what f0 leaves of the base colour, over pi
+  float a2;           // squared alpha, which is squared roughness
+  float sharpness;    // 1 - a2
+  float half_n_eye;   // half the cosine between normal and eye
+  float mask_eye;     // Heitz's masking for the eye over a2 / (2 pi), which n.l is multiplied with
+  float mask_light2;  // squared n.v over a2 / (2 pi), which the masking for the light is multiplied with
+  float mask_sharp;   // mask_light2 * sharpness
 };
 
 float fused_dot(vec3 a, vec3 b) {
@@ -39,9 +42,14 @@ float fused_dot(vec3 a, vec3 b) {
   return products;
 }
 
-// Heitz's masking has this root for the eye and for the light.
-float masking_root(float cosine, float a2) {
-  precise const float squared = fma(cosine * cosine, 1.0 - a2, a2);
+// Exact, so it need not be `precise`: only then NVIDIA's compiler folds it into the instruction that takes its result.
+float minus(float x) { return -x; }
+
+// Heitz's masking, of the eye and of the light, times a scale s: s sqrt(a2 + (1 - a2) cosine^2). `scale2`: s^2, `sharp`:
+// s^2 (1 - a2).
+float masking(float cosine, float scale2, float sharp) {
+  precise const float sine2 = fma(minus(cosine), cosine, 1.0);
+  precise const float squared = fma(minus(sharp), sine2, scale2);
   return sqrt(squared);
 }
 
@@ -50,16 +58,24 @@ Reflector reflector(Surface s) {
   precise const vec3 f0 = fma(s.base_color - 0.04, vec3(s.metallic), vec3(0.04));
   precise const vec3 diffuse = (s.base_color / PI) * ((1.0 - s.metallic) * (1.0 - f0));
   precise const float a2 = alpha * alpha;
-  const float n_eye = fused_dot(s.normal, s.to_eye);
-  const float n_v = max(abs(n_eye), 1e-4);
-  return Reflector(s.position, s.normal, s.to_eye, f0, diffuse, a2, n_eye, n_v, masking_root(n_v, a2));
+  precise const float sharpness = 1.0 - a2;
+  precise const vec3 half_eye = s.to_eye * 0.5;
+  const float half_n_eye = fused_dot(s.normal, half_eye);
+  precise const float n_v = max(abs(half_n_eye) * 2.0, 1e-4);
+  precise const float inverse = 1.0 / (a2 * (0.5 / PI));
+  precise const float mask_eye = masking(n_v, 1.0, sharpness) * inverse;
+  precise const float mask_light = n_v * inverse;
+  precise const float mask_light2 = mask_light * mask_light;
+  precise const float mask_sharp = mask_light2 * sharpness;
+  return Reflector(s.position, s.normal, half_eye, f0, diffuse, a2, sharpness, half_n_eye, mask_eye, mask_light2,
+                   mask_sharp);
 }
 
 // Trowbridge-Reitz distribution times height-correlated Smith masking, over 4 (n.l) (n.v).
 float ggx(Reflector r, float n_h, float n_l) {
-  precise const float d = fma(n_h * n_h, r.a2 - 1.0, 1.0);
-  precise const float v = fma(n_l, r.v_root, r.n_v * masking_root(n_l, r.a2));
-  precise const float quotient = r.a2 * (0.5 / PI) / (d * d * v);
+  precise const float d = fma(n_h * n_h, minus(r.sharpness), 1.0);
+  precise const float v = fma(n_l, r.mask_eye, masking(n_l, r.mask_light2, r.mask_sharp));
+  precise const float quotient = 1.0 / (d * d * v);
   return quotient;
 }
 
@@ -69,19 +85,21 @@ float blinn_phong(Reflector r, float n_h) {
   return lobe;
 }
 
-// Radiance towards the eye, of a surface that faces the light (n.l > 0). `arriving`: the irradiance, n.l times what
-// distance and cone leave of the light. The half vector is not made: of unit vectors it is (v + l) / sqrt(2 + 2 v.l).
-vec3 reflect_light(Reflector r, float v_l, float n_l, float arriving) {
-  precise const float inverse_length = inversesqrt(max(fma(v_l, 2.0, 2.0), 1e-12));
-  precise const float n_h = clamp((r.n_eye + n_l) * inverse_length, 0.0, 1.0);
-  precise const float grazing = clamp(1.0 - fma(v_l, inverse_length, inverse_length), 0.0, 1.0);
+// Radiance towards the eye, of a surface that faces the light (n.l > 0). `half_v_l`: half the cosine between eye and
+// light. `arriving`: the irradiance, n.l times what distance and cone leave of the light. The half vector h is not made:
+// with v.h = sqrt((1 + v.l) / 2) it is (v + l) / (2 v.h).
+vec3 reflect_light(Reflector r, float half_v_l, float n_l, float arriving) {
+  precise const float v_h2 = max(half_v_l + 0.5, 1e-12);
+  precise const float inverse = inversesqrt(v_h2);
+  precise const float n_h = clamp(fma(n_l, 0.5, r.half_n_eye) * inverse, 0.0, 1.0);
+  precise const float grazing = clamp(fma(minus(v_h2), inverse, 1.0), 0.0, 1.0);
   precise const float grazing2 = grazing * grazing;
   precise const float g = grazing2 * grazing2 * grazing;
-  precise const float specular = (BRDF == BRDF_BLINN_PHONG ? blinn_phong(r, n_h) : ggx(r, n_h, n_l)) * arriving;
+  precise const float specular = BRDF == BRDF_BLINN_PHONG ? blinn_phong(r, n_h) : ggx(r, n_h, n_l);
   // Schlick: fresnel = f0 + (1 - f0) g, and diffuse light is what it leaves.
-  precise const float grazed = specular * g;
-  precise const vec3 reflected =
-      fma(r.diffuse, vec3(fma(-g, arriving, arriving)), fma(r.f0, vec3(specular - grazed), vec3(grazed)));
+  precise const float grazed = arriving * g;
+  precise const float straight = arriving - grazed;
+  precise const vec3 reflected = fma(vec3(straight), fma(vec3(specular), r.f0, r.diffuse), vec3(specular * grazed));
   return reflected;
 }
 

@@ -19,7 +19,7 @@ Surface read_surface(ivec2 pixel, float z_view) {
   const vec4 factors = unpackUnorm4x8(stored.y);
   Surface s;
   s.position = world_position(frame, vec2(pixel) + 0.5, z_view);
-  s.normal = from_octahedral(unpackSnorm2x16(stored.x));
+  s.normal = from_octahedral(stored.x);
   s.to_eye = to_eye(frame, s.position);
   s.base_color = texelFetch(base_color_image, pixel, 0).rgb;
   s.metallic = factors.x;

@@ -11,7 +11,9 @@ vec2 octahedral(vec3 n) {
   return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * signs;
 }
 
-vec3 from_octahedral(vec2 p) {
+vec3 from_octahedral(uint stored) {
+  // unpackSnorm2x16 less its clamp, because -32768 is never stored
+  const vec2 p = vec2(bitfieldExtract(int(stored), 0, 16), int(stored) >> 16) * (1.0 / 32767.0);
   vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   const float fold = max(-n.z, 0.0);
   n.x += n.x >= 0.0 ? -fold : fold;

@@ -17,18 +17,20 @@ Emitter point_at(uint light) {
   e.position = uintBitsToFloat(first.xyz);
   e.inverse_range2 = 1.0 / (range * range);
   e.intensity = uintBitsToFloat(second.xyz);
-  e.spot_scale = 0.0;
+  e.edge = 0.0;
   return e;
 }
 
-// The cosine of two rounded unit vectors may exceed 1; an angle of 0 reaches nothing all the same.
+// The edge is narrower by the rounding of a cosine, so that nothing arrives beyond it. An angle of 0 reaches nothing.
 void add_cone(inout Emitter e, uint light) {
   const uvec4 third = light_words[light * 4u + 2u];
   const uvec4 fourth = light_words[light * 4u + 3u];
   const float outer_angle = uintBitsToFloat(third.w);
-  e.direction = uintBitsToFloat(third.xyz);
-  e.cos_outer = outer_angle > 0.0 ? uintBitsToFloat(fourth.y) : 2.0;
-  e.spot_scale = uintBitsToFloat(fourth.z);
+  const float cos_outer = outer_angle > 0.0 ? uintBitsToFloat(fourth.y) : 2.0;
+  const float scale = uintBitsToFloat(fourth.z);
+  precise const float edge = (cos_outer + 5e-7) * scale;
+  e.edge = edge;
+  e.axis = -scale * uintBitsToFloat(third.xyz);
 }
 
 Emitter spot_at(uint light) {

@@ -6,46 +6,54 @@
 #define LAMP_PUNCTUAL
 #include "common/brdf.glsl"
 
-const float NEAREST_M = 0.01;  // a point light has no size; closer it gets no brighter
+const float RADIUS2 = 1e-8;  // m^2, squared radius of every light: a point would be infinitely bright
 
 // What shading asks of a light.
 struct Emitter {
   vec3 position;         // world, m
   float inverse_range2;  // 1 / m^2
   vec3 intensity;        // cd
-  float spot_scale;      // of a spot, > 0; of a point 0, and the rest is unset
-  vec3 direction;        // unit; where a spot looks
-  float cos_outer;       // beyond 1: reaches nothing
+  float edge;            // of a spot, > 0: the window of its cone is the square of axis . l - edge, between 0 and 1;
+                         // of a point 0, and the rest is unset
+  vec3 axis;             // against where the spot looks; as long as the window is steep
 };
 
-bool is_spot(Emitter e) { return e.spot_scale > 0.0; }
+bool is_spot(Emitter e) { return e.edge > 0.0; }
 
-// 1 in the middle of a cone, 0 from the outer angle on.
-float cone_window(Emitter e, float cos_angle) {
-  precise const float t = clamp((cos_angle - e.cos_outer) * e.spot_scale, 0.0, 1.0);
-  return t * t;
+// The way from a surface to a light.
+struct Way {
+  vec3 offset;     // m
+  float d2;        // its squared length and RADIUS2
+  float ratio2;    // d2 over the squared range
+  float n_offset;  // its length along the normal
+};
+
+// False if nothing arrives, whatever else the light is.
+bool way_to(Reflector r, vec3 position, float inverse_range2, out Way way) {
+  precise const vec3 offset = position - r.position;
+  precise const float d2 = fma(offset.x, offset.x, fma(offset.y, offset.y, fma(offset.z, offset.z, RADIUS2)));
+  precise const float ratio2 = d2 * inverse_range2;
+  way = Way(offset, d2, ratio2, fused_dot(r.normal, offset));
+  return ratio2 < 1.0 && way.n_offset > 0.0;
 }
 
 // `spot` is is_spot(e), for callers that know it beforehand.
-void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
-  precise const vec3 offset = e.position - r.position;
-  const float d2 = fused_dot(offset, offset);
-  precise const float ratio2 = d2 * e.inverse_range2;
-  const float n_offset = fused_dot(r.normal, offset);
-  if (!(ratio2 < 1.0) || n_offset <= 0.0) return;
-  precise const float inverse = min(inversesqrt(d2), 1e6);
-  precise const float bounded = min(inverse, 1.0 / NEAREST_M);
-  precise float attenuation = fma(-ratio2, ratio2, 1.0) * (bounded * bounded);
+void add_light_along(inout vec3 sum, Reflector r, Way way, Emitter e, bool spot) {
+  precise const float inverse = inversesqrt(way.d2);
+  precise float attenuation = fma(minus(way.ratio2), way.ratio2, 1.0) * (inverse * inverse);
   if (spot) {
-    precise const float cos_angle = -fused_dot(offset, e.direction) * inverse;
-    const float cone = cone_window(e, cos_angle);
-    if (cone <= 0.0) return;
-    attenuation *= cone;
+    precise const float cone = clamp(fma(fused_dot(way.offset, e.axis), inverse, minus(e.edge)), 0.0, 1.0);
+    attenuation *= cone * cone;
   }
-  precise const float n_l = n_offset * inverse;
-  precise const float v_l = fused_dot(r.to_eye, offset) * inverse;
+  precise const float n_l = way.n_offset * inverse;
+  precise const float half_v_l = fused_dot(r.half_eye, way.offset) * inverse;
   precise const float arriving = n_l * attenuation;
-  sum = fma(reflect_light(r, v_l, n_l, arriving), e.intensity, sum);
+  sum = fma(reflect_light(r, half_v_l, n_l, arriving), e.intensity, sum);
+}
+
+void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
+  Way way;
+  if (way_to(r, e.position, e.inverse_range2, way)) add_light_along(sum, r, way, e, spot);
 }
 
 #endif

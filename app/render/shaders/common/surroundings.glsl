@@ -11,8 +11,8 @@ vec3 shade_surroundings(Surface s, Reflector r, vec3 emitted) {
     const vec3 to_light = -directional_lights[i].direction;
     const float n_l = fused_dot(r.normal, to_light);
     if (n_l <= 0.0) continue;
-    const float v_l = fused_dot(r.to_eye, to_light);
-    sum = fma(reflect_light(r, v_l, n_l, n_l), directional_lights[i].illuminance, sum);
+    const float half_v_l = fused_dot(r.half_eye, to_light);
+    sum = fma(reflect_light(r, half_v_l, n_l, n_l), directional_lights[i].illuminance, sum);
   }
   return sum;
 }

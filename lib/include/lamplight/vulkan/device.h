@@ -33,6 +33,10 @@ struct RequiredFeatures {
 /// has. Who enables one says so in Device::traits (`conservative_raster`).
 [[nodiscard]] std::vector<const char*> useful_extensions(VkPhysicalDevice physical);
 
+/// Whether the device has VK_EXT_pipeline_robustness and its feature. Who enables both says so in
+/// Device::pipeline_robustness.
+[[nodiscard]] bool has_pipeline_robustness(VkPhysicalDevice physical);
+
 /// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
 [[nodiscard]] std::optional<Error> check_device(VkPhysicalDevice physical);
 
@@ -51,6 +55,8 @@ struct Device {
   PipelineStore* pipelines = nullptr;  ///< not owned; where pipelines are shared, or null: each is made anew
   bool pipeline_statistics = false;    ///< VK_KHR_pipeline_executable_properties and its feature are enabled, and
                                        ///< pipelines shall be compiled so that the driver can describe them
+  bool pipeline_robustness = false;    ///< VK_EXT_pipeline_robustness and its feature are enabled: pipelines then say
+                                       ///< that they stay within their buffers, and a driver leaves out its checks
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;      ///< null without VK_EXT_debug_utils
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;          ///< null without VK_EXT_debug_utils
