@@ -37,6 +37,16 @@ std::uint32_t light_threads(const Problem& problem) {
   return group_threads(problem, std::min(THREADS, GROUP_SUBGROUPS * problem.traits.subgroup_size));
 }
 
+/// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
+/// 65535 groups, all that some have, are one short of 16 million lights.
+std::uint32_t find_threads(const Problem& problem) {
+  const auto fits = [&](std::uint32_t threads) {
+    return parts::divide_up(parts::capacity(problem), threads) <= problem.traits.max_groups[0];
+  };
+  if (const std::uint32_t threads = light_threads(problem); fits(threads)) return threads;
+  return group_threads(problem, fits(THREADS) ? THREADS : 2 * THREADS);
+}
+
 /// Lights in view of a work group that finds cells, while there are few.
 std::uint32_t few_lights(const Problem& problem, std::uint32_t threads) {
   const std::uint32_t subgroup = problem.traits.subgroup_size;
@@ -98,7 +108,8 @@ std::uint32_t squares_held(const Problem& problem) { return problem.traits.subgr
 
 Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t cell_px = s.tile_px * s.cell_tiles;
-  const std::uint32_t threads = group_threads(problem, std::clamp(cell_px * cell_px / 8, 64U, 512U));
+  const std::uint32_t busy = s.cell_tiles * s.cell_tiles * problem.traits.subgroup_size;  // a tile is a subgroup's
+  const std::uint32_t threads = group_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
   Pass pass{.name = "tile depth",
             .shader = s.gathers ? "methods/lamplight_depth_gather" : "methods/lamplight_depth",
             .constants = {threads, s.tile_px, s.cell_tiles, squares_held(problem)},
@@ -208,9 +219,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
 }
 
 std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffers& b) {
-  // 65 535 groups, all that some devices have, are one short of 16 million lights.
-  const bool many_lights = parts::divide_up(parts::capacity(problem), THREADS) > problem.traits.max_groups[0];
-  const std::uint32_t threads = group_threads(problem, many_lights ? 2 * THREADS : THREADS);
+  const std::uint32_t threads = find_threads(problem);
   std::vector<Pass> passes;
   if (!s.sliced()) passes.push_back(depth_pass(problem, s, b));
   if (!s.gathers) {
