@@ -43,8 +43,8 @@ VkPipelineCreateFlags creation_flags(const Device& device) {
   return device.pipeline_statistics ? VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR : 0;
 }
 
-/// Every index in a shader is below a capacity of the plan, so buffers need no checks. They cost an H200 4 % of a cull
-/// and 2 % of shading.
+/// Every index in a shader is below a capacity of the plan, so buffers need no checks. They cost an H200 4 % of the
+/// cull of a million lights by `lamplight`, 17 % of that by `tiled`, 2 % of shading.
 class Robustness {
  public:
   Robustness(const Device& device, const void* next) : wanted_(device.pipeline_robustness), next_(next) {
