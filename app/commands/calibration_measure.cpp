@@ -1,8 +1,9 @@
 // Measures what the cost model is fitted to: each candidate on a few sizes and counts of lights.
 // Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <list>
 #include <vector>
 
@@ -61,29 +62,51 @@ struct Timed {
   FrameTimes times;
 };
 
-LightingInfo lighting_info(const AutoCandidate& candidate, const Workload& workload) {
-  const Method& method = parse_method(std::string(candidate.method));
-  return {.method = &method,
-          .options = take(resolve_options(method, candidate.settings())),
-          .width = workload.width,
-          .height = workload.height,
-          .light_capacity = std::clamp(workload.capacity, candidate.least_capacity, candidate.most_capacity)};
+bool is_software(Context& context) { return context.row().kind == "CPU"; }
+
+std::span<const MeasuredPoint> points_of(Context& context) {
+  return is_software(context) ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
 }
 
-/// All that can be asked to take the workload. Drivers take long to compile, so each is made by a thread of its own.
-std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const Workload& workload) {
-  const std::uint64_t pairs = std::uint64_t{workload.width} * workload.height * workload.lights;
-  const bool too_much = pairs > (context.row().kind == "CPU" ? SOFTWARE_PAIRS : GPU_PAIRS);
+LightingInfo lighting_info(const AutoCandidate& candidate, const MeasuredPoint& point, bool software) {
+  const Method& method = parse_method(std::string(candidate.method));
+  const std::uint32_t capacity = software ? SOFTWARE_CAPACITY : point.lights;
+  return {.method = &method,
+          .options = take(resolve_options(method, candidate.settings())),
+          .width = point.width,
+          .height = point.height,
+          .light_capacity = std::clamp(capacity, candidate.least_capacity, candidate.most_capacity)};
+}
+
+/// Whether it can be asked to take the point, and is.
+bool takes(const AutoCandidate& candidate, const MeasuredPoint& point, bool software) {
+  const std::uint64_t pairs = std::uint64_t{point.width} * point.height * point.lights;
+  const bool can_walk_all = pairs <= (software ? SOFTWARE_PAIRS : GPU_PAIRS);
+  return point.lights <= candidate.most_capacity && (candidate.walk != nullptr || can_walk_all);
+}
+
+/// Drivers take long to compile, so everything of every point is made once beforehand, by all threads; the device keeps
+/// the pipelines.
+void compile_all(Context& context, const ShaderLibrary& shaders) {
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  const std::span<const MeasuredPoint> points = points_of(context);
+  const bool software = is_software(context);
+  tbb::parallel_for(std::size_t{0}, points.size() * candidates.size(), [&](std::size_t i) {
+    const AutoCandidate& candidate = candidates[i % candidates.size()];
+    const MeasuredPoint& point = points[i / candidates.size()];
+    if (!takes(candidate, point, software)) return;
+    const Lighting compiled(context.device(), shaders, lighting_info(candidate, point, software));
+  });
+}
+
+std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point) {
   const std::span<const AutoCandidate> all = auto_candidates();
-  std::vector<std::future<Timed>> made;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if ((all[i].walk == nullptr && too_much) || workload.lights > all[i].most_capacity) continue;
-    made.push_back(std::async(std::launch::async, [&, i] {
-      return Timed{i, Lighting(context.device(), shaders, lighting_info(all[i], workload)), FrameTimes(GPU_FRAMES)};
-    }));
-  }
+  const bool software = is_software(context);
   std::list<Timed> timed;
-  for (std::future<Timed>& one : made) timed.push_back(one.get());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (takes(all[i], point, software))
+      timed.push_back(
+          {i, Lighting(context.device(), shaders, lighting_info(all[i], point, software)), FrameTimes(GPU_FRAMES)});
   return timed;
 }
 
@@ -105,14 +128,14 @@ CostSample sample_of(const Timed& timed, const Workload& workload) {
 }  // namespace
 
 Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
-  const bool software = context.row().kind == "CPU";
+  const bool software = is_software(context);
+  compile_all(context, shaders);
   const Scene scene = calibration_scene();
   const OpenAir air = find_open_air(scene);
   const GpuScene gpu_scene(context, scene);
-  const std::span<const MeasuredPoint> points = software ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
-  for (const MeasuredPoint& point : points) {
+  for (const MeasuredPoint& point : points_of(context)) {
     const auto before = std::chrono::steady_clock::now();
     Renderer renderer(context, shaders, gpu_scene, point.width, point.height,
                       std::max(point.lights, SOFTWARE_CAPACITY));
@@ -122,7 +145,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
     renderer.set_frame(view, lights);
     Workload workload = estimate_workload(view, renderer.draw_depth(), lights);
     if (software) workload.capacity = SOFTWARE_CAPACITY;
-    std::list<Timed> timed = candidates_for(context, shaders, workload);
+    std::list<Timed> timed = candidates_for(context, shaders, point);
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
     if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host compiled
     time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
