@@ -129,6 +129,7 @@ CostSample sample_of(const Timed& timed, const Workload& workload) {
 
 Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
   const bool software = is_software(context);
+  auto before = std::chrono::steady_clock::now();
   compile_all(context, shaders);
   const Scene scene = calibration_scene();
   const OpenAir air = find_open_air(scene);
@@ -136,7 +137,6 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
   for (const MeasuredPoint& point : points_of(context)) {
-    const auto before = std::chrono::steady_clock::now();
     Renderer renderer(context, shaders, gpu_scene, point.width, point.height,
                       std::max(point.lights, SOFTWARE_CAPACITY));
     const View view = view_of(scene.cameras.front(), point.width, point.height, "camera");
@@ -147,9 +147,10 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
     if (software) workload.capacity = SOFTWARE_CAPACITY;
     std::list<Timed> timed = candidates_for(context, shaders, point);
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
-    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host compiled
+    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work, and compiled
     time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
     for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, workload));
+    before = std::chrono::steady_clock::now();
   }
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};
   for (std::size_t i = 0; i < candidates.size(); ++i) calibration.costs.push_back(fit_cost(candidates[i], samples[i]));

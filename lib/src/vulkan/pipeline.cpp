@@ -47,17 +47,14 @@ VkPipelineCreateFlags creation_flags(const Device& device) {
 /// cull of a million lights by `lamplight`, 17 % of that by `tiled`, 2 % of shading.
 class Robustness {
  public:
-  Robustness(const Device& device, const void* next) : wanted_(device.pipeline_robustness), next_(next) {
-    info_.pNext = next;
-  }
-  [[nodiscard]] const void* chain() const { return wanted_ ? &info_ : next_; }
+  Robustness(const Device& device, const void* next) : wanted_(device.pipeline_robustness) { info_.pNext = next; }
+  [[nodiscard]] const void* chain() const { return wanted_ ? &info_ : info_.pNext; }
 
  private:
   VkPipelineRobustnessCreateInfoEXT info_{.sType = VK_STRUCTURE_TYPE_PIPELINE_ROBUSTNESS_CREATE_INFO_EXT,
                                           .storageBuffers = VK_PIPELINE_ROBUSTNESS_BUFFER_BEHAVIOR_DISABLED_EXT,
                                           .uniformBuffers = VK_PIPELINE_ROBUSTNESS_BUFFER_BEHAVIOR_DISABLED_EXT};
   bool wanted_;
-  const void* next_;
 };
 
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, const OwnedShaderModule& module,
