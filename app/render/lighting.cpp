@@ -46,10 +46,13 @@ std::vector<vulkan::Bound> gbuffer_bound(const Targets& targets) {
           {7, targets.emission.sampled()}};
 }
 
-std::vector<vulkan::DescriptorBinding> gbuffer_bindings() {
-  return {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-          {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {5, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-          {6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},  {7, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
+std::vector<vulkan::DescriptorBinding> gbuffer_bindings(VkDescriptorType frame) {
+  return {{0, frame},
+          {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+          {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {5, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+          {6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+          {7, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
 }
 
 vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
@@ -69,8 +72,9 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
 vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
                                    const vulkan::PlanRunner& runner) {
   const vulkan::BoundLookUp lookup = runner.lookup({});
-  vulkan::PipelineInfo pipeline{
-      .name = "forward+, captured", .constants = lookup.constants, .bindings = gbuffer_bindings()};
+  vulkan::PipelineInfo pipeline{.name = "forward+, captured",
+                                .constants = lookup.constants,
+                                .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
   pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
   pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   append(pipeline.bindings, lookup_bindings(runner.plan().lookup));
@@ -160,8 +164,8 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
   const bool volumes = info_.path == ShadingPath::standard_deferred;
   const FusedLookUp* fused_lookup = fused() ? &*runner_.plan().fused : nullptr;
   const vulkan::BoundLookUp lookup = runner_.lookup({}, fused() ? Passes::fused : Passes::separate);
-  vulkan::PipelineInfo info{.name = "deferred shading", .bindings = gbuffer_bindings()};
-  info.bindings.front().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  vulkan::PipelineInfo info{.name = "deferred shading",
+                            .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)};
   append(info.bindings, {{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}});
   info.constants = {{0, fused_lookup != nullptr ? fused_lookup->group_width : SHADE_GROUP_PX},
                     {1, fused_lookup != nullptr ? fused_lookup->group_height : SHADE_GROUP_PX},
@@ -182,7 +186,7 @@ void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& sh
   volumes_ = take(vulkan::Pipeline::graphics(device,
                                              {.name = "light volumes",
                                               .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)}},
-                                              .bindings = gbuffer_bindings()},
+                                              .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)},
                                              shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
 }
 
@@ -290,7 +294,7 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                  .stages = COMPUTE,
                                  .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                                  .discard = true},
-                                {frame.data.frame_constants(), COMPUTE, VK_ACCESS_2_UNIFORM_READ_BIT},
+                                reads(frame.data.frame_constants(), COMPUTE),
                                 reads(frame.data.lights(), COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.

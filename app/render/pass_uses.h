@@ -16,9 +16,12 @@ enum class Load : std::uint8_t { keep, clear };
 /// Read in shaders.
 [[nodiscard]] inline vulkan::Use reads(const vulkan::Resource& resource, VkPipelineStageFlags2 stages) {
   const bool image = resource.image != VK_NULL_HANDLE;
+  const bool uniform = resource.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   return {.resource = resource,
           .stages = stages,
-          .access = image ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+          .access = image     ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
+                    : uniform ? VK_ACCESS_2_UNIFORM_READ_BIT
+                              : VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
 }
 
 [[nodiscard]] inline vulkan::Use draws_color(const GpuImage& image, Load load) {

@@ -45,8 +45,8 @@ float fused_dot(vec3 a, vec3 b) {
 // Exact, so it need not be `precise`: only then NVIDIA's compiler folds it into the instruction that takes its result.
 float minus(float x) { return -x; }
 
-// Heitz's masking, of the eye and of the light, times a scale s: s sqrt(a2 + (1 - a2) cosine^2). `scale2`: s^2, `sharp`:
-// s^2 (1 - a2).
+// Heitz's masking, of the eye and of the light, times a scale s: s sqrt(a2 + (1 - a2) cosine^2). `scale2`: s^2,
+// `sharp`: s^2 (1 - a2).
 float masking(float cosine, float scale2, float sharp) {
   precise const float sine2 = fma(minus(cosine), cosine, 1.0);
   precise const float squared = fma(minus(sharp), sine2, scale2);

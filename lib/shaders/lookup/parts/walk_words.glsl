@@ -1,6 +1,6 @@
 // Walks the set bits of words, lowest first: one by one, or many at once.
-// Needs: Walk with `bits`, of the word that was read last, those that are left; walk_word(walk), which reads on until there
-// are some, or gives false; lookup_light_of(walk, bit).
+// Needs: Walk with `bits`, of the word that was read last, those that are left; walk_word(walk), which reads on until
+// there are some, or gives false; lookup_light_of(walk, bit).
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/nth_bit.glsl"
 
