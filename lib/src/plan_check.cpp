@@ -38,7 +38,7 @@ std::optional<Error> check_buffer(const BufferDesc& buffer, const DeviceTraits& 
   if (buffer.bytes == 0 || buffer.bytes % 4 != 0)
     return Error{source, "size must be a positive multiple of 4 bytes, got " + std::to_string(buffer.bytes)};
   // Zeros are written on the device, after host passes have run: they would erase what those wrote.
-  if (buffer.memory == BufferMemory::upload && buffer.zeroed)
+  if (buffer.memory == BufferMemory::upload && buffer.begins_at_zero())
     return Error{source, "an upload buffer cannot be zeroed; its host pass writes all of it"};
   return check_bytes(source, buffer.bytes, traits);
 }
@@ -92,7 +92,7 @@ std::optional<Error> check_groups(const std::string& source, const Extent& exten
 
 std::optional<Error> check_capacity(const Plan& plan, const Capacity& capacity) {
   const std::string source = "capacity " + std::string(capacity.option);
-  if (!is_buffer(plan, capacity.needed) || !buffer_of(plan, capacity.needed).zeroed)
+  if (!is_buffer(plan, capacity.needed) || !buffer_of(plan, capacity.needed).begins_at_zero())
     return Error{source, "what was needed must be counted in a zeroed buffer of the plan"};
   if (capacity.needed_offset % 4 != 0 || capacity.needed_offset + 4 > buffer_of(plan, capacity.needed).bytes)
     return Error{source, "the count at byte " + std::to_string(capacity.needed_offset) + " is not in buffer " +
@@ -132,6 +132,14 @@ class PassChecker {
     return check_bindings(source, lookup.bindings);
   }
 
+  /// After all passes.
+  [[nodiscard]] std::optional<Error> check_zeros() const {
+    for (std::size_t i = 0; i < plan_.buffers.size(); ++i)
+      if (plan_.buffers[i].zeroed_by_pass && !written_.contains(PLAN_BUFFER + static_cast<ResourceId>(i)))
+        return Error{"buffer " + plan_.buffers[i].name, "is to be zeroed by a pass, but no pass writes it"};
+    return std::nullopt;
+  }
+
  private:
   [[nodiscard]] std::optional<Error> check_host(const std::string& source, const Pass& pass) const {
     if (gpu_began_) return Error{source, "host passes must come before every GPU pass"};
@@ -149,7 +157,7 @@ class PassChecker {
         return Error{source, "binding " + std::to_string(i) + " writes to an upload buffer, which only the host may"};
     if (pass.on_projection_change)
       for (const Binding& binding : pass.bindings)
-        if (is_buffer(plan_, binding.resource) && buffer_of(plan_, binding.resource).zeroed)
+        if (is_buffer(plan_, binding.resource) && buffer_of(plan_, binding.resource).begins_at_zero())
           return Error{source, "is not recorded in every frame, but binds buffer " +
                                    buffer_of(plan_, binding.resource).name + ", which is zeroed in every frame"};
     if (auto error = check_extent(source, pass)) return error;
@@ -211,6 +219,7 @@ std::optional<Error> check_passes(const Plan& plan, const std::vector<Pass>& pas
   PassChecker checker(plan, traits);
   for (const Pass& pass : passes)
     if (auto error = checker.check(pass)) return error;
+  if (auto error = checker.check_zeros()) return error;
   return checker.check_lookup(lookup, counters);
 }
 
@@ -218,9 +227,10 @@ std::optional<Error> check_counters(const Plan& plan) {
   if (plan.counters == NO_RESOURCE) return std::nullopt;
   if (!is_buffer(plan, plan.counters)) return Error{"counters", "must be a buffer of the plan"};
   const BufferDesc& buffer = buffer_of(plan, plan.counters);
-  if (buffer.bytes >= sizeof(shared::Counters) && buffer.zeroed) return std::nullopt;
+  if (buffer.bytes >= sizeof(shared::Counters) && buffer.begins_at_zero()) return std::nullopt;
   return Error{"counters", "must be a zeroed buffer of at least " + std::to_string(sizeof(shared::Counters)) +
-                               " bytes, got " + std::to_string(buffer.bytes) + (buffer.zeroed ? "" : ", not zeroed")};
+                               " bytes, got " + std::to_string(buffer.bytes) +
+                               (buffer.begins_at_zero() ? "" : ", not zeroed")};
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ class StrictDevice {
       for (const Binding& binding : pass.bindings)
         if (binding.access != Access::read) filled_.at(binding.resource - PLAN_BUFFER) = true;
     }
+    for (std::size_t i = 0; i < filled_.size(); ++i) require(filled_[i] || !plan_.buffers[i].zeroed_by_pass);
     require(!lookup.name.empty());
     count_buffers(lookup.bindings);
     for (const Binding& binding : lookup.bindings) {
@@ -86,7 +87,7 @@ class StrictDevice {
     if (binding.resource < PLAN_BUFFER) return require(!by_host && binding.access == Access::read);
     const BufferDesc& buffer = plan_.buffers.at(binding.resource - PLAN_BUFFER);
     if (binding.access != Access::write) require(filled_.at(binding.resource - PLAN_BUFFER));
-    require(!in_kept_pass || !buffer.zeroed);
+    require(!in_kept_pass || !buffer.begins_at_zero());
     if (by_host || binding.access != Access::read) require(by_host == (buffer.memory == BufferMemory::upload));
   }
 
@@ -100,7 +101,8 @@ class StrictDevice {
   void run_host(const Pass& pass) const {
     require(!gpu_began_ && pass.host != nullptr);
     for (const Binding& binding : pass.bindings)
-      require(!plan_.buffers.at(binding.resource - PLAN_BUFFER).zeroed);  // the fill would come after the host's writes
+      require(!plan_.buffers.at(binding.resource - PLAN_BUFFER)
+                   .begins_at_zero());  // the fill would come after the host's writes
   }
 
   void dispatch(const Pass& pass) const {
@@ -140,7 +142,7 @@ void run_everything(const Plan& plan, const DeviceTraits& traits) {
   require(plan.cells >= 1);
   if (plan.counters != NO_RESOURCE) {
     const BufferDesc& counters = plan.buffers.at(plan.counters - PLAN_BUFFER);
-    require(counters.zeroed && counters.bytes >= sizeof(shared::Counters));
+    require(counters.begins_at_zero() && counters.bytes >= sizeof(shared::Counters));
   }
   StrictDevice(plan, traits).run(plan.passes, plan.lookup, NO_RESOURCE);
   if (!plan.fused) return;
@@ -245,6 +247,7 @@ void check_a_random_plan(Reader& in) {
               .bytes = in.flag() ? in.number<std::uint64_t>() : in.number<std::uint8_t>() * 4U,
               .memory = in.flag() ? BufferMemory::upload : BufferMemory::device,
               .zeroed = in.flag(),
+              .zeroed_by_pass = in.flag(),
               .indirect = in.flag()};
   plan.light_capacity = in.flag() ? in.number<std::uint32_t>() : 100;
   plan.cells = in.number<std::uint8_t>();

@@ -139,6 +139,10 @@ const Rule BUFFER_RULES[] = {
     {"LargeBuffer", [](Plan& p) { lists_of(p).bytes = (1ULL << 27) + 4; }, "buffer lists",
      "needs 134217732 bytes, the device's storage buffers hold at most 134217728"},
     {"ZeroedUpload", [](Plan& p) { p.buffers[0].zeroed = true; }, "buffer sorted", "upload buffer cannot be zeroed"},
+    {"UploadZeroedByPass", [](Plan& p) { p.buffers[0].zeroed_by_pass = true; }, "buffer sorted",
+     "upload buffer cannot be zeroed"},
+    {"ZeroedByNoPass", [](Plan& p) { lists_of(p).zeroed_by_pass = true; }, "buffer lists",  // of the fused passes
+     "is to be zeroed by a pass, but no pass writes it"},
     {"LargeLightBuffer", [](Plan& p) { p.light_capacity = (1U << 21) + 1; }, "light buffer",
      "needs 134217792 bytes, the device's storage buffers hold at most 134217728"},
     {"CountersAreAnInput", [](Plan& p) { p.counters = INPUT_FRAME; }, "counters", "buffer of the plan"},
@@ -171,6 +175,18 @@ const Rule PASS_RULES[] = {
      "binding 0 reads buffer lists, which nothing has written"},
     {"ReadWriteOfNothing", [](Plan& p) { p.passes[FILL].bindings[0].access = Access::read_write; }, "pass fill",
      "binding 0 reads buffer lists, which nothing has written"},
+    {"ZeroedByPassThatReads",
+     [](Plan& p) {
+       p.buffers[COUNTERS - PLAN_BUFFER].zeroed = false;
+       p.buffers[COUNTERS - PLAN_BUFFER].zeroed_by_pass = true;
+     },
+     "pass count", "reads buffer counters, which nothing has written"},
+    {"KeptPassThatZeroes",
+     [](Plan& p) {
+       lists_of(p).zeroed_by_pass = true;
+       p.passes[FILL].on_projection_change = true;
+     },
+     "pass fill", "binds buffer lists, which is zeroed in every frame"},
     {"MuchSharedMemory", [](Plan& p) { p.passes[COUNT].shared_bytes = 16388; }, "pass count",
      "needs 16388 bytes of shared memory, the device has 16384"},
     {"KeptPassWithZeroedBuffer", [](Plan& p) { p.passes[COUNT].on_projection_change = true; }, "pass count",

@@ -45,8 +45,11 @@ struct BufferDesc {
   std::string name;
   std::uint64_t bytes = 0;  ///< > 0, a multiple of 4
   BufferMemory memory = BufferMemory::device;
-  bool zeroed = false;    ///< filled with zeros at the start of every frame; device memory only
-  bool indirect = false;  ///< holds group or draw counts
+  bool zeroed = false;          ///< filled with zeros at the start of every frame; device memory only
+  bool zeroed_by_pass = false;  ///< likewise, but by the first pass that binds it, which only writes it
+  bool indirect = false;        ///< holds group or draw counts
+
+  [[nodiscard]] bool begins_at_zero() const { return zeroed || zeroed_by_pass; }
 };
 
 /// How many work groups a compute pass has, or how many vertices and instances a raster pass draws.
@@ -138,7 +141,7 @@ struct Plan {
   bool approximate = false;           ///< may miss lights, by the paper's design
   bool any_depth = false;             ///< right for any depth of a pixel, not only the depth buffer's
   std::uint32_t light_capacity = 0;   ///< the problem's
-  ResourceId counters = NO_RESOURCE;  ///< shared::Counters, zeroed, or NO_RESOURCE if nothing can overflow
+  ResourceId counters = NO_RESOURCE;  ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;   ///< everything that can overflow
   std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something
 

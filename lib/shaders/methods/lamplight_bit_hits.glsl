@@ -1,23 +1,27 @@
 // Hits as bits, where lights are few: a line for each cell, a bit for every light. A bit needs no room, no rank and no
 // place, so nothing is left to scan or to scatter but the cells' counts, and those the work group that ends last turns
 // into pieces.
-// Needs: CELL_ROWS; `frame`, `totals`. Gives keep_hit, keep_last_hits.
+// Needs: CELL_ROWS; `frame`, `totals`. Gives group_share, lights_to_find, light_to_find; keep_hit, keep_last_hits.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_BIT_HITS
 #define LAMP_METHODS_LAMPLIGHT_BIT_HITS
 
+layout(constant_id = 4) const uint SHARE = 32;           // lights of a work group
 layout(constant_id = 5) const uint PIECES = 1;           // capacity
 layout(constant_id = 6) const uint ROW_GROUPS = 1;       // work groups of the last pass for a piece
 layout(constant_id = 7) const uint GROUP_THREADS = 256;  // of this one
 
-layout(set = 0, binding = 5, scalar) coherent buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
-layout(set = 0, binding = 6, scalar) coherent buffer CellBuffer { LightCell cells[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
-#define DEPTH_BINDING 8
+layout(set = 0, binding = 4, scalar) coherent buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
+layout(set = 0, binding = 5, scalar) coherent buffer CellBuffer { LightCell cells[]; };
+layout(set = 0, binding = 6, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 #include "common/subgroup_scan.glsl"
 #include "methods/lamplight_pieces.glsl"
 
 shared uint s_is_last;
+
+uint group_share() { return SHARE; }
+uint lights_to_find() { return frame.light_count; }
+uint light_to_find(uint i) { return i; }
 
 void clear_hits() {}
 

@@ -9,7 +9,7 @@
 
 layout(set = 0, binding = 4, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
-layout(set = 0, binding = 6, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 
 shared uint s_words[PIECE_WORDS];
 

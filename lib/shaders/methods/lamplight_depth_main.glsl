@@ -2,7 +2,6 @@
 // Based on: Harada, A 2.5D Culling for Forward+, SIGGRAPH Asia (2012), for the mask. A work group is a cell, a subgroup
 // takes whole tiles, so that tiles need no barrier.
 // SPDX-License-Identifier: Apache-2.0
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -16,9 +15,12 @@ layout(constant_id = 3) const uint HELD = 2;  // 1 or MOST_HELD
 #include "lamplight/shared/lamplight.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1) uniform texture2D depth_image;
+layout(set = 0, binding = 1) uniform sampler2D depth_image;
 layout(set = 0, binding = 2, scalar) writeonly buffer TileBuffer { TileDepths tile_depths[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
+#ifdef CELL_BITS
+layout(set = 0, binding = 6, scalar) writeonly buffer TotalBuffer { uint totals[]; };  // LightTotals
+#endif
 #ifdef GATHERS
 #include "methods/lamplight_cell_gather.glsl"
 #else
@@ -37,11 +39,7 @@ const uint SQUARES = SQUARES_ACROSS * SQUARES_ACROSS;
 // Beyond the picture its edge again, which is of the same tile.
 vec4 square_depths(uvec2 tile, uint square) {
   const uvec2 pixel = tile * TILE_PX + 2u * uvec2(square % SQUARES_ACROSS, square / SQUARES_ACROSS);
-  const ivec2 last = ivec2(frame.size_px) - 1;
-  const ivec2 low = min(ivec2(pixel), last);
-  const ivec2 high = min(ivec2(pixel) + 1, last);
-  return vec4(texelFetch(depth_image, low, 0).x, texelFetch(depth_image, ivec2(high.x, low.y), 0).x,
-              texelFetch(depth_image, ivec2(low.x, high.y), 0).x, texelFetch(depth_image, high, 0).x);
+  return textureGather(depth_image, vec2(pixel + 1u) / vec2(frame.size_px));  // around the corner that they share
 }
 
 void load_depths(uvec2 tile, uint first, out vec4 depths[MOST_HELD]) {
@@ -109,11 +107,20 @@ vec2 depths_of_cell() {
               half_above(z_view_of(frame, uintBitsToFloat(s_farthest))));
 }
 
+// Before all passes that count: sooner than a pass of its own.
+void clear_totals() {
+#ifdef CELL_BITS
+  if (gl_WorkGroupID.xy != uvec2(0u)) return;
+  for (uint i = gl_LocalInvocationIndex; i < totals.length(); i += gl_WorkGroupSize.x) totals[i] = 0u;
+#endif
+}
+
 void main() {
   if (gl_LocalInvocationIndex == 0u) {
     s_nearest = 0u;
     s_farthest = ~0u;
   }
+  clear_totals();
   prepare_cell();
   barrier();  // initial values before the first tile
   const uvec2 size_px = frame.size_px;

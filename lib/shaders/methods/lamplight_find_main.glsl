@@ -1,11 +1,10 @@
-// Lights in view look for their cells: rectangle of tiles, a first look at the depths, then a walk over the cells of the
-// rectangle. Pairs of light and cell are kept as a list, or, with CELL_BITS, as bits.
+// Lights look for their cells: rectangle of tiles, a first look at the depths, then a walk over the cells of the
+// rectangle. Pairs of light and cell are kept as a list, of lights in view, or, with CELL_BITS, as bits, of all lights.
 // SPDX-License-Identifier: Apache-2.0
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
 layout(constant_id = 3) const uint CELLS = 1;
-layout(constant_id = 4) const uint GROUP_FEW = 32;  // lights
 #ifdef SLICED
 layout(constant_id = 8) const uint CELL_SLICES = 4;
 #define SLICE_CONSTANT 9
@@ -20,21 +19,19 @@ const uint CELL_ROWS = CELL_TILES * CELL_TILES;
 #include "common/mask_tests.glsl"
 #include "common/sphere_rectangle.glsl"
 #include "lamplight/shared/lamplight.h"
-#include "methods/lamplight_share.glsl"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer SeenBuffer { uint seen[]; };
-layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
+layout(set = 0, binding = 3, scalar) buffer TotalBuffer { LightTotals totals; };
 #ifdef CELL_BITS
 #include "methods/lamplight_bit_hits.glsl"
 #else
 #include "methods/lamplight_list_hits.glsl"
 #endif
 #ifndef SLICED
-layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
-layout(set = 0, binding = DEPTH_BINDING + 1, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+layout(set = 0, binding = 7, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+layout(set = 0, binding = 8, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
 #endif
 
 #ifdef SLICED
@@ -79,12 +76,12 @@ void main() {
   uvec4 tiles = uvec4(0u);
   bool any_tile = false;
   // A group's share is spread over its subgroups.
-  const uint share = lights_of_group(totals.seen);
+  const uint share = group_share();
   const uint of_subgroup = (share + gl_NumSubgroups - 1u) / gl_NumSubgroups;
   const uint in_share = gl_SubgroupID * of_subgroup + gl_SubgroupInvocationID;
   const uint at = gl_WorkGroupID.x * share + in_share;
-  if (gl_SubgroupInvocationID < of_subgroup && in_share < share && at < totals.seen) {
-    light = seen[at];
+  if (gl_SubgroupInvocationID < of_subgroup && in_share < share && at < lights_to_find()) {
+    light = light_to_find(at);
     sphere = view_bounds(frame, spheres[light]);
     any_tile = tiles_of_sphere(frame, sphere, TILE_PX, tiles) && meets_depths(sphere, tiles);
   }

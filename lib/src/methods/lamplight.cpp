@@ -29,6 +29,7 @@ constexpr std::uint32_t MARGIN = 32;                // around them, where runs o
 constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
 constexpr std::uint32_t GROUP_SUBGROUPS = 8;        // more of them than of their lights cost a software device its time
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
+constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
 constexpr std::uint32_t THREAD_PAIRS = 2;           // of light and row for each thread of it, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 
@@ -53,19 +54,32 @@ std::uint32_t few_lights(const Problem& problem, std::uint32_t threads) {
   return parts::divide_up(threads, subgroup) * std::min(FEW_OF_SUBGROUP, subgroup);
 }
 
+/// Lights of a work group that finds cells with bits: all lights are spread over WANTED_GROUPS, but none gets fewer
+/// than one for each of its subgroups.
+std::uint32_t find_share(const Problem& problem, std::uint32_t threads) {
+  const std::uint32_t subgroups = parts::divide_up(threads, problem.traits.subgroup_size);
+  const std::uint32_t wanted = parts::divide_up(parts::capacity(problem), WANTED_GROUPS);
+  return std::clamp(wanted, std::min(subgroups, threads), threads);
+}
+
 struct Buffers {
   ResourceId totals, tile_depths, cell_depths, seen, matrix, hits, cells, pieces, entries, piece_lists, rows, lists;
 };
 
 Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   Buffers b{};
-  b.totals = plan.add({.name = "totals", .bytes = sizeof(shared::LightTotals), .zeroed = true, .indirect = true});
+  const bool depth_clears = s.cell_bits && !s.sliced();
+  b.totals = plan.add({.name = "totals",
+                       .bytes = sizeof(shared::LightTotals),
+                       .zeroed = !depth_clears,
+                       .zeroed_by_pass = depth_clears,
+                       .indirect = true});
   plan.counters = b.totals;
   if (!s.sliced()) {
     b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
     if (!s.gathers) b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
   }
-  if (!s.gathers) b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
+  if (!s.cell_bits) b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
   const std::uint64_t matrix_bytes = std::uint64_t{s.blocks} * s.cell_count * 4;
   b.matrix = plan.add({.name = s.cell_bits ? "cell bits" : "cell counts", .bytes = matrix_bytes, .zeroed = s.sliced()});
   b.cells = plan.add(
@@ -111,17 +125,20 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t busy = s.cell_tiles * s.cell_tiles * problem.traits.subgroup_size;  // a tile is a subgroup's
   const std::uint32_t threads = group_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
   Pass pass{.name = "tile depth",
-            .shader = s.gathers ? "methods/lamplight_depth_gather" : "methods/lamplight_depth",
+            .shader = s.gathers ? "methods/lamplight_depth_gather" : shader_of("depth", s),
             .constants = {threads, s.tile_px, s.cell_tiles, squares_held(problem)},
             .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.tile_depths, Access::write}, {b.cells, Access::write}},
             .extent = {.x = s.cells.width, .y = s.cells.height},
             .shared_bytes = 32};
   if (s.gathers) {
-    pass.bindings.insert(pass.bindings.end(), {{INPUT_SPHERES}, {b.matrix, Access::write}, {b.pieces, Access::write}});
+    pass.bindings.insert(
+        pass.bindings.end(),
+        {{INPUT_SPHERES}, {b.matrix, Access::write}, {b.totals, Access::write}, {b.pieces, Access::write}});
     pass.shared_bytes += shared::PIECE_WORDS * 4;
   } else {
     pass.constants.push_back(s.block);
     pass.bindings.insert(pass.bindings.end(), {{b.matrix, Access::write}, {b.cell_depths, Access::write}});
+    if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
   }
   return pass;
 }
@@ -136,16 +153,17 @@ Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) 
 }
 
 Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::uint32_t threads) {
-  Constants constants = {threads, s.tile_px, s.cell_tiles, s.cell_count, few_lights(problem, threads)};
+  const std::uint32_t share = find_share(problem, threads);
+  Constants constants = {threads, s.tile_px, s.cell_tiles, s.cell_count,
+                         s.cell_bits ? share : few_lights(problem, threads)};
   Pass pass{.name = "find cells",
             .shader = shader_of(s.sliced() ? "find_sliced" : "find", s),
             .bindings = {{INPUT_FRAME},
                          {INPUT_LIGHTS},
                          {INPUT_SPHERES},
-                         {b.seen},
                          {b.totals, Access::read_write},
                          {b.matrix, Access::read_write}},
-            .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, find_x)},
+            .extent = {.lights_per_group = share},
             .shared_bytes = QUEUE_BYTES + 8};
   if (s.cell_bits) {
     constants.insert(constants.end(), {s.pieces, s.cell_rows / s.group_rows, threads});
@@ -153,7 +171,8 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
     pass.shared_bytes += threads * 4;
   } else {
     constants.insert(constants.end(), {s.block, s.entries, GROUP_HITS * threads});
-    pass.bindings.push_back({b.hits, Access::write});
+    pass.bindings.insert(pass.bindings.end(), {{b.hits, Access::write}, {b.seen}});
+    pass.extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, find_x)};
     pass.shared_bytes += GROUP_HITS * threads * std::uint32_t{sizeof(shared::LightHit)};
   }
   pass.constants = with_slices(std::move(constants), problem, s);
@@ -222,10 +241,8 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
   const std::uint32_t threads = find_threads(problem);
   std::vector<Pass> passes;
   if (!s.sliced()) passes.push_back(depth_pass(problem, s, b));
-  if (!s.gathers) {
-    passes.push_back(view_pass(problem, b, threads));
-    passes.push_back(find_pass(problem, s, b, threads));
-  }
+  if (!s.cell_bits) passes.push_back(view_pass(problem, b, threads));
+  if (!s.gathers) passes.push_back(find_pass(problem, s, b, threads));
   if (!s.cell_bits) {
     passes.push_back(scan_pass(problem, s, b, threads));
     passes.push_back(scatter_pass(s, b, threads));

@@ -16,7 +16,7 @@ constexpr std::uint64_t COUNT_BYTES = sizeof(std::uint32_t);
 
 Use use_of(const Resource& resource, Access access, VkPipelineStageFlags2 stages) {
   VkAccessFlags2 flags = 0;
-  const bool sampled = resource.type == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+  const bool sampled = resource.image != VK_NULL_HANDLE;
   if (access != Access::write)
     flags |= sampled ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
   if (access != Access::read) flags |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
@@ -58,6 +58,17 @@ Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const Sh
   return Pipeline::graphics(device, pipeline_info(pass), vertex.value(), shader.value(), graphics_state(pass.raster));
 }
 
+/// Of the depth image, whose shaders may gather four pixels at once: beyond the picture its edge again.
+Result<OwnedSampler> depth_sampler(const Device& device) {
+  const VkSamplerCreateInfo create{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                   .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
+  VkSampler sampler = VK_NULL_HANDLE;
+  if (const VkResult r = vkCreateSampler(device.handle, &create, nullptr, &sampler); r != VK_SUCCESS)
+    return Error{"sampler of the depth image", result_text(r)};
+  return OwnedSampler(device.handle, sampler);
+}
+
 std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
   return lights / lights_per_group + (lights % lights_per_group == 0 ? 0 : 1);
 }
@@ -83,7 +94,7 @@ FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes) {
 }
 
 VkDescriptorType descriptor_type(ResourceId id) {
-  return id == INPUT_DEPTH ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  return id == INPUT_DEPTH ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 Result<std::vector<PlanRunner::BuiltPass>> PlanRunner::build(const Device& device, const std::vector<Pass>& passes,
@@ -104,6 +115,11 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
     Result<Buffer> buffer = Buffer::create(device, buffer_info(desc));
     if (!buffer) return buffer.error();
     runner.buffers_.push_back(std::move(buffer.value()));
+  }
+  if (runner.plan_.binds(INPUT_DEPTH)) {
+    Result<OwnedSampler> sampler = depth_sampler(device);
+    if (!sampler) return sampler.error();
+    runner.depth_sampler_ = std::move(sampler.value());
   }
   auto separate = build(device, runner.plan_.passes, shaders);
   if (!separate) return separate.error();
@@ -133,8 +149,12 @@ Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs) const {
       return Resource::storage(inputs.frame);
     case INPUT_LIGHTS:
       return Resource::storage(inputs.lights);
-    case INPUT_DEPTH:
-      return inputs.depth;
+    case INPUT_DEPTH: {
+      Resource depth = inputs.depth;
+      depth.type = descriptor_type(id);
+      depth.sampler = depth_sampler_.get();
+      return depth;
+    }
     case INPUT_SPHERES:
       return Resource::storage(inputs.spheres);
     default:

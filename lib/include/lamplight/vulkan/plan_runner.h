@@ -21,7 +21,7 @@ struct PlanInputs {
   VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame
   VkBuffer lights = VK_NULL_HANDLE;   ///< shared::Light[light_count]
   VkBuffer spheres = VK_NULL_HANDLE;  ///< shared::LightSphere[light_count]
-  Resource depth;                     ///< sampled image; unset for methods that do not need it
+  Resource depth;                     ///< image, view, aspect and layout; unset for methods that do not need it
   std::uint32_t light_count = 0;
   std::span<const shared::Light> host_lights;  ///< for host passes
   const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`; must be set
@@ -106,6 +106,7 @@ class PlanRunner {
 
   Plan plan_;
   std::vector<Buffer> buffers_;
+  OwnedSampler depth_sampler_;
   std::vector<BuiltPass> separate_;
   std::vector<BuiltPass> fused_;
   std::optional<glm::mat4> projection_;  ///< of the last recorded frame
