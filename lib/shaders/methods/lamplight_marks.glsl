@@ -1,6 +1,7 @@
 // Which lights of a piece reach which rows of its cell: a bit matrix in shared memory. Each subgroup takes lights of its own,
-// and no barrier of the group stands between them. A first look at all pairs of light and row drops most; those that stay
-// wait in the subgroup's part of shared memory until there are enough for the exact tests by all of its threads.
+// and no barrier of the group stands between them. A first look at all pairs of light and row drops most. Those that stay
+// wait in the subgroup's part of shared memory until there are enough for the exact test of spheres by all of its threads,
+// and what that leaves of spots waits again, for the test of cones.
 // Needs: TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS; `frame`, `lights`, `spheres`; s_lights; PRUNED or not.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
@@ -13,7 +14,7 @@
 
 shared uint s_bits[MARK_WORDS];  // PIECE_WORDS for each of ROWS
 shared LightBounds s_spheres[PIECE];
-shared uint s_pairs[PAIRS];  // two for each thread
+shared uint s_pairs[PAIRS];  // that wait: two of each thread for spheres, and behind all these two for cones
 
 uint bit_word(uint row, uint word) { return row * PIECE_WORDS + word; }
 
@@ -36,16 +37,33 @@ Pair pair_of(uint packed) {
               (packed & PAIR_OF_SPOT) != 0u);
 }
 
-bool reaches_row(Pair pair) {
-  const LightBounds sphere = LightBounds(s_spheres[pair.entry].center, abs(s_spheres[pair.entry].radius));
-  const TileRanges ranges = ranges_of_row(pair.row, sphere);
-  const uint parts = parts_near(sphere, ranges);
+// What the exact tests look at.
+struct Target {
+  LightBounds sphere;
   TileSides sides;
-  sides.x_edges = s_x_edges[pair.row];
-  sides.y_edges = s_y_edges[pair.row];
-  if (!sphere_touches_runs(sphere, sides, ranges, parts)) return false;
-  return !pair.spot ||
-         spot_touches_tile(frame, lights[s_lights[pair.entry]], sides, ranges.z_near[0], ranges.z_far[0], parts);
+  TileRanges ranges;
+  uint parts;  // of the mask, near the sphere
+};
+
+Target target_of(Pair pair) {
+  Target target;
+  target.sphere = LightBounds(s_spheres[pair.entry].center, abs(s_spheres[pair.entry].radius));
+  target.sides.x_edges = s_x_edges[pair.row];
+  target.sides.y_edges = s_y_edges[pair.row];
+  target.ranges = ranges_of_row(pair.row, target.sphere);
+  target.parts = parts_near(target.sphere, target.ranges);
+  return target;
+}
+
+bool sphere_reaches_row(Pair pair) {
+  const Target target = target_of(pair);
+  return sphere_touches_runs(target.sphere, target.sides, target.ranges, target.parts);
+}
+
+bool cone_reaches_row(Pair pair) {
+  const Target target = target_of(pair);
+  return spot_touches_tile(frame, lights[s_lights[pair.entry]], target.sides, target.ranges.z_near[0],
+                           target.ranges.z_far[0], target.parts);
 }
 
 #ifdef PRUNED
@@ -54,6 +72,7 @@ bool reaches_row(Pair pair) {
 
 // All below is for the threads of a subgroup together.
 uint first_pair() { return gl_SubgroupID * 2u * gl_SubgroupSize; }
+uint first_spot() { return PAIRS / 2u + first_pair(); }
 
 // Its i-th light in the piece. Neighbours go to different subgroups, because they tend to have as many pairs.
 uint entry_of(uint i) { return gl_SubgroupID + i * gl_NumSubgroups; }
@@ -68,26 +87,55 @@ void load_spheres(uint count) {
   subgroupBarrier();  // spheres before other threads read them
 }
 
-// `count` waiting pairs from `first` on, at most one a thread.
-void test_pairs(Cell cell, uint first, uint count) {
+// Returns how many wait now, from `first` on.
+uint wait(uint first, uint waiting, bool has_pair, uint packed) {
+  const uvec4 those = subgroupBallot(has_pair);
+  if (has_pair) s_pairs[first + waiting + subgroupBallotExclusiveBitCount(those)] = packed;
+  return waiting + subgroupBallotBitCount(those);
+}
+
+// One of those that came last for each thread; without one any of them again.
+uint take(uint first, inout uint waiting, out bool has_pair) {
   subgroupMemoryBarrierShared();
   subgroupBarrier();  // pairs are there before they are read
-  const uint i = min(gl_SubgroupInvocationID, count - 1u);
-  const Pair pair = pair_of(s_pairs[first_pair() + first + i]);
-  bool reached = gl_SubgroupInvocationID < count && reaches_row(pair);
+  const uint count = min(waiting, gl_SubgroupSize);
+  has_pair = gl_SubgroupInvocationID < count;
+  waiting -= count;
+  const uint packed = s_pairs[first + waiting + min(gl_SubgroupInvocationID, count - 1u)];
+  subgroupBarrier();  // and read before others take their place
+  return packed;
+}
+
+void mark(Cell cell, Pair pair, bool reached) {
 #ifdef PRUNED
   reached = keeps_pair(cell, pair, reached);
 #endif
   if (reached) atomicOr(s_bits[bit_word(pair.row, pair.entry / 32u)], 1u << (pair.entry % 32u));
-  subgroupBarrier();  // and read before others take their place
 }
 
-// Lights [0, count) of the piece.
+void test_spheres(Cell cell, inout uint pairs, inout uint spots) {
+  bool has_pair;
+  const uint packed = take(first_pair(), pairs, has_pair);
+  const Pair pair = pair_of(packed);
+  const bool reached = has_pair && sphere_reaches_row(pair);
+  mark(cell, pair, reached && !pair.spot);
+  spots = wait(first_spot(), spots, reached && pair.spot, packed);
+}
+
+void test_cones(Cell cell, inout uint spots) {
+  bool has_pair;
+  const Pair pair = pair_of(take(first_spot(), spots, has_pair));
+  mark(cell, pair, has_pair && cone_reaches_row(pair));
+}
+
+// Lights [0, count) of the piece. One loop to the end, so that every test is in the code once.
 void mark_lights(Cell cell, uint count) {
   const uint own = (count + gl_NumSubgroups - 1u - gl_SubgroupID) / gl_NumSubgroups;  // lights
   load_spheres(own);
-  uint waiting = 0u;
-  for (uint start = 0u; start < own * ROWS; start += gl_SubgroupSize) {
+  uint pairs = 0u;  // that wait
+  uint spots = 0u;
+  bool any_left = true;
+  for (uint start = 0u; any_left; start += gl_SubgroupSize) {
     const uint i = start + gl_SubgroupInvocationID;
     const uint entry = entry_of(i / ROWS);
     const uint row = i % ROWS;
@@ -98,15 +146,13 @@ void mark_lights(Cell cell, uint count) {
       spot = sphere.radius < 0.0 ? PAIR_OF_SPOT : 0u;
       near = may_reach_row(LightBounds(sphere.center, abs(sphere.radius)), row);
     }
-    const uvec4 those = subgroupBallot(near);
-    const uint place = first_pair() + waiting + subgroupBallotExclusiveBitCount(those);
-    if (near) s_pairs[place] = packed_pair(entry, row, spot);
-    waiting += subgroupBallotBitCount(those);
-    if (waiting < gl_SubgroupSize) continue;
-    waiting -= gl_SubgroupSize;
-    test_pairs(cell, waiting, gl_SubgroupSize);
+    pairs = wait(first_pair(), pairs, near, packed_pair(entry, row, spot));
+    any_left = start + gl_SubgroupSize < own * ROWS;
+    const uint enough = any_left ? gl_SubgroupSize : 1u;
+    if (pairs >= enough) test_spheres(cell, pairs, spots);
+    while (spots >= enough) test_cones(cell, spots);
+    any_left = any_left || pairs > 0u;
   }
-  if (waiting > 0u) test_pairs(cell, 0u, waiting);
 }
 
 #endif

@@ -30,7 +30,7 @@ constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a grou
 constexpr std::uint32_t GROUP_SUBGROUPS = 8;        // more of them than of their lights cost a software device its time
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
-constexpr std::uint32_t THREAD_PAIRS = 2;           // of light and row for each thread of it, in shared memory
+constexpr std::uint32_t THREAD_PAIRS = 4;           // of light and row for each thread of it, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 
 /// Of a pass whose subgroups take lights of their own: GROUP_SUBGROUPS where subgroups are small.
