@@ -53,10 +53,11 @@ Result<Plan> plan_of(std::string_view name, const std::vector<std::string>& sett
                                      .traits = traits});
 }
 
-// "mean_cells=N" where the room that a plan has by itself will not do; `each`: estimate for each of `count`.
+// "mean_cells=N" where the room that a plan has by itself will not do; `each`: estimate for each of `count`. A plan
+// without such a capacity has room for all there can be.
 void add_room(std::vector<std::string>& options, const Plan& plan, std::string_view key, double each, double count) {
   const auto capacity = std::ranges::find(plan.capacities, key, &Capacity::option);
-  assert(capacity != plan.capacities.end() && "an option that sizes a list");
+  if (capacity == plan.capacities.end()) return;
   if (each * count <= static_cast<double>(capacity->entries)) return;
   const double wanted = std::min(std::ceil(ROOM * each), 4096.0);
   options.push_back(std::string(key) + "=" + std::to_string(static_cast<int>(wanted)));

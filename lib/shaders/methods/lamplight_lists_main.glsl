@@ -50,28 +50,17 @@ layout(set = 0, binding = DEPTH_BINDING + 1) uniform texture2D depth_image;
 #endif
 
 #include "methods/lamplight_marks.glsl"
+#include "methods/lamplight_row_lists.glsl"
 
 shared uint s_list_size[ROWS];
 shared uint s_list_begin[ROWS];
 shared uint s_base;
-
-uint lights_before(uint row, uint word) {
-  uint count = 0u;
-  for (uint i = 0u; i < word; ++i) count += uint(bitCount(s_bits[bit_word(row, i)]));
-  return count;
-}
 
 // Room for all rows' lists together. By one thread; where the total could begin anew, after a look at it.
 void reserve_lists(uint size) {
   const bool full = MAY_WRAP != 0u && totals.list_entries > LIST_ENTRIES;
   const uint begin = full ? LIST_ENTRIES : atomicAdd(totals.list_entries, size);
   s_base = size == 0u || (begin <= LIST_ENTRIES && size <= LIST_ENTRIES - begin) ? begin : ~0u;
-}
-
-void write_list_word(uint row, uint word) {
-  uint place = s_base + s_list_begin[row] + lights_before(row, word);
-  for (uint bits = s_bits[bit_word(row, word)]; bits != 0u; bits &= bits - 1u)
-    lists[place++] = s_lights[word * 32u + uint(findLSB(bits))];
 }
 
 // By all threads of the group together. Returns whether the lists fit; if not, the piece's lights stand for each of them.
@@ -89,7 +78,7 @@ bool write_lists(Cell cell, uint begin, uint count) {
   }
   barrier();  // places before lists are written
   const bool fits = s_base != ~0u;
-  for (uint i = thread; fits && i < ROWS * words; i += threads) write_list_word(i % ROWS, i / ROWS);
+  for (uint i = thread; fits && i < ROWS * words; i += threads) write_list_word(i % ROWS, i / ROWS, s_base + s_list_begin[i % ROWS]);
   for (uint row = thread; row < ROWS; row += threads) {
     const uint at = 2u * (gl_WorkGroupID.x * CELL_ROWS + cell.first_row + row);
     rows[at] = fits ? s_base + s_list_begin[row] : begin | COARSE;
@@ -97,11 +86,6 @@ bool write_lists(Cell cell, uint begin, uint count) {
   }
   if (!fits && thread == 0u) atomicAdd(totals.counters.overflowed_cells, ROWS);
   return fits;
-}
-
-void write_bits(Cell cell) {
-  const uint at = (gl_WorkGroupID.x * CELL_ROWS + cell.first_row) * PIECE_WORDS;
-  for (uint i = gl_LocalInvocationIndex; i < MARK_WORDS; i += gl_WorkGroupSize.x) rows[at + i] = s_bits[i];
 }
 
 Cell cell_of(uint index) {
@@ -129,7 +113,7 @@ void main() {
   barrier();  // all bits before they are read
   bool needs_piece = BITS && gl_WorkGroupID.y == 0u;
   if (BITS)
-    write_bits(cell);
+    write_bits(gl_WorkGroupID.x * CELL_ROWS + cell.first_row);
   else
     needs_piece = !write_lists(cell, begin, end - begin);
   if (!needs_piece) return;

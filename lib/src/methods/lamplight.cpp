@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lamplight/shared/lamplight.h"
+#include "lamplight_at_once.h"
 #include "lamplight_sizes.h"
 #include "methods.h"
 #include "parts.h"
@@ -18,7 +19,9 @@ namespace lamp {
 namespace {
 
 using lamplight::group_threads;
+using lamplight::light_threads;
 using lamplight::Sizes;
+using lamplight::THREAD_PAIRS;
 using lamplight::THREADS;
 
 // Tuned on an H100, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was tried.
@@ -27,16 +30,9 @@ constexpr std::uint32_t SCAN_THREADS = 256;
 using shared::PIECE;                                // entries that a work group culls
 constexpr std::uint32_t MARGIN = 32;                // around them, where runs of a block begin and end
 constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
-constexpr std::uint32_t GROUP_SUBGROUPS = 8;        // more of them than of their lights cost a software device its time
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
-constexpr std::uint32_t THREAD_PAIRS = 4;           // of light and row for each thread of it, in shared memory
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
-
-/// Of a pass whose subgroups take lights of their own: GROUP_SUBGROUPS where subgroups are small.
-std::uint32_t light_threads(const Problem& problem) {
-  return group_threads(problem, std::min(THREADS, GROUP_SUBGROUPS * problem.traits.subgroup_size));
-}
 
 /// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
 /// 65535 groups, all that some have, are one short of 16 million lights.
@@ -77,7 +73,7 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   plan.counters = b.totals;
   if (!s.sliced()) {
     b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
-    if (!s.gathers) b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
+    b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
   }
   if (!s.cell_bits) b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
   const std::uint64_t matrix_bytes = std::uint64_t{s.blocks} * s.cell_count * 4;
@@ -103,12 +99,8 @@ std::uint32_t lists_may_wrap(const Sizes& s) { return std::uint64_t{s.entries} *
 
 using Constants = std::vector<std::uint32_t>;
 
-/// How depth is sliced, after the other constants of a pass or look-up.
 Constants with_slices(Constants constants, const Problem& problem, const Sizes& s) {
-  const Options& o = problem.options;
-  constants.insert(constants.end(), {s.cell_slices, s.slices, parts::slice_scale(o.word("scale")), o.integer("near_mm"),
-                                     o.integer("far_m")});
-  return constants;
+  return lamplight::with_slices(std::move(constants), problem, s.cell_slices, s.slices);
 }
 
 /// Of cells with lists or with bits.
@@ -116,30 +108,19 @@ std::string shader_of(std::string_view name, const Sizes& s) {
   return std::string("methods/lamplight_").append(name).append(s.cell_bits ? "_cell_bits" : "");
 }
 
-/// What a thread of the depth pass loads at once. Subgroups of fewer than 32 read a tile twice either way, and a
-/// software device takes a third less time for that one by one.
-std::uint32_t squares_held(const Problem& problem) { return problem.traits.subgroup_size < 32 ? 1 : 2; }
-
 Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t cell_px = s.tile_px * s.cell_tiles;
   const std::uint32_t busy = s.cell_tiles * s.cell_tiles * problem.traits.subgroup_size;  // a tile is a subgroup's
   const std::uint32_t threads = group_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
   Pass pass{.name = "tile depth",
-            .shader = s.gathers ? "methods/lamplight_depth_gather" : shader_of("depth", s),
-            .constants = {threads, s.tile_px, s.cell_tiles, squares_held(problem)},
+            .shader = shader_of("depth", s),
+            .constants = {threads, s.tile_px, s.cell_tiles, lamplight::squares_held(problem)},
             .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.tile_depths, Access::write}, {b.cells, Access::write}},
             .extent = {.x = s.cells.width, .y = s.cells.height},
             .shared_bytes = 32};
-  if (s.gathers) {
-    pass.bindings.insert(
-        pass.bindings.end(),
-        {{INPUT_SPHERES}, {b.matrix, Access::write}, {b.totals, Access::write}, {b.pieces, Access::write}});
-    pass.shared_bytes += shared::PIECE_WORDS * 4;
-  } else {
-    pass.constants.push_back(s.block);
-    pass.bindings.insert(pass.bindings.end(), {{b.matrix, Access::write}, {b.cell_depths, Access::write}});
-    if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
-  }
+  pass.constants.push_back(s.block);
+  pass.bindings.insert(pass.bindings.end(), {{b.matrix, Access::write}, {b.cell_depths, Access::write}});
+  if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
   return pass;
 }
 
@@ -229,7 +210,6 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                    {b.lists, Access::write}},
       .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)},
       .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 72 + 80};
-  if (s.gathers) pass.extent = {.x = s.cell_count, .y = s.cell_rows / s.group_rows};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
@@ -242,7 +222,7 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
   std::vector<Pass> passes;
   if (!s.sliced()) passes.push_back(depth_pass(problem, s, b));
   if (!s.cell_bits) passes.push_back(view_pass(problem, b, threads));
-  if (!s.gathers) passes.push_back(find_pass(problem, s, b, threads));
+  passes.push_back(find_pass(problem, s, b, threads));
   if (!s.cell_bits) {
     passes.push_back(scan_pass(problem, s, b, threads));
     passes.push_back(scatter_pass(s, b, threads));
@@ -251,7 +231,13 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
   return passes;
 }
 
+bool gathers(const Problem& problem) {
+  const std::string_view wanted = problem.options.word("cells");
+  return wanted == "gather" || (wanted == "auto" && lamplight::can_gather(problem));
+}
+
 Plan plan_lamplight(const Problem& problem) {
+  if (gathers(problem)) return lamplight::plan_at_once(problem);
   const Sizes sizes = lamplight::sizes_of(problem);
   Plan plan;
   plan.cells = sizes.tiles.count() * sizes.slices;
@@ -284,7 +270,7 @@ std::optional<Error> check_lamplight(const Problem& problem) {
     return Error{
         "option cells",
         "gather is for up to " + std::to_string(PIECE) +
-            " lights, a depth buffer and as many cells as the device takes work groups; expected auto, list or bits"};
+            " lights, a depth buffer and pictures whose lists take no more than 32 MiB; expected auto, list or bits"};
   return std::nullopt;
 }
 

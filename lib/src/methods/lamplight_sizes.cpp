@@ -11,6 +11,7 @@ namespace {
 using shared::PIECE;
 // Tuned on an H100 and an H200, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was
 // tried.
+constexpr std::uint32_t GROUP_SUBGROUPS = 8;   // more of them than of their lights cost a software device its time
 constexpr std::uint32_t GROUP_ROWS = 32;       // of a cell that a work group looks at
 constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
 constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
@@ -47,7 +48,6 @@ std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
 
 /// With mean_cells=0 two a cell and no more.
 std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
-  if (s.gathers) return s.cell_count;
   const std::uint64_t lights = parts::capacity(problem);
   const std::uint64_t room = lights * problem.options.integer("mean_cells");
   const std::uint64_t all = s.cell_count * ((lights + PIECE - 1) / PIECE);
@@ -78,7 +78,6 @@ Sizes grid_of(const Problem& problem) {
 }
 
 bool wants_cell_bits(const Problem& problem, const Sizes& s) {
-  if (s.gathers) return true;
   const std::string_view wanted = problem.options.word("cells");
   const std::uint64_t words = parts::divide_up(parts::capacity(problem), WORD_LIGHTS);
   return wanted == "bits" || (wanted == "auto" && words * 4 * s.cell_count <= CELL_BITS_BYTES);
@@ -90,17 +89,23 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
 }
 
-bool can_gather(const Problem& problem) {
-  if (parts::capacity(problem) > PIECE || problem.options.word("depth") == "none") return false;
-  const Sizes s = grid_of(problem);
-  return s.cell_count <= most_pieces(problem, s);
+std::uint32_t light_threads(const Problem& problem) {
+  return group_threads(problem, std::min(THREADS, GROUP_SUBGROUPS * problem.traits.subgroup_size));
+}
+
+std::uint32_t squares_held(const Problem& problem) { return problem.traits.subgroup_size < 32 ? 1 : 2; }
+
+std::vector<std::uint32_t> with_slices(std::vector<std::uint32_t> constants, const Problem& problem,
+                                       std::uint32_t cell_slices, std::uint32_t slices) {
+  const Options& o = problem.options;
+  constants.insert(constants.end(), {cell_slices, slices, parts::slice_scale(o.word("scale")), o.integer("near_mm"),
+                                     o.integer("far_m")});
+  return constants;
 }
 
 Sizes sizes_of(const Problem& problem) {
   Sizes s = grid_of(problem);
   const std::uint64_t lights = parts::capacity(problem);
-  const std::string_view wanted = problem.options.word("cells");
-  s.gathers = wanted == "gather" || (wanted == "auto" && can_gather(problem));
   s.cell_bits = wants_cell_bits(problem, s);
   s.block = s.cell_bits ? WORD_LIGHTS : block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);

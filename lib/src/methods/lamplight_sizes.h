@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "lamplight/shared/lamplight.h"
 #include "parts.h"
@@ -10,6 +11,13 @@
 namespace lamp::lamplight {
 
 constexpr std::uint32_t THREADS = 256;  ///< of a work group, where the device takes as many
+
+constexpr std::uint32_t THREAD_PAIRS = 4;  ///< of light and row for each thread that tests them, in shared memory
+
+/// What a row keeps of a piece: a span of the lists, or bits.
+[[nodiscard]] constexpr std::uint64_t row_bytes(bool bits) {
+  return bits ? shared::PIECE_WORDS * 4 : sizeof(shared::LightSpan);
+}
 
 /// Every size of the plan.
 struct Sizes {
@@ -21,7 +29,6 @@ struct Sizes {
   std::uint32_t group_rows;           ///< of them, for a work group of the last pass
   bool bits;                          ///< the container
   bool cell_bits;                     ///< a cell has a bit for each light, not a list
-  bool gathers;                       ///< and looks at every light itself: one piece holds them all
   std::uint32_t block;                ///< lights: of a word of bits, or of a line of the count matrix
   std::uint32_t blocks;               ///< words of a cell, or lines
   std::uint32_t pieces;               ///< of PIECE lights in cells, capacity
@@ -30,16 +37,23 @@ struct Sizes {
 
   [[nodiscard]] bool sliced() const { return slices > 1; }
   /// What a row keeps of a piece: a span of the lists, or bits.
-  [[nodiscard]] std::uint64_t row_bytes() const { return bits ? shared::PIECE_WORDS * 4 : sizeof(shared::LightSpan); }
+  [[nodiscard]] std::uint64_t row_bytes() const { return lamplight::row_bytes(bits); }
 };
 
 /// A power of two that the device takes.
 [[nodiscard]] std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted);
 
-[[nodiscard]] Sizes sizes_of(const Problem& problem);
+/// Of a pass whose subgroups take lights of their own: GROUP_SUBGROUPS where subgroups are small.
+[[nodiscard]] std::uint32_t light_threads(const Problem& problem);
 
-/// Whether cells can look at every light themselves, and `cells=gather` may be asked for: one piece holds the lights,
-/// and the device takes a piece for each cell.
-[[nodiscard]] bool can_gather(const Problem& problem);
+/// What a thread that reads depths loads at once. Subgroups of fewer than 32 read a tile twice either way, and a
+/// software device takes a third less time for that one by one.
+[[nodiscard]] std::uint32_t squares_held(const Problem& problem);
+
+/// How depth is sliced, after the other constants of a pass or look-up.
+[[nodiscard]] std::vector<std::uint32_t> with_slices(std::vector<std::uint32_t> constants, const Problem& problem,
+                                                     std::uint32_t cell_slices, std::uint32_t slices);
+
+[[nodiscard]] Sizes sizes_of(const Problem& problem);
 
 }  // namespace lamp::lamplight

@@ -1,0 +1,99 @@
+// Depths of the tiles of a cell, which is a work group's: nearest, farthest and the mask of occupied parts of each; nearest
+// and farthest of all. A subgroup takes whole tiles, so that tiles need no barrier.
+// Based on: Harada, A 2.5D Culling for Forward+, SIGGRAPH Asia (2012), for the mask.
+// Needs: TILE_PX, CELL_TILES, HELD: 1 or MOST_HELD; BOUNDS_MASK; `frame`, `depth_squares`.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_METHODS_LAMPLIGHT_TILE_DEPTHS
+#define LAMP_METHODS_LAMPLIGHT_TILE_DEPTHS
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "common/tile_ranges.glsl"
+
+shared uint s_nearest;   // device depth: reversed, so the greatest
+shared uint s_farthest;
+
+// HELD squares of 2 x 2 pixels are loaded at once by a thread and held in registers: with two, 32 threads read a tile of 16
+// pixels once.
+const uint MOST_HELD = 2u;
+const uint SQUARES_ACROSS = TILE_PX / 2u;
+const uint SQUARES = SQUARES_ACROSS * SQUARES_ACROSS;
+
+// Beyond the picture its edge again, which is of the same tile.
+vec4 square_depths(uvec2 tile, uint square) {
+  const uvec2 pixel = tile * TILE_PX + 2u * uvec2(square % SQUARES_ACROSS, square / SQUARES_ACROSS);
+  return textureGather(depth_squares, vec2(pixel + 1u) / vec2(frame.size_px));  // around the corner that they share
+}
+
+void load_depths(uvec2 tile, uint first, out vec4 depths[MOST_HELD]) {
+  [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
+    const uint square = first + k * gl_SubgroupSize + gl_SubgroupInvocationID;
+    const bool there = k < HELD && (SQUARES % (HELD * gl_SubgroupSize) == 0u || square < SQUARES);
+    depths[k] = there ? square_depths(tile, square) : vec4(0.0);
+  }
+}
+
+// The mask's parts of device depths. A faster division than that of z_view_of: off by a few units in the last place,
+// which the slack of light bounds covers.
+uvec4 parts_of_depths(mat4 clip, vec4 depths, float z_near, float scale) {
+  const vec4 z = (clip[3][2] - clip[3][3] * depths) / (clip[2][2] - clip[2][3] * depths);
+  return uvec4(clamp((z - z_near) * scale, 0.0, float(MASK_BITS - 1u)));
+}
+
+// For all threads of a subgroup together; every one of them returns the tile's ranges.
+TileDepths depths_of_tile(uvec2 tile) {
+  const uint stride = HELD * gl_SubgroupSize;
+  vec4 depths[MOST_HELD];
+  uint nearest = 0u;
+  uint farthest = ~0u;
+  for (uint first = 0u; first < SQUARES; first += stride) {
+    load_depths(tile, first, depths);
+    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
+      const uvec4 bits = floatBitsToUint(depths[k]);
+      const uvec4 surfaces = mix(bits, uvec4(~0u), equal(bits, uvec4(0u)));  // not sky
+      nearest = max(nearest, max(max(bits.x, bits.y), max(bits.z, bits.w)));
+      farthest = min(farthest, min(min(surfaces.x, surfaces.y), min(surfaces.z, surfaces.w)));
+    }
+  }
+  nearest = subgroupMax(nearest);
+  farthest = subgroupMin(farthest);
+  if (nearest == 0u) return TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
+  if (subgroupElect()) {
+    atomicMax(s_nearest, nearest);
+    atomicMin(s_farthest, farthest);
+  }
+  const float z_near = z_view_of(frame, uintBitsToFloat(nearest));
+  const float z_far = z_view_of(frame, uintBitsToFloat(farthest));
+  const float scale = mask_scale(z_near, z_far);
+  const mat4 clip = frame.clip_from_view;
+  uint mask = 0u;
+  for (uint first = 0u; first < SQUARES; first += stride) {
+    if (SQUARES > stride) load_depths(tile, first, depths);
+    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
+      const uvec4 parts = parts_of_depths(clip, depths[k], z_near, scale);
+      [[unroll]] for (int i = 0; i < 4; ++i) mask |= depths[k][i] > 0.0 ? 1u << parts[i] : 0u;
+    }
+  }
+  return TileDepths(z_near, z_far, scale, subgroupOr(mask));
+}
+
+// Depths that a half float holds no nearer, and no farther, however it is rounded: it has eleven bits.
+float infinity() { return uintBitsToFloat(0x7f800000u); }
+const float LARGEST_HALF = 65504.0;
+float half_below(float z) { return min(0.999 * z, LARGEST_HALF); }
+float half_above(float z) { return z > 0.99 * LARGEST_HALF ? infinity() : 1.001 * z + 1e-6; }
+
+// Of the cell, once all of its tiles are known.
+vec2 depths_of_cell() {
+  if (s_nearest == 0u) return vec2(infinity(), -infinity());  // sky: no light reaches
+  return vec2(half_below(z_view_of(frame, uintBitsToFloat(s_nearest))),
+              half_above(z_view_of(frame, uintBitsToFloat(s_farthest))));
+}
+
+// By one thread, before a barrier.
+void clear_cell_depths() {
+  s_nearest = 0u;
+  s_farthest = ~0u;
+}
+
+#endif

@@ -1,0 +1,86 @@
+// Implements lamplight_at_once.h. Promise: nothing can overflow. SPDX-License-Identifier: Apache-2.0
+#include "lamplight_at_once.h"
+
+#include <algorithm>
+
+#include "lamplight/shared/lamplight.h"
+#include "lamplight_sizes.h"
+
+namespace lamp::lamplight {
+namespace {
+
+using shared::PIECE;
+// Measured on an H200, blocks, 16 to 128 lights.
+constexpr std::uint32_t FEW_TILES = 1400;  // a work group each: with fewer groups much of a large device is idle
+constexpr std::uint32_t FEW_TILES_THREADS = 64;
+constexpr std::uint32_t CELL_TILES = 4;  // a side, of more tiles
+constexpr std::uint64_t MOST_LIST_BYTES = 32U << 20;
+
+struct Grid {
+  parts::TileGrid tiles, cells;
+  std::uint32_t tile_px, cell_tiles, threads;
+
+  [[nodiscard]] std::uint32_t cell_rows() const { return cell_tiles * cell_tiles; }
+  [[nodiscard]] std::uint64_t rows() const { return cells.count() * cell_rows(); }
+};
+
+Grid grid_of(const Problem& problem) {
+  Grid grid{.tile_px = problem.options.integer("tile"), .cell_tiles = CELL_TILES, .threads = light_threads(problem)};
+  grid.tiles = parts::tile_grid(problem, grid.tile_px);
+  // A software device takes longer for more groups.
+  if (grid.tiles.count() <= FEW_TILES && problem.traits.subgroup_size >= 32) {
+    grid.cell_tiles = 1;
+    grid.threads = FEW_TILES_THREADS;
+  }
+  grid.cells = parts::tile_grid(problem, grid.tile_px * grid.cell_tiles);
+  return grid;
+}
+
+std::uint64_t list_bytes(const Problem& problem, const Grid& grid) {
+  return grid.rows() * std::max(1U, parts::capacity(problem)) * 4;
+}
+
+}  // namespace
+
+bool can_gather(const Problem& problem) {
+  if (parts::capacity(problem) > PIECE || problem.options.word("depth") == "none") return false;
+  const Grid grid = grid_of(problem);
+  return list_bytes(problem, grid) <= std::min(MOST_LIST_BYTES, problem.traits.max_storage_buffer_bytes) &&
+         grid.cells.width <= problem.traits.max_groups[0] && grid.cells.height <= problem.traits.max_groups[1];
+}
+
+Plan plan_at_once(const Problem& problem) {
+  const Grid grid = grid_of(problem);
+  const bool bits = problem.options.word("container") == "bits";
+  const bool pruned = problem.options.word("prune") == "pixel";
+  const std::uint32_t lights = std::max(1U, parts::capacity(problem));
+  const std::uint32_t pairs = THREAD_PAIRS * grid.threads;
+  const std::uint32_t mark_words = grid.cell_rows() * shared::PIECE_WORDS;
+  Plan plan;
+  plan.cells = grid.tiles.count();
+  const ResourceId cells = plan.add({.name = "cells", .bytes = grid.cells.count() * sizeof(shared::LightCell)});
+  const ResourceId rows = plan.add({.name = bits ? "tile bits" : "tile spans", .bytes = grid.rows() * row_bytes(bits)});
+  const ResourceId lists = plan.add({.name = bits ? "cell lists" : "tile lists",
+                                     .bytes = bits ? grid.cells.count() * PIECE * 4 : list_bytes(problem, grid)});
+  plan.passes = {{.name = bits ? "tile bits" : "tile lists",
+                  .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
+                  .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
+                                grid.cell_rows(), mark_words, bits ? 1U : 0U},
+                  .bindings = {{INPUT_FRAME},
+                               {INPUT_LIGHTS},
+                               {INPUT_SPHERES},
+                               {INPUT_DEPTH},
+                               {cells, Access::write},
+                               {rows, Access::write},
+                               {lists, Access::write}},
+                  .extent = {.x = grid.cells.width, .y = grid.cells.height},
+                  .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 64 + 32}};
+  if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});
+  plan.lookup = {.name = bits ? "cell_bits" : "cell_lists",
+                 .constants = with_slices({grid.tile_px, grid.cell_tiles}, problem, 1, 1),
+                 .bindings = {{INPUT_FRAME}, {cells}, {rows}, {lists}}};
+  if (!bits) plan.lookup.bindings.push_back({lists});
+  return plan;
+}
+
+}  // namespace lamp::lamplight
