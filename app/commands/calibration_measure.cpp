@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <list>
 #include <vector>
 
@@ -45,7 +46,7 @@ constexpr std::uint64_t SOFTWARE_PAIRS = 40'000'000;
 constexpr std::uint32_t SOFTWARE_CAPACITY = 2048;
 
 constexpr int WARM_UP = 1;
-constexpr int GPU_FRAMES = 5;
+constexpr int GPU_FRAMES = 3;
 constexpr int SOFTWARE_FRAMES = 4;
 
 /// A hall of columns with lights everywhere, as in any scene: between open and crowded.
@@ -99,6 +100,23 @@ void compile_all(Context& context, const ShaderLibrary& shaders) {
   });
 }
 
+// A GPU that has slept for long is awake after that much work at the latest.
+constexpr std::chrono::milliseconds WAKE_TIME(400);
+
+/// Renders until then, and for WAKE_TIME at least: a GPU that waits falls asleep, and takes as long to wake as it
+/// slept.
+void keep_awake(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const View& view,
+                const std::future<void>& until) {
+  const MeasuredPoint& point = points_of(context).front();
+  Renderer renderer(context, shaders, scene, point.width, point.height, 1);
+  renderer.set_frame(view, {});
+  Lighting lighting(context.device(), shaders, lighting_info(auto_candidates().front(), point, false));
+  const auto begin = std::chrono::steady_clock::now();
+  while (until.wait_for(std::chrono::seconds(0)) != std::future_status::ready ||
+         std::chrono::steady_clock::now() - begin < WAKE_TIME)
+    renderer.time(lighting, Timing::parts);
+}
+
 std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point) {
   const std::span<const AutoCandidate> all = auto_candidates();
   const bool software = is_software(context);
@@ -129,11 +147,16 @@ CostSample sample_of(const Timed& timed, const Workload& workload) {
 
 Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
   const bool software = is_software(context);
-  auto before = std::chrono::steady_clock::now();
-  compile_all(context, shaders);
+  std::future<void> compiled = std::async(std::launch::async, [&] { compile_all(context, shaders); });
   const Scene scene = calibration_scene();
   const OpenAir air = find_open_air(scene);
   const GpuScene gpu_scene(context, scene);
+  const MeasuredPoint& first = points_of(context).front();
+  if (!software)
+    keep_awake(context, shaders, gpu_scene, view_of(scene.cameras.front(), first.width, first.height, "camera"),
+               compiled);
+  compiled.get();
+  auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
   for (const MeasuredPoint& point : points_of(context)) {
