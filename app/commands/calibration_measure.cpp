@@ -114,7 +114,7 @@ void keep_awake(Context& context, const ShaderLibrary& shaders, const GpuScene& 
   const auto begin = std::chrono::steady_clock::now();
   while (until.wait_for(std::chrono::seconds(0)) != std::future_status::ready ||
          std::chrono::steady_clock::now() - begin < WAKE_TIME)
-    renderer.time(lighting, Timing::parts);
+    static_cast<void>(renderer.time(lighting, Timing::parts));
 }
 
 std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point) {

@@ -90,6 +90,11 @@ void write_rows(uint cell, uint count) {
 }
 
 void main() {
+  const uint index = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+  if (frame.light_count == 0u) {
+    if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, 0u, 0u);
+    return;
+  }
   const Cell cell = Cell(gl_WorkGroupID.xy * CELL_TILES, 0u, 0u);
   if (gl_LocalInvocationIndex == 0u) clear_cell_depths();
   if (gl_LocalInvocationIndex < PIECE_WORDS) s_words[gl_LocalInvocationIndex] = 0u;
@@ -103,7 +108,6 @@ void main() {
   barrier();  // lights before they are tested
   mark_lights(cell, count);
   barrier();  // all bits before they are read
-  const uint index = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
   if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, count == 0u ? 0u : 1u, count);
   write_rows(index, count);
 }
