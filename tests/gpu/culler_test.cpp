@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <tuple>
 
 #include "gpu/dispatch.h"
 #include "gpu/method_check.h"
@@ -154,6 +153,32 @@ TEST_F(CullerTest, SpheresOfTheEngineOrOfItsOwn) {
     EXPECT_GT(walked(masks), 0);
     EXPECT_NEAR(static_cast<double>(walked(masks)), static_cast<double>(walked(cull_and_walk(own, frame))),
                 1e-3 * static_cast<double>(walked(masks)));
+  }
+}
+
+// What `lamplight` does with few lights in small pictures where subgroups are large: a work group is a tile.
+TEST_F(CullerTest, FewLightsInTilesOrInCells) {
+  const EngineFrame frame = make_frame("infinite", 64);
+  vulkan::Device large_subgroups = test_context().device();
+  large_subgroups.traits.subgroup_size = 32;  // of plans alone: shaders ask the device
+  for (const std::string container : {"container=list", "container=bits"}) {
+    for (const std::string prune : {"prune=none", "prune=pixel"}) {
+      SCOPED_TRACE(fmt::format("{} {}", container, prune));
+      const auto culler_on = [&](const vulkan::Device& device, std::string cells) {
+        return take(vulkan::Culler::create(device, {.width = WIDTH,
+                                                    .height = HEIGHT,
+                                                    .light_capacity = CAPACITY,
+                                                    .method = "lamplight",
+                                                    .options = {container, prune, std::move(cells)}}));
+      };
+      vulkan::Culler tiles = culler_on(large_subgroups, "cells=gather");
+      vulkan::Culler cells = culler_on(test_context().device(), "cells=gather");
+      vulkan::Culler lights = culler_on(test_context().device(), "cells=bits");
+      const std::vector<glm::uvec2> masks = cull_and_walk(tiles, frame);
+      expect_no_miss(frame, masks);
+      EXPECT_EQ(masks, cull_and_walk(cells, frame));
+      EXPECT_EQ(masks, cull_and_walk(lights, frame));
+    }
   }
 }
 

@@ -1,6 +1,6 @@
-// All of it at once, where lights are few: a work group is a cell, reads its depths, looks at every light, tests those that
-// may reach the cell exactly against its tiles, and writes their lists. A list has room for all lights, so nothing is
-// counted first, and nothing can be too much.
+// All of it at once, where lights are few: a work group is a cell, reads its depths, looks at every light, tests those
+// that may reach the cell exactly against its tiles, and writes their lists. A list has room for all lights, so nothing
+// is counted first, and nothing can be too much.
 // SPDX-License-Identifier: Apache-2.0
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;

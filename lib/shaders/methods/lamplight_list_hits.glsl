@@ -1,6 +1,6 @@
-// Hits as a list, where lights are many: pairs of light and cell are counted in a matrix, blocks of lights by cells, where
-// each learns its rank, and are kept for scattering. They wait in the subgroup's part of shared memory until there are
-// enough to write.
+// Hits as a list, where lights are many: pairs of light and cell are counted in a matrix, blocks of lights by cells,
+// where each learns its rank, and are kept for scattering. They wait in the subgroup's part of shared memory until
+// there are enough to write.
 // Needs: CELLS; `totals`. Gives group_share, lights_to_find, light_to_find; keep_hit, keep_last_hits.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_LIST_HITS
@@ -27,7 +27,8 @@ uint light_to_find(uint i) { return seen[i]; }
 
 void clear_hits() { s_group_hits = 0u; }
 
-// Room among all hits, by one thread. Where there is none left the total stops growing: it has 32 bits, the sum might not.
+// Room among all hits, by one thread. Where there is none left the total stops growing: it has 32 bits, the sum might
+// not.
 uint reserve_hits(uint count) { return totals.hits <= HITS ? atomicAdd(totals.hits, count) : HITS; }
 
 // All below is for the threads of a subgroup together. `waiting`: its hits since they were last written.

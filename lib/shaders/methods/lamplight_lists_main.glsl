@@ -1,5 +1,5 @@
-// A piece of a cell's lights by one work group for each ROWS rows of the cell: put in order, tested exactly against every
-// row that the light's rectangle covers, and written as one ascending list a row, or as one bit a row and light.
+// A piece of a cell's lights by one work group for each ROWS rows of the cell: put in order, tested exactly against
+// every row that the light's rectangle covers, and written as one ascending list a row, or as one bit a row and light.
 // A bit matrix in shared memory (rows x lights) holds who reaches what, so that each list is written once and in order.
 // SPDX-License-Identifier: Apache-2.0
 layout(local_size_x_id = 0) in;
@@ -63,7 +63,8 @@ void reserve_lists(uint size) {
   s_base = size == 0u || (begin <= LIST_ENTRIES && size <= LIST_ENTRIES - begin) ? begin : ~0u;
 }
 
-// By all threads of the group together. Returns whether the lists fit; if not, the piece's lights stand for each of them.
+// By all threads of the group together. Returns whether the lists fit; if not, the piece's lights stand for each of
+// them.
 bool write_lists(Cell cell, uint begin, uint count) {
   const uint thread = gl_LocalInvocationIndex;
   const uint threads = gl_WorkGroupSize.x;
@@ -78,7 +79,8 @@ bool write_lists(Cell cell, uint begin, uint count) {
   }
   barrier();  // places before lists are written
   const bool fits = s_base != ~0u;
-  for (uint i = thread; fits && i < ROWS * words; i += threads) write_list_word(i % ROWS, i / ROWS, s_base + s_list_begin[i % ROWS]);
+  for (uint i = thread; fits && i < ROWS * words; i += threads)
+    write_list_word(i % ROWS, i / ROWS, s_base + s_list_begin[i % ROWS]);
   for (uint row = thread; row < ROWS; row += threads) {
     const uint at = 2u * (gl_WorkGroupID.x * CELL_ROWS + cell.first_row + row);
     rows[at] = fits ? s_base + s_list_begin[row] : begin | COARSE;

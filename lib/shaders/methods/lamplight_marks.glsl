@@ -1,40 +1,25 @@
-// Which lights of a piece reach which rows of its cell: a bit matrix in shared memory. Each subgroup takes lights of its own,
-// and no barrier of the group stands between them. A first look at all pairs of light and row drops most. Those that stay
-// wait in the subgroup's part of shared memory until there are enough for the exact test of spheres by all of its threads,
-// and what that leaves of spots waits again, for the test of cones.
+// Which lights of a piece reach which rows of its cell: a bit matrix in shared memory. Each subgroup takes lights of
+// its own, and no barrier of the group stands between them. A first look at all pairs of light and row drops most.
+// Those that stay wait until there are enough for the exact test of spheres by all of the subgroup's threads, and what
+// that leaves of spots waits again, for the test of cones.
 // Needs: TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS; `frame`, `lights`, `spheres`; s_lights; PRUNED or not.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
 #define LAMP_METHODS_LAMPLIGHT_MARKS
-#extension GL_KHR_shader_subgroup_ballot : require
 #include "common/light_bounds.glsl"
 #include "common/sphere_tests.glsl"
 #include "common/spot_tests.glsl"
+#include "methods/lamplight_pairs.glsl"
 #include "methods/lamplight_rows.glsl"
 
 shared uint s_bits[MARK_WORDS];  // PIECE_WORDS for each of ROWS
 shared LightBounds s_spheres[PIECE];
-shared uint s_pairs[PAIRS];  // that wait: two of each thread for spheres, and behind all these two for cones
 
 uint bit_word(uint row, uint word) { return row * PIECE_WORDS + word; }
 
 // By all threads of the group together, before a barrier.
 void clear_marks() {
   for (uint i = gl_LocalInvocationIndex; i < MARK_WORDS; i += gl_WorkGroupSize.x) s_bits[i] = 0u;
-}
-
-// A light of the piece and a row, in 32 bits.
-struct Pair {
-  uint entry;
-  uint row;
-  bool spot;
-};
-const uint PAIR_ENTRY_BITS = 16u;
-const uint PAIR_OF_SPOT = 0x80000000u;
-uint packed_pair(uint entry, uint row, uint spot) { return entry | row << PAIR_ENTRY_BITS | spot; }
-Pair pair_of(uint packed) {
-  return Pair(packed & (1u << PAIR_ENTRY_BITS) - 1u, (packed & ~PAIR_OF_SPOT) >> PAIR_ENTRY_BITS,
-              (packed & PAIR_OF_SPOT) != 0u);
 }
 
 // What the exact tests look at.
@@ -71,9 +56,6 @@ bool cone_reaches_row(Pair pair) {
 #endif
 
 // All below is for the threads of a subgroup together.
-uint first_pair() { return gl_SubgroupID * 2u * gl_SubgroupSize; }
-uint first_spot() { return PAIRS / 2u + first_pair(); }
-
 // Its i-th light in the piece. Neighbours go to different subgroups, because they tend to have as many pairs.
 uint entry_of(uint i) { return gl_SubgroupID + i * gl_NumSubgroups; }
 
@@ -85,25 +67,6 @@ void load_spheres(uint count) {
   }
   subgroupMemoryBarrierShared();
   subgroupBarrier();  // spheres before other threads read them
-}
-
-// Returns how many wait now, from `first` on.
-uint wait(uint first, uint waiting, bool has_pair, uint packed) {
-  const uvec4 those = subgroupBallot(has_pair);
-  if (has_pair) s_pairs[first + waiting + subgroupBallotExclusiveBitCount(those)] = packed;
-  return waiting + subgroupBallotBitCount(those);
-}
-
-// One of those that came last for each thread; without one any of them again.
-uint take(uint first, inout uint waiting, out bool has_pair) {
-  subgroupMemoryBarrierShared();
-  subgroupBarrier();  // pairs are there before they are read
-  const uint count = min(waiting, gl_SubgroupSize);
-  has_pair = gl_SubgroupInvocationID < count;
-  waiting -= count;
-  const uint packed = s_pairs[first + waiting + min(gl_SubgroupInvocationID, count - 1u)];
-  subgroupBarrier();  // and read before others take their place
-  return packed;
 }
 
 void mark(Cell cell, Pair pair, bool reached) {

@@ -1,5 +1,5 @@
-// Depths of the tiles of a cell, which is a work group's: nearest, farthest and the mask of occupied parts of each; nearest
-// and farthest of all. A subgroup takes whole tiles, so that tiles need no barrier.
+// Depths of the tiles of a cell, which is a work group's: nearest, farthest and the mask of occupied parts of each;
+// nearest and farthest of all. A subgroup takes whole tiles, so that tiles need no barrier.
 // Based on: Harada, A 2.5D Culling for Forward+, SIGGRAPH Asia (2012), for the mask.
 // Needs: TILE_PX, CELL_TILES, HELD: 1 or MOST_HELD; BOUNDS_MASK; `frame`, `depth_squares`.
 // SPDX-License-Identifier: Apache-2.0
@@ -13,8 +13,8 @@
 shared uint s_nearest;   // device depth: reversed, so the greatest
 shared uint s_farthest;
 
-// HELD squares of 2 x 2 pixels are loaded at once by a thread and held in registers: with two, 32 threads read a tile of 16
-// pixels once.
+// HELD squares of 2 x 2 pixels are loaded at once by a thread and held in registers: with two, 32 threads read a tile
+// of 16 pixels once.
 const uint MOST_HELD = 2u;
 const uint SQUARES_ACROSS = TILE_PX / 2u;
 const uint SQUARES = SQUARES_ACROSS * SQUARES_ACROSS;
