@@ -103,13 +103,17 @@ void compile_all(Context& context, const ShaderLibrary& shaders) {
 // A GPU that has slept for long is awake after that much work at the latest.
 constexpr std::chrono::milliseconds WAKE_TIME(400);
 
+View view_at(const Scene& scene, const MeasuredPoint& point) {
+  return view_of(scene.cameras.front(), point.width, point.height, "camera");
+}
+
 /// Renders until then, and for WAKE_TIME at least: a GPU that waits falls asleep, and takes as long to wake as it
 /// slept.
-void keep_awake(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const View& view,
+void keep_awake(Context& context, const ShaderLibrary& shaders, const Scene& scene, const GpuScene& gpu_scene,
                 const std::future<void>& until) {
   const MeasuredPoint& point = points_of(context).front();
-  Renderer renderer(context, shaders, scene, point.width, point.height, 1);
-  renderer.set_frame(view, {});
+  Renderer renderer(context, shaders, gpu_scene, point.width, point.height, 1);
+  renderer.set_frame(view_at(scene, point), {});
   Lighting lighting(context.device(), shaders, lighting_info(auto_candidates().front(), point, false));
   const auto begin = std::chrono::steady_clock::now();
   while (until.wait_for(std::chrono::seconds(0)) != std::future_status::ready ||
@@ -151,10 +155,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   const Scene scene = calibration_scene();
   const OpenAir air = find_open_air(scene);
   const GpuScene gpu_scene(context, scene);
-  const MeasuredPoint& first = points_of(context).front();
-  if (!software)
-    keep_awake(context, shaders, gpu_scene, view_of(scene.cameras.front(), first.width, first.height, "camera"),
-               compiled);
+  if (!software) keep_awake(context, shaders, scene, gpu_scene, compiled);
   compiled.get();
   auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
@@ -162,7 +163,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   for (const MeasuredPoint& point : points_of(context)) {
     Renderer renderer(context, shaders, gpu_scene, point.width, point.height,
                       std::max(point.lights, SOFTWARE_CAPACITY));
-    const View view = view_of(scene.cameras.front(), point.width, point.height, "camera");
+    const View view = view_at(scene, point);
     const std::vector<shared::Light> lights =
         pack(place_lights(air, {.count = point.lights, .min_range = point.range, .max_range = point.range}));
     renderer.set_frame(view, lights);
@@ -170,7 +171,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
     if (software) workload.capacity = SOFTWARE_CAPACITY;
     std::list<Timed> timed = candidates_for(context, shaders, point);
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
-    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work, and compiled
+    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work
     time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
     for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, workload));
     before = std::chrono::steady_clock::now();

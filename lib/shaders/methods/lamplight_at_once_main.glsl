@@ -11,17 +11,8 @@ layout(constant_id = 5) const uint PAIRS = 1024;     // of light and row that wa
 layout(constant_id = 6) const uint ROWS = 16;        // tiles of the cell
 layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
-#define AT_ONCE
-#define BOUNDS BOUNDS_MASK
-#define TEST TEST_EXACT
-#define SPOT SPOT_CONE_SEGMENTS
-#include "common/sphere_tests.glsl"
-#include "common/spot_tests.glsl"
-#include "lamplight/shared/lamplight.h"
+#include "methods/lamplight_exact.glsl"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 3) uniform sampler2D depth_squares;
 layout(set = 0, binding = 4, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };    // LightSpan, or PIECE_WORDS words

@@ -1,10 +1,11 @@
-// One look at the depth buffer: each tile's depth range with a mask of its occupied parts, each cell's depth range.
+// One look at the depth buffer: each tile's depth range with a mask of its occupied parts, each cell's depth range. And
+// zeroes for what later passes count or keep lights in.
 // SPDX-License-Identifier: Apache-2.0
-
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
-layout(constant_id = 3) const uint HELD = 2;  // 1 or MOST_HELD
+layout(constant_id = 3) const uint HELD = 2;     // 1 or MOST_HELD
+layout(constant_id = 4) const uint BLOCK = 256;  // lights
 #define BOUNDS BOUNDS_MASK
 #include "common/tile_ranges.glsl"
 #include "lamplight/shared/lamplight.h"
@@ -13,10 +14,11 @@ layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; 
 layout(set = 0, binding = 1) uniform sampler2D depth_squares;
 layout(set = 0, binding = 2, scalar) writeonly buffer TileBuffer { TileDepths tile_depths[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[]; };  // blocks times cells, or bits
+layout(set = 0, binding = 5, scalar) writeonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
 #ifdef CELL_BITS
 layout(set = 0, binding = 6, scalar) writeonly buffer TotalBuffer { uint totals[]; };  // LightTotals
 #endif
-#include "methods/lamplight_cell_clear.glsl"
 #include "methods/lamplight_tile_depths.glsl"
 
 // Before all passes that count: sooner than a pass of its own.
@@ -27,10 +29,20 @@ void clear_totals() {
 #endif
 }
 
+// A share of the zeroes, by all threads of the group together: here they cost little, because all wait for the depth
+// buffer.
+void clear_counts() {
+  const uint cells = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+  const uint words = (frame.light_count + BLOCK - 1u) / BLOCK * cells;
+  const uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+  for (uint i = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex; i < words; i += cells * gl_WorkGroupSize.x)
+    counts[i] = 0u;
+}
+
 void main() {
   if (gl_LocalInvocationIndex == 0u) clear_cell_depths();
   clear_totals();
-  prepare_cell();
+  clear_counts();
   barrier();  // initial values before the first tile
   const uvec2 size_px = frame.size_px;
   const uvec2 tiles = (size_px + TILE_PX - 1u) / TILE_PX;
@@ -41,5 +53,8 @@ void main() {
     if (subgroupElect()) tile_depths[tile.x + tiles.x * tile.y] = result;
   }
   barrier();  // every tile before the cell
-  finish_cell(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y, depths_of_cell());
+  if (gl_LocalInvocationIndex != 0u) return;
+  const uint cell = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+  cell_depths[cell] = packHalf2x16(depths_of_cell());
+  cells[cell] = LightCell(0u, 0u, 0u);
 }

@@ -17,16 +17,8 @@ layout(constant_id = 13) const uint CELL_SLICES = 4;
 #define SLICE_CONSTANT 14
 #include "common/slice_constants.glsl"
 #endif
-#define BOUNDS BOUNDS_MASK
-#define TEST TEST_EXACT
-#define SPOT SPOT_CONE_SEGMENTS
-#include "common/sphere_tests.glsl"
-#include "common/spot_tests.glsl"
-#include "lamplight/shared/lamplight.h"
+#include "methods/lamplight_exact.glsl"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
@@ -55,6 +47,24 @@ layout(set = 0, binding = DEPTH_BINDING + 1) uniform texture2D depth_image;
 shared uint s_list_size[ROWS];
 shared uint s_list_begin[ROWS];
 shared uint s_base;
+
+TileDepths depths_of_row(Cell cell, uvec2 tile) {
+#ifdef SLICED
+  const uint slice = cell.first_slice + cell.first_row / TILES;
+  const float begin = is_perspective(frame) ? max(slice_begin(slice), 0.0) : slice_begin(slice);
+  return slice < SLICES ? TileDepths(begin, slice_end(slice), 0.0, ~0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
+#else
+  const uint tiles_wide = (frame.size_px.x + TILE_PX - 1u) / TILE_PX;
+  return tile_depths[tile.x + tiles_wide * tile.y];
+#endif
+}
+
+// By one thread a row.
+void load_row(Cell cell, uint row) {
+  const uvec2 tile = tile_of_row(cell, row);
+  s_depths[row] = is_in_picture(tile) ? depths_of_row(cell, tile) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
+  load_sides(cell, row);
+}
 
 // Room for all rows' lists together. By one thread; where the total could begin anew, after a look at it.
 void reserve_lists(uint size) {

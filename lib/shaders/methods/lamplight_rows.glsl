@@ -1,7 +1,6 @@
 // The rows of a cell that a work group looks at: tiles with their depths and sides, in shared memory. Without a depth
 // buffer a row is a tile in a slice of depth.
-// Needs: TILE_PX, CELL_TILES, ROWS; `frame`; AT_ONCE, where s_depths comes from elsewhere, or SLICED and
-// common/slice_constants.glsl, or `tile_depths`.
+// Needs: TILE_PX, CELL_TILES, ROWS; `frame`; SLICED or not. Whoever includes it fills s_depths.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_ROWS
 #define LAMP_METHODS_LAMPLIGHT_ROWS
@@ -38,26 +37,6 @@ void load_sides(Cell cell, uint row) {
 }
 
 bool is_in_picture(uvec2 tile) { return all(lessThan(tile * TILE_PX, frame.size_px)); }
-
-#ifndef AT_ONCE
-TileDepths depths_of_row(Cell cell, uvec2 tile) {
-#ifdef SLICED
-  const uint slice = cell.first_slice + cell.first_row / TILES;
-  const float begin = is_perspective(frame) ? max(slice_begin(slice), 0.0) : slice_begin(slice);
-  return slice < SLICES ? TileDepths(begin, slice_end(slice), 0.0, ~0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
-#else
-  const uint tiles_wide = (frame.size_px.x + TILE_PX - 1u) / TILE_PX;
-  return tile_depths[tile.x + tiles_wide * tile.y];
-#endif
-}
-
-// By one thread a row.
-void load_row(Cell cell, uint row) {
-  const uvec2 tile = tile_of_row(cell, row);
-  s_depths[row] = is_in_picture(tile) ? depths_of_row(cell, tile) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
-  load_sides(cell, row);
-}
-#endif
 
 // The first look: depths, occupied parts, each of the four sides alone.
 bool may_reach_row(LightBounds sphere, uint row) {

@@ -55,7 +55,7 @@ std::uint32_t few_lights(const Problem& problem, std::uint32_t threads) {
 std::uint32_t find_share(const Problem& problem, std::uint32_t threads) {
   const std::uint32_t subgroups = parts::divide_up(threads, problem.traits.subgroup_size);
   const std::uint32_t wanted = parts::divide_up(parts::capacity(problem), WANTED_GROUPS);
-  return std::clamp(wanted, std::min(subgroups, threads), threads);
+  return std::clamp(wanted, subgroups, threads);
 }
 
 struct Buffers {
@@ -114,12 +114,15 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t threads = group_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
   Pass pass{.name = "tile depth",
             .shader = shader_of("depth", s),
-            .constants = {threads, s.tile_px, s.cell_tiles, lamplight::squares_held(problem)},
-            .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.tile_depths, Access::write}, {b.cells, Access::write}},
+            .constants = {threads, s.tile_px, s.cell_tiles, lamplight::squares_held(problem), s.block},
+            .bindings = {{INPUT_FRAME},
+                         {INPUT_DEPTH},
+                         {b.tile_depths, Access::write},
+                         {b.cells, Access::write},
+                         {b.matrix, Access::write},
+                         {b.cell_depths, Access::write}},
             .extent = {.x = s.cells.width, .y = s.cells.height},
             .shared_bytes = 32};
-  pass.constants.push_back(s.block);
-  pass.bindings.insert(pass.bindings.end(), {{b.matrix, Access::write}, {b.cell_depths, Access::write}});
   if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
   return pass;
 }
@@ -134,9 +137,8 @@ Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) 
 }
 
 Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::uint32_t threads) {
-  const std::uint32_t share = find_share(problem, threads);
-  Constants constants = {threads, s.tile_px, s.cell_tiles, s.cell_count,
-                         s.cell_bits ? share : few_lights(problem, threads)};
+  const std::uint32_t share = s.cell_bits ? find_share(problem, threads) : few_lights(problem, threads);
+  Constants constants = {threads, s.tile_px, s.cell_tiles, s.cell_count, share};
   Pass pass{.name = "find cells",
             .shader = shader_of(s.sliced() ? "find_sliced" : "find", s),
             .bindings = {{INPUT_FRAME},
@@ -144,11 +146,11 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
                          {INPUT_SPHERES},
                          {b.totals, Access::read_write},
                          {b.matrix, Access::read_write}},
-            .extent = {.lights_per_group = share},
             .shared_bytes = QUEUE_BYTES + 8};
   if (s.cell_bits) {
     constants.insert(constants.end(), {s.pieces, s.cell_rows / s.group_rows, threads});
     pass.bindings.insert(pass.bindings.end(), {{b.cells, Access::read_write}, {b.pieces, Access::write}});
+    pass.extent = {.lights_per_group = share};
     pass.shared_bytes += threads * 4;
   } else {
     constants.insert(constants.end(), {s.block, s.entries, GROUP_HITS * threads});
