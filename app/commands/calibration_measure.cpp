@@ -3,9 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <list>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "commands/calibration.h"
@@ -86,49 +89,120 @@ bool takes(const AutoCandidate& candidate, const MeasuredPoint& point, bool soft
   return point.lights <= candidate.most_capacity && (candidate.walk != nullptr || can_walk_all);
 }
 
-/// Drivers take long to compile, so everything of every point is made once beforehand, by all threads; the device keeps
-/// the pipelines.
-void compile_all(Context& context, const ShaderLibrary& shaders) {
+/// Of each point each candidate that takes it, or none yet.
+using Compiled = std::vector<std::vector<std::optional<Lighting>>>;
+
+// Of the device's memory, for buffers of plans that wait for their turn.
+constexpr std::uint64_t WAITING_SHARE = 8;
+
+/// Drivers take long to compile, so everything of every point is made beforehand, by all threads. What has no room to
+/// wait is made again when its turn comes; the device keeps the pipelines.
+Compiled compile_all(Context& context, const ShaderLibrary& shaders) {
   const std::span<const AutoCandidate> candidates = auto_candidates();
   const std::span<const MeasuredPoint> points = points_of(context);
   const bool software = is_software(context);
+  const std::uint64_t room = context.device().traits.memory_bytes / WAITING_SHARE;
+  std::atomic<std::uint64_t> taken = 0;
+  Compiled compiled(points.size());
+  for (auto& of_point : compiled) of_point.resize(candidates.size());
   tbb::parallel_for(std::size_t{0}, points.size() * candidates.size(), [&](std::size_t i) {
     const AutoCandidate& candidate = candidates[i % candidates.size()];
     const MeasuredPoint& point = points[i / candidates.size()];
     if (!takes(candidate, point, software)) return;
-    const Lighting compiled(context.device(), shaders, lighting_info(candidate, point, software));
+    Lighting lighting(context.device(), shaders, lighting_info(candidate, point, software));
+    const std::uint64_t bytes = lighting.runner().plan().bytes();
+    if (taken.fetch_add(bytes) + bytes <= room)
+      compiled[i / candidates.size()][i % candidates.size()] = std::move(lighting);
   });
+  return compiled;
 }
 
 // A GPU that has slept for long is awake after that much work at the latest.
 constexpr std::chrono::milliseconds WAKE_TIME(400);
 
-View view_at(const Scene& scene, const MeasuredPoint& point) {
-  return view_of(scene.cameras.front(), point.width, point.height, "camera");
-}
+/// Everything of a point but the candidates. Points of one size share a renderer, and have the same depths.
+struct Prepared {
+  Renderer* renderer = nullptr;
+  View view;
+  std::vector<shared::Light> lights;
+  Workload workload;
+};
+
+class Preparation {
+ public:
+  Preparation(Context& context, const ShaderLibrary& shaders)
+      : scene_(calibration_scene()), gpu_scene_(context, scene_), air_(find_open_air(scene_)) {
+    const bool software = is_software(context);
+    for (const MeasuredPoint& point : points_of(context)) {
+      const OfSize& of_size = size_of(context, shaders, point);
+      Prepared prepared{.renderer = of_size.renderer.get(), .view = of_size.view, .lights = {}, .workload = {}};
+      prepared.lights =
+          pack(place_lights(air_, {.count = point.lights, .min_range = point.range, .max_range = point.range}));
+      prepared.workload = estimate_workload(prepared.view, of_size.depth, prepared.lights);
+      if (software) prepared.workload.capacity = SOFTWARE_CAPACITY;
+      points_.push_back(std::move(prepared));
+    }
+  }
+
+  [[nodiscard]] std::span<const Prepared> points() const { return points_; }
+
+ private:
+  struct OfSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    View view;
+    std::unique_ptr<Renderer> renderer;
+    std::vector<float> depth;
+  };
+
+  const OfSize& size_of(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point) {
+    const auto is_size = [&](const OfSize& one) { return one.width == point.width && one.height == point.height; };
+    if (const auto found = std::ranges::find_if(sizes_, is_size); found != sizes_.end()) return *found;
+    std::uint32_t most_lights = SOFTWARE_CAPACITY;
+    for (const MeasuredPoint& other : points_of(context)) most_lights = std::max(most_lights, other.lights);
+    OfSize& made = sizes_.emplace_back(OfSize{
+        .width = point.width,
+        .height = point.height,
+        .view = view_of(scene_.cameras.front(), point.width, point.height, "camera"),
+        .renderer = std::make_unique<Renderer>(context, shaders, gpu_scene_, point.width, point.height, most_lights),
+        .depth = {}});
+    made.renderer->set_frame(made.view, {});
+    made.depth = made.renderer->draw_depth();
+    return made;
+  }
+
+  Scene scene_;
+  GpuScene gpu_scene_;
+  OpenAir air_;
+  std::list<OfSize> sizes_;
+  std::vector<Prepared> points_;
+};
 
 /// Renders until then, and for WAKE_TIME at least: a GPU that waits falls asleep, and takes as long to wake as it
 /// slept.
-void keep_awake(Context& context, const ShaderLibrary& shaders, const Scene& scene, const GpuScene& gpu_scene,
-                const std::future<void>& until) {
-  const MeasuredPoint& point = points_of(context).front();
-  Renderer renderer(context, shaders, gpu_scene, point.width, point.height, 1);
-  renderer.set_frame(view_at(scene, point), {});
-  Lighting lighting(context.device(), shaders, lighting_info(auto_candidates().front(), point, false));
+template <class Result>
+void keep_awake(Context& context, const ShaderLibrary& shaders, const Prepared& prepared,
+                const std::future<Result>& until) {
+  prepared.renderer->set_frame(prepared.view, {});
+  Lighting lighting(context.device(), shaders,
+                    lighting_info(auto_candidates().front(), points_of(context).front(), false));
   const auto begin = std::chrono::steady_clock::now();
   while (until.wait_for(std::chrono::seconds(0)) != std::future_status::ready ||
          std::chrono::steady_clock::now() - begin < WAKE_TIME)
-    static_cast<void>(renderer.time(lighting, Timing::parts));
+    static_cast<void>(prepared.renderer->time(lighting, Timing::parts));
 }
 
-std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point) {
+std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point,
+                                std::vector<std::optional<Lighting>>& compiled) {
   const std::span<const AutoCandidate> all = auto_candidates();
   const bool software = is_software(context);
   std::list<Timed> timed;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (takes(all[i], point, software))
-      timed.push_back(
-          {i, Lighting(context.device(), shaders, lighting_info(all[i], point, software)), FrameTimes(GPU_FRAMES)});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!takes(all[i], point, software)) continue;
+    if (!compiled[i]) compiled[i].emplace(context.device(), shaders, lighting_info(all[i], point, software));
+    timed.push_back({i, std::move(*compiled[i]), FrameTimes(GPU_FRAMES)});
+    compiled[i].reset();
+  }
   return timed;
 }
 
@@ -151,29 +225,21 @@ CostSample sample_of(const Timed& timed, const Workload& workload) {
 
 Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
   const bool software = is_software(context);
-  std::future<void> compiled = std::async(std::launch::async, [&] { compile_all(context, shaders); });
-  const Scene scene = calibration_scene();
-  const OpenAir air = find_open_air(scene);
-  const GpuScene gpu_scene(context, scene);
-  if (!software) keep_awake(context, shaders, scene, gpu_scene, compiled);
-  compiled.get();
+  auto compiling = std::async(std::launch::async, [&] { return compile_all(context, shaders); });
+  const Preparation preparation(context, shaders);
+  if (!software) keep_awake(context, shaders, preparation.points().front(), compiling);
+  Compiled compiled = compiling.get();
   auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
-  for (const MeasuredPoint& point : points_of(context)) {
-    Renderer renderer(context, shaders, gpu_scene, point.width, point.height,
-                      std::max(point.lights, SOFTWARE_CAPACITY));
-    const View view = view_at(scene, point);
-    const std::vector<shared::Light> lights =
-        pack(place_lights(air, {.count = point.lights, .min_range = point.range, .max_range = point.range}));
-    renderer.set_frame(view, lights);
-    Workload workload = estimate_workload(view, renderer.draw_depth(), lights);
-    if (software) workload.capacity = SOFTWARE_CAPACITY;
-    std::list<Timed> timed = candidates_for(context, shaders, point);
+  for (std::size_t i = 0; i < compiled.size(); ++i) {
+    const Prepared& point = preparation.points()[i];
+    point.renderer->set_frame(point.view, point.lights);
+    std::list<Timed> timed = candidates_for(context, shaders, points_of(context)[i], compiled[i]);
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
-    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work
-    time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
-    for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, workload));
+    if (!software) wake(*point.renderer, timed.front().lighting, waited.count());  // the host had work
+    time_rounds(*point.renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
+    for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, point.workload));
     before = std::chrono::steady_clock::now();
   }
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};

@@ -17,10 +17,16 @@ struct Walk {
 };
 
 Walk walk_begin(uvec2 pixel, float z_view) {
-  const LightCell cell = lookup_light_cell(pixel, z_view);
+  const uint index = lookup_light_cell(pixel, z_view);
+  const LightCell cell = lookup_cells[index];
   if (cell.pieces == ALL_LIGHTS) return Walk(0u, lookup_frame.light_count, 0u, 0u, true);
-  const uint first = cell.first_piece * LOOKUP_CELL_ROWS + lookup_row(pixel, z_view);
-  return Walk(0u, 0u, first, first + cell.pieces * LOOKUP_CELL_ROWS, false);
+  const uint row = lookup_row(pixel, z_view);
+  const uint next = cell.first_piece * LOOKUP_CELL_ROWS + row;
+  if (LOOKUP_FIRST_AT_CELL == 0u) return Walk(0u, 0u, next, next + cell.pieces * LOOKUP_CELL_ROWS, false);
+  const LightSpan span = lookup_spans[index * LOOKUP_CELL_ROWS + row];  // of a cell without lights anything
+  const uint further = max(cell.pieces, 1u) - 1u;
+  const uint count = cell.pieces == 0u ? 0u : span.count;
+  return Walk(span.first, span.first + count, next, next + further * LOOKUP_CELL_ROWS, false);
 }
 
 // The next span with lights left; false if there is none.

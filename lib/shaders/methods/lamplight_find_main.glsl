@@ -6,8 +6,8 @@ layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
 layout(constant_id = 3) const uint CELLS = 1;
 #ifdef SLICED
-layout(constant_id = 8) const uint CELL_SLICES = 4;
-#define SLICE_CONSTANT 9
+layout(constant_id = 5) const uint CELL_SLICES = 4;
+#define SLICE_CONSTANT 6
 #include "common/slice_constants.glsl"
 const uint CELL_ROWS = CELL_TILES * CELL_TILES * CELL_SLICES;
 #else
@@ -23,15 +23,17 @@ const uint CELL_ROWS = CELL_TILES * CELL_TILES;
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
-layout(set = 0, binding = 3, scalar) buffer TotalBuffer { LightTotals totals; };
 #ifdef CELL_BITS
+#define DEPTH_BINDING 5
 #include "methods/lamplight_bit_hits.glsl"
 #else
+#define DEPTH_BINDING 7
 #include "methods/lamplight_list_hits.glsl"
 #endif
 #ifndef SLICED
-layout(set = 0, binding = 7, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
-layout(set = 0, binding = 8, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };  // half floats
+layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
+// Half floats.
+layout(set = 0, binding = DEPTH_BINDING + 1, scalar) readonly buffer CellDepthBuffer { uint cell_depths[]; };
 #endif
 
 #ifdef SLICED

@@ -1,18 +1,19 @@
 // Hits as a list, where lights are many: pairs of light and cell are counted in a matrix, blocks of lights by cells,
 // where each learns its rank, and are kept for scattering. They wait in the subgroup's part of shared memory until
 // there are enough to write.
-// Needs: CELLS; `totals`. Gives group_share, lights_to_find, light_to_find; keep_hit, keep_last_hits.
+// Needs: CELLS. Gives group_share, lights_to_find, light_to_find; keep_hit, keep_last_hits.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_LIST_HITS
 #define LAMP_METHODS_LAMPLIGHT_LIST_HITS
 #extension GL_KHR_shader_subgroup_ballot : require
 
-layout(constant_id = 4) const uint GROUP_FEW = 32;  // lights
-layout(constant_id = 5) const uint BLOCK = 256;     // lights
-layout(constant_id = 6) const uint HITS = 1;        // capacity
-layout(constant_id = 7) const uint GROUP_HITS = 1;  // that wait in shared memory
+layout(constant_id = 4) const uint GROUP_FEW = 32;   // lights
+layout(constant_id = 10) const uint BLOCK = 256;     // lights
+layout(constant_id = 11) const uint HITS = 1;        // capacity
+layout(constant_id = 12) const uint GROUP_HITS = 1;  // that wait in shared memory
 
-layout(set = 0, binding = 4, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
+layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]
+layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
 layout(set = 0, binding = 5, scalar) writeonly buffer HitBuffer { LightHit hits[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer SeenBuffer { uint seen[]; };  // lights in view
 #include "methods/lamplight_share.glsl"

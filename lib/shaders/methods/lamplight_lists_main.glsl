@@ -19,7 +19,11 @@ layout(constant_id = 13) const uint CELL_SLICES = 4;
 #endif
 #include "methods/lamplight_exact.glsl"
 
+#ifdef CELL_BITS
+layout(set = 0, binding = 3, scalar) buffer CellBuffer { LightCell cells[]; };
+#else
 layout(set = 0, binding = 3, scalar) readonly buffer PieceBuffer { LightPiece cell_pieces[]; };
+#endif
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
 layout(set = 0, binding = 6, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
@@ -27,6 +31,7 @@ layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[];
 #ifdef CELL_BITS
 layout(set = 0, binding = 8, scalar) readonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
 #define DEPTH_BINDING 9
+#include "methods/lamplight_bit_pieces.glsl"
 #include "methods/lamplight_bit_order.glsl"
 #else
 layout(set = 0, binding = 8, scalar) readonly buffer EntryBuffer { uint entries[]; };
@@ -43,10 +48,7 @@ layout(set = 0, binding = DEPTH_BINDING + 1) uniform texture2D depth_image;
 
 #include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
-
-shared uint s_list_size[ROWS];
-shared uint s_list_begin[ROWS];
-shared uint s_base;
+#include "methods/lamplight_list_room.glsl"
 
 TileDepths depths_of_row(Cell cell, uvec2 tile) {
 #ifdef SLICED
@@ -66,40 +68,6 @@ void load_row(Cell cell, uint row) {
   load_sides(cell, row);
 }
 
-// Room for all rows' lists together. By one thread; where the total could begin anew, after a look at it.
-void reserve_lists(uint size) {
-  const bool full = MAY_WRAP != 0u && totals.list_entries > LIST_ENTRIES;
-  const uint begin = full ? LIST_ENTRIES : atomicAdd(totals.list_entries, size);
-  s_base = size == 0u || (begin <= LIST_ENTRIES && size <= LIST_ENTRIES - begin) ? begin : ~0u;
-}
-
-// By all threads of the group together. Returns whether the lists fit; if not, the piece's lights stand for each of
-// them.
-bool write_lists(Cell cell, uint begin, uint count) {
-  const uint thread = gl_LocalInvocationIndex;
-  const uint threads = gl_WorkGroupSize.x;
-  const uint words = (count + 31u) / 32u;
-  for (uint row = thread; row < ROWS; row += threads) s_list_size[row] = lights_before(row, words);
-  barrier();  // sizes before they are added up
-  for (uint row = thread; row < ROWS; row += threads) {
-    uint before = 0u;
-    for (uint i = 0u; i < row; ++i) before += s_list_size[i];
-    s_list_begin[row] = before;
-    if (row == ROWS - 1u) reserve_lists(before + s_list_size[row]);
-  }
-  barrier();  // places before lists are written
-  const bool fits = s_base != ~0u;
-  for (uint i = thread; fits && i < ROWS * words; i += threads)
-    write_list_word(i % ROWS, i / ROWS, s_base + s_list_begin[i % ROWS]);
-  for (uint row = thread; row < ROWS; row += threads) {
-    const uint at = 2u * (gl_WorkGroupID.x * CELL_ROWS + cell.first_row + row);
-    rows[at] = fits ? s_base + s_list_begin[row] : begin | COARSE;
-    rows[at + 1u] = fits ? s_list_size[row] : count;
-  }
-  if (!fits && thread == 0u) atomicAdd(totals.counters.overflowed_cells, ROWS);
-  return fits;
-}
-
 Cell cell_of(uint index) {
   const uvec2 size = (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES);
   const uint in_layer = index % (size.x * size.y);
@@ -111,23 +79,49 @@ Cell cell_of(uint index) {
   return Cell(uvec2(in_layer % size.x, in_layer / size.x) * CELL_TILES, gl_WorkGroupID.y * ROWS, first_slice);
 }
 
-void main() {
-  const uint piece = gl_WorkGroupID.x;
-  const LightPiece listed = cell_pieces[piece];
-  if (listed.cell == NO_CELL) return;
+// By all threads of the group together: entries [begin, end) of the listed, which are kept as the piece at `place`.
+void cull_piece(LightPiece listed, uint begin, uint place) {
   const Cell cell = cell_of(listed.cell);
-  const uint begin = piece * PIECE;
   const uint end = min(begin + PIECE, listed.end);
+  const uint count = end - begin;
   clear_marks();
-  for (uint row = gl_LocalInvocationIndex; row < ROWS; row += gl_WorkGroupSize.x) load_row(cell, row);
+  if (gl_LocalInvocationIndex < ROWS) load_row(cell, gl_LocalInvocationIndex);
   order_lights(listed, begin, end);
-  mark_lights(cell, end - begin);
+  mark_lights(cell, count);
   barrier();  // all bits before they are read
   bool needs_piece = BITS && gl_WorkGroupID.y == 0u;
   if (BITS)
-    write_bits(gl_WorkGroupID.x * CELL_ROWS + cell.first_row);
+    write_bits(place * CELL_ROWS + cell.first_row);
   else
-    needs_piece = !write_lists(cell, begin, end - begin);
+    needs_piece = !write_lists(cell, place, count);
   if (!needs_piece) return;
-  for (uint i = gl_LocalInvocationIndex; i < end - begin; i += gl_WorkGroupSize.x) piece_lists[begin + i] = s_lights[i];
+  for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x)
+    piece_lists[place * PIECE + i] = s_lights[i];
 }
+
+#ifdef CELL_BITS
+void main() {
+  const bool is_first = gl_WorkGroupID.x < CELLS;
+  uint number = gl_WorkGroupID.x - CELLS;
+  CellPiece piece = CellPiece(gl_WorkGroupID.x, 0u, gl_WorkGroupID.x);
+  if (!is_first) piece = further_piece(number, number == 0u && gl_WorkGroupID.y == 0u);
+  while (piece.cell != NO_CELL) {
+    const LightPiece listed = LightPiece(piece.cell, 0u, cells[piece.cell].entries);
+    if (listed.end == 0u) return;
+    cull_piece(listed, piece.number * PIECE, piece.place);
+    if (is_first) {
+      const bool is_only = listed.end <= PIECE && gl_WorkGroupID.y == 0u;
+      if (is_only && gl_LocalInvocationIndex == 0u) cells[piece.cell].pieces = 1u;
+      return;
+    }
+    barrier();  // shared memory is read before the next piece takes it
+    number += gl_NumWorkGroups.x - CELLS;
+    piece = further_piece(number, false);
+  }
+}
+#else
+void main() {
+  const uint piece = gl_WorkGroupID.x;
+  if (cell_pieces[piece].cell != NO_CELL) cull_piece(cell_pieces[piece], piece * PIECE, piece);
+}
+#endif

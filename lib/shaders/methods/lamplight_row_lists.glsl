@@ -3,10 +3,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_ROW_LISTS
 #define LAMP_METHODS_LAMPLIGHT_ROW_LISTS
+#extension GL_EXT_control_flow_attributes : require
 
 uint lights_before(uint row, uint word) {
   uint count = 0u;
-  for (uint i = 0u; i < word; ++i) count += uint(bitCount(s_bits[bit_word(row, i)]));
+  [[unroll]] for (uint i = 0u; i < PIECE_WORDS; ++i) count += i < word ? uint(bitCount(s_bits[bit_word(row, i)])) : 0u;
   return count;
 }
 

@@ -24,11 +24,15 @@ layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // 
 layout(set = 0, binding = 2, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
-#include "methods/lamplight_pieces.glsl"
 
 shared uint s_strips[STRIPS][COLUMNS];
 shared uint s_total[COLUMNS];
 shared uint s_base;
+
+uint pieces_of(uint entries) { return (entries + PIECE - 1u) / PIECE; }
+
+// Whether pieces from `first` on are within the capacity.
+bool has_pieces(uint first, uint entries) { return first <= PIECES && pieces_of(entries) <= PIECES - first; }
 
 // Counts that a thread loads at once: their way from memory is most of the time.
 const uint HELD = 16u;
@@ -47,6 +51,16 @@ uint pieces_before(uint column) {
 void reserve_pieces(uint wanted) {
   s_base = atomicAdd(totals.wanted_pieces, wanted);
   atomicMax(totals.pieces, min(s_base + wanted, PIECES));
+}
+
+// By `threads` threads. A cell that does not fit leaves the pieces that there is room for to nobody.
+void write_cell(uint cell, uint thread, uint threads, uint first_piece, uint entries, bool fits) {
+  const uint end = min(first_piece + pieces_of(entries), PIECES);
+  const LightPiece value = LightPiece(fits ? cell : NO_CELL, first_piece * PIECE, first_piece * PIECE + entries);
+  for (uint piece = first_piece + thread; piece < end; piece += threads) cell_pieces[piece] = value;
+  if (thread > 0u) return;
+  cells[cell] = LightCell(first_piece, fits ? pieces_of(entries) : ALL_LIGHTS, entries);
+  if (!fits) atomicAdd(totals.counters.overflowed_cells, CELL_ROWS);
 }
 
 // By one thread of all: what the next two passes are dispatched by, but for the pieces themselves.

@@ -32,6 +32,8 @@ constexpr std::uint32_t MARGIN = 32;                // around them, where runs o
 constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
+constexpr std::uint32_t FURTHER_GROUPS = 512;       // for what cells have beyond their first piece
+constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups are small
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 
 /// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
@@ -69,7 +71,7 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
                        .bytes = sizeof(shared::LightTotals),
                        .zeroed = !depth_clears,
                        .zeroed_by_pass = depth_clears,
-                       .indirect = true});
+                       .indirect = !s.cell_bits});
   plan.counters = b.totals;
   if (!s.sliced()) {
     b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
@@ -80,12 +82,12 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   b.matrix = plan.add({.name = s.cell_bits ? "cell bits" : "cell counts", .bytes = matrix_bytes, .zeroed = s.sliced()});
   b.cells = plan.add(
       {.name = "cells", .bytes = std::uint64_t{s.cell_count} * sizeof(shared::LightCell), .zeroed = s.sliced()});
-  b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::LightPiece)});
   if (s.cell_bits) {
     b.piece_lists = plan.add({.name = "piece lists", .bytes = std::uint64_t{s.entries} * 4});
   } else {
     // As many hits as entries: each becomes one, and then its place is free.
     b.hits = b.piece_lists = plan.add({.name = "hits", .bytes = std::uint64_t{s.entries} * sizeof(shared::LightHit)});
+    b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::LightPiece)});
     b.entries = plan.add({.name = "cell lists", .bytes = std::uint64_t{s.entries} * 4});
   }
   b.rows = plan.add(
@@ -138,27 +140,20 @@ Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) 
 
 Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::uint32_t threads) {
   const std::uint32_t share = s.cell_bits ? find_share(problem, threads) : few_lights(problem, threads);
-  Constants constants = {threads, s.tile_px, s.cell_tiles, s.cell_count, share};
   Pass pass{.name = "find cells",
             .shader = shader_of(s.sliced() ? "find_sliced" : "find", s),
-            .bindings = {{INPUT_FRAME},
-                         {INPUT_LIGHTS},
-                         {INPUT_SPHERES},
-                         {b.totals, Access::read_write},
-                         {b.matrix, Access::read_write}},
+            .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, share}, problem, s),
+            .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.matrix, Access::read_write}},
             .shared_bytes = QUEUE_BYTES + 8};
   if (s.cell_bits) {
-    constants.insert(constants.end(), {s.pieces, s.cell_rows / s.group_rows, threads});
-    pass.bindings.insert(pass.bindings.end(), {{b.cells, Access::read_write}, {b.pieces, Access::write}});
+    pass.bindings.push_back({b.cells, Access::read_write});
     pass.extent = {.lights_per_group = share};
-    pass.shared_bytes += threads * 4;
   } else {
-    constants.insert(constants.end(), {s.block, s.entries, GROUP_HITS * threads});
-    pass.bindings.insert(pass.bindings.end(), {{b.hits, Access::write}, {b.seen}});
+    pass.constants.insert(pass.constants.end(), {s.block, s.entries, GROUP_HITS * threads});
+    pass.bindings.insert(pass.bindings.end(), {{b.totals, Access::read_write}, {b.hits, Access::write}, {b.seen}});
     pass.extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, find_x)};
     pass.shared_bytes += GROUP_HITS * threads * std::uint32_t{sizeof(shared::LightHit)};
   }
-  pass.constants = with_slices(std::move(constants), problem, s);
   if (!s.sliced()) pass.bindings.insert(pass.bindings.end(), {{b.tile_depths}, {b.cell_depths}});
   return pass;
 }
@@ -186,6 +181,17 @@ Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, scatter_x)}};
 }
 
+/// With bits a group for each cell's first piece, and some that take in turns what cells have beyond it: that costs
+/// less than to have the GPU read how many groups it needs.
+Extent lists_extent(const Problem& problem, const Sizes& s, const Buffers& b) {
+  if (!s.cell_bits) return {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)};
+  const std::uint32_t row_groups = s.cell_rows / s.group_rows;
+  const std::uint32_t groups = problem.traits.subgroup_size < 32 ? SOFTWARE_GROUPS : FURTHER_GROUPS;
+  const std::uint64_t most = std::uint64_t{s.cell_count} * ((parts::capacity(problem) - 1) / PIECE);
+  const std::uint64_t further = std::clamp<std::uint64_t>(most, 1, parts::divide_up(groups, row_groups));
+  return {.x = s.cell_count + static_cast<std::uint32_t>(further), .y = row_groups};
+}
+
 Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const bool pruned = problem.options.word("prune") == "pixel";
   const std::uint32_t mark_words = s.group_rows * shared::PIECE_WORDS;
@@ -193,25 +199,25 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t pairs = THREAD_PAIRS * threads;
   // Words in shared memory to put lights in order by: a sum for each thread, or a long run of a block.
   const std::uint32_t order_words = s.cell_bits ? threads : parts::divide_up(s.block, 32);
-  Pass pass{
-      .name = s.bits ? "tile bits" : "tile lists",
-      .shader = shader_of(s.sliced() ? "lists_sliced"
-                          : pruned   ? "lists_pruned"
-                                     : "lists",
-                          s),
-      .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, lists_may_wrap(s), pairs, s.group_rows,
-                                mark_words, s.cell_rows, s.bits ? 1U : 0U, order_words, s.block, s.cell_count},
-                               problem, s),
-      .bindings = {{INPUT_FRAME},
-                   {INPUT_LIGHTS},
-                   {INPUT_SPHERES},
-                   {b.pieces},
-                   {b.totals, Access::read_write},
-                   {b.rows, Access::write},
-                   {b.piece_lists, Access::write},
-                   {b.lists, Access::write}},
-      .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)},
-      .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 72 + 80};
+  Pass pass{.name = s.bits ? "tile bits" : "tile lists",
+            .shader = shader_of(s.sliced() ? "lists_sliced"
+                                : pruned   ? "lists_pruned"
+                                           : "lists",
+                                s),
+            .constants = with_slices(
+                {threads, s.tile_px, s.cell_tiles, s.listed, lists_may_wrap(s), pairs, s.group_rows, mark_words,
+                 s.cell_rows, s.bits ? 1U : 0U, order_words, s.cell_bits ? s.pieces : s.block, s.cell_count},
+                problem, s),
+            .bindings = {{INPUT_FRAME},
+                         {INPUT_LIGHTS},
+                         {INPUT_SPHERES},
+                         s.cell_bits ? Binding{b.cells, Access::read_write} : Binding{b.pieces},
+                         {b.totals, Access::read_write},
+                         {b.rows, Access::write},
+                         {b.piece_lists, Access::write},
+                         {b.lists, Access::write}},
+            .extent = lists_extent(problem, s, b),
+            .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 72 + 80};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
@@ -261,6 +267,7 @@ Plan plan_lamplight(const Problem& problem) {
   plan.lookup = {.name = sizes.bits ? "cell_bits" : "cell_lists",
                  .constants = with_slices({sizes.tile_px, sizes.cell_tiles}, problem, sizes),
                  .bindings = {{INPUT_FRAME}, {buffers.cells}, {buffers.rows}, {buffers.piece_lists}}};
+  plan.lookup.constants.push_back(sizes.cell_bits ? 1U : 0U);
   if (!sizes.bits) plan.lookup.bindings.push_back({buffers.lists});
   return plan;
 }

@@ -79,6 +79,7 @@ Plan plan_at_once(const Problem& problem) {
   plan.lookup = {.name = bits ? "cell_bits" : "cell_lists",
                  .constants = with_slices({grid.tile_px, grid.cell_tiles}, problem, 1, 1),
                  .bindings = {{INPUT_FRAME}, {cells}, {rows}, {lists}}};
+  plan.lookup.constants.push_back(1U);  // a cell has one piece, at its own place
   if (!bits) plan.lookup.bindings.push_back({lists});
   return plan;
 }

@@ -90,7 +90,7 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
 }
 
 std::uint32_t light_threads(const Problem& problem) {
-  return group_threads(problem, std::min(THREADS, GROUP_SUBGROUPS * problem.traits.subgroup_size));
+  return group_threads(problem, std::clamp(GROUP_SUBGROUPS * problem.traits.subgroup_size, GROUP_ROWS, THREADS));
 }
 
 std::uint32_t squares_held(const Problem& problem) { return problem.traits.subgroup_size < 32 ? 1 : 2; }
@@ -110,6 +110,7 @@ Sizes sizes_of(const Problem& problem) {
   s.block = s.cell_bits ? WORD_LIGHTS : block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);
   s.pieces = static_cast<std::uint32_t>(std::min(wanted_pieces(problem, s), most_pieces(problem, s)));
+  if (s.cell_bits) s.pieces = std::max(s.pieces, s.cell_count);  // each has its own
   s.entries = s.pieces * PIECE;
   if (s.bits) return s;
   const std::uint64_t rows = s.tiles.count() * s.slices;

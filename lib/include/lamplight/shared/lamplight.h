@@ -31,10 +31,11 @@ LAMP_CONST PIECE_WORDS = 4u;  // a bit for each of them
 
 // A cell is a square of tiles, or without depth buffer such a square times some slices of depth. Its rows are its
 // tiles, slice after slice. Its lights ascend through its pieces: piece i has room for PIECE of them from i * PIECE.
+// Where cells have bits, or all is one pass, a cell's first piece is that of the cell's own number.
 struct LightCell {
-  uint first_piece;
-  uint pieces;   // ALL_LIGHTS: its entries did not fit; walk every light
-  uint entries;  // lights
+  uint first_piece;  // or the second, where the first is known
+  uint pieces;       // ALL_LIGHTS: its entries did not fit; walk every light
+  uint entries;      // lights
 };
 LAMP_CONST ALL_LIGHTS = 0xffffffffu;
 LAMP_CONST NO_PLACE = 0xffffffffu;  // of its entries
@@ -57,7 +58,7 @@ LAMP_CONST COARSE = 0x80000000u;  // the piece's lists did not fit: all lights o
 // Zeroed at the start of every frame.
 struct LightTotals {
   Counters counters;
-  uint pieces;  // these three are the group counts of the last pass
+  uint pieces;  // these three are the group counts of the last pass, of cells with lists
   uint lists_y;
   uint lists_z;
   uint find_x;  // and these of the pass that finds cells
@@ -68,14 +69,13 @@ struct LightTotals {
   uint scatter_z;
   uint seen;           // lights in view
   uint hits;           // pairs of light and cell; beyond the capacity it may stop to grow
-  uint find_done;      // work groups of the pass that finds cells
   uint wanted_pieces;  // whether there is room or not
   uint list_entries;
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 &&
-              sizeof(LightPiece) == 12 && sizeof(LightSpan) == 8 && sizeof(LightTotals) == 72);
+              sizeof(LightPiece) == 12 && sizeof(LightSpan) == 8 && sizeof(LightTotals) == 68);
 }  // namespace lamp::shared
 #endif
 

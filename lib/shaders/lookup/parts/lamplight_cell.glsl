@@ -6,6 +6,9 @@
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
 layout(constant_id = 101) const uint LOOKUP_CELL_TILES = 4;
 layout(constant_id = 102) const uint LOOKUP_CELL_SLICES = 1;
+// 1: a cell's first piece is kept at the cell's own place, so that it can be read before the cell is, and first_piece
+// is the next one.
+layout(constant_id = 107) const uint LOOKUP_FIRST_AT_CELL = 0;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 layout(set = 0, binding = 17, scalar) readonly buffer LookupCells { LightCell lookup_cells[]; };
 
@@ -25,11 +28,11 @@ uint lookup_cell(uvec2 pixel, float z_view) {
   return tile.x + tiles.x * (tile.y + tiles.y * lookup_slice(z_view));
 }
 
-LightCell lookup_light_cell(uvec2 pixel, float z_view) {
+uint lookup_light_cell(uvec2 pixel, float z_view) {
   const uint cell_px = LOOKUP_TILE_PX * LOOKUP_CELL_TILES;
   const uvec2 at = pixel / cell_px;
   const uvec2 across = (lookup_frame.size_px + cell_px - 1u) / cell_px;
-  return lookup_cells[at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES))];
+  return at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES));
 }
 
 // Among the rows of the cell.
