@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <future>
 #include <list>
 #include <memory>
@@ -90,7 +91,10 @@ bool takes(const AutoCandidate& candidate, const MeasuredPoint& point, bool soft
 }
 
 /// Of each point each candidate that takes it, or none yet.
-using Compiled = std::vector<std::vector<std::optional<Lighting>>>;
+struct Compiled {
+  std::vector<std::vector<std::optional<Lighting>>> points;
+  bool all_wait = true;  ///< there is room for all of them
+};
 
 // Of the device's memory, for buffers of plans that wait for their turn.
 constexpr std::uint64_t WAITING_SHARE = 8;
@@ -103,8 +107,8 @@ Compiled compile_all(Context& context, const ShaderLibrary& shaders) {
   const bool software = is_software(context);
   const std::uint64_t room = context.device().traits.memory_bytes / WAITING_SHARE;
   std::atomic<std::uint64_t> taken = 0;
-  Compiled compiled(points.size());
-  for (auto& of_point : compiled) of_point.resize(candidates.size());
+  Compiled compiled{.points = std::vector<std::vector<std::optional<Lighting>>>(points.size())};
+  for (auto& of_point : compiled.points) of_point.resize(candidates.size());
   tbb::parallel_for(std::size_t{0}, points.size() * candidates.size(), [&](std::size_t i) {
     const AutoCandidate& candidate = candidates[i % candidates.size()];
     const MeasuredPoint& point = points[i / candidates.size()];
@@ -112,84 +116,80 @@ Compiled compile_all(Context& context, const ShaderLibrary& shaders) {
     Lighting lighting(context.device(), shaders, lighting_info(candidate, point, software));
     const std::uint64_t bytes = lighting.runner().plan().bytes();
     if (taken.fetch_add(bytes) + bytes <= room)
-      compiled[i / candidates.size()][i % candidates.size()] = std::move(lighting);
+      compiled.points[i / candidates.size()][i % candidates.size()] = std::move(lighting);
   });
+  compiled.all_wait = taken <= room;
   return compiled;
 }
 
 // A GPU that has slept for long is awake after that much work at the latest.
 constexpr std::chrono::milliseconds WAKE_TIME(400);
 
-/// Everything of a point but the candidates. Points of one size share a renderer, and have the same depths.
-struct Prepared {
-  Renderer* renderer = nullptr;
+/// A picture of points of one size, without lights: they have the same depths.
+struct Picture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
   View view;
+  std::unique_ptr<Renderer> renderer;
+  std::vector<float> depth;
+};
+
+/// For every point, in their order.
+std::vector<std::shared_ptr<const Picture>> make_pictures(Context& context, const ShaderLibrary& shaders,
+                                                          const Scene& scene, const GpuScene& gpu_scene) {
+  std::uint32_t most_lights = SOFTWARE_CAPACITY;
+  for (const MeasuredPoint& point : points_of(context)) most_lights = std::max(most_lights, point.lights);
+  std::vector<std::shared_ptr<const Picture>> pictures;
+  for (const MeasuredPoint& point : points_of(context)) {
+    const auto is_size = [&](const auto& one) { return one->width == point.width && one->height == point.height; };
+    if (const auto found = std::ranges::find_if(pictures, is_size); found != pictures.end()) {
+      pictures.push_back(*found);
+      continue;
+    }
+    auto renderer = std::make_unique<Renderer>(context, shaders, gpu_scene, point.width, point.height, most_lights);
+    const View view = view_of(scene.cameras.front(), point.width, point.height, "camera");
+    renderer->set_frame(view, {});
+    std::vector<float> depth = renderer->draw_depth();
+    pictures.push_back(
+        std::make_shared<Picture>(Picture{point.width, point.height, view, std::move(renderer), std::move(depth)}));
+  }
+  return pictures;
+}
+
+/// The lights of a point, and what they mean to its picture.
+struct LightLoad {
   std::vector<shared::Light> lights;
   Workload workload;
 };
 
-class Preparation {
- public:
-  Preparation(Context& context, const ShaderLibrary& shaders)
-      : scene_(calibration_scene()), gpu_scene_(context, scene_), air_(find_open_air(scene_)) {
-    const bool software = is_software(context);
-    for (const MeasuredPoint& point : points_of(context)) {
-      const OfSize& of_size = size_of(context, shaders, point);
-      Prepared prepared{.renderer = of_size.renderer.get(), .view = of_size.view, .lights = {}, .workload = {}};
-      prepared.lights =
-          pack(place_lights(air_, {.count = point.lights, .min_range = point.range, .max_range = point.range}));
-      prepared.workload = estimate_workload(prepared.view, of_size.depth, prepared.lights);
-      if (software) prepared.workload.capacity = SOFTWARE_CAPACITY;
-      points_.push_back(std::move(prepared));
-    }
-  }
+std::vector<LightLoad> make_loads(Context& context, const Scene& scene,
+                                  const std::vector<std::shared_ptr<const Picture>>& pictures) {
+  const OpenAir air = find_open_air(scene);
+  const std::span<const MeasuredPoint> points = points_of(context);
+  std::vector<LightLoad> loads(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    const float range = points[i].range;
+    loads[i].lights = pack(place_lights(air, {.count = points[i].lights, .min_range = range, .max_range = range}));
+    loads[i].workload = estimate_workload(pictures[i]->view, pictures[i]->depth, loads[i].lights);
+    if (is_software(context)) loads[i].workload.capacity = SOFTWARE_CAPACITY;
+  });
+  return loads;
+}
 
-  [[nodiscard]] std::span<const Prepared> points() const { return points_; }
-
- private:
-  struct OfSize {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    View view;
-    std::unique_ptr<Renderer> renderer;
-    std::vector<float> depth;
-  };
-
-  const OfSize& size_of(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point) {
-    const auto is_size = [&](const OfSize& one) { return one.width == point.width && one.height == point.height; };
-    if (const auto found = std::ranges::find_if(sizes_, is_size); found != sizes_.end()) return *found;
-    std::uint32_t most_lights = SOFTWARE_CAPACITY;
-    for (const MeasuredPoint& other : points_of(context)) most_lights = std::max(most_lights, other.lights);
-    OfSize& made = sizes_.emplace_back(OfSize{
-        .width = point.width,
-        .height = point.height,
-        .view = view_of(scene_.cameras.front(), point.width, point.height, "camera"),
-        .renderer = std::make_unique<Renderer>(context, shaders, gpu_scene_, point.width, point.height, most_lights),
-        .depth = {}});
-    made.renderer->set_frame(made.view, {});
-    made.depth = made.renderer->draw_depth();
-    return made;
-  }
-
-  Scene scene_;
-  GpuScene gpu_scene_;
-  OpenAir air_;
-  std::list<OfSize> sizes_;
-  std::vector<Prepared> points_;
-};
-
-/// Renders until then, and for WAKE_TIME at least: a GPU that waits falls asleep, and takes as long to wake as it
-/// slept.
-template <class Result>
-void keep_awake(Context& context, const ShaderLibrary& shaders, const Prepared& prepared,
-                const std::future<Result>& until) {
-  prepared.renderer->set_frame(prepared.view, {});
-  Lighting lighting(context.device(), shaders,
-                    lighting_info(auto_candidates().front(), points_of(context).front(), false));
+/// Renders until that is there, and for WAKE_TIME at least: a GPU that waits falls asleep, and takes as long to wake as
+/// it slept.
+void keep_awake(Context& context, const ShaderLibrary& shaders, Renderer& renderer,
+                const std::function<bool()>& is_there) {
+  const LightingInfo info = lighting_info(auto_candidates().front(), points_of(context).front(), false);
+  Lighting lighting(context.device(), shaders, info);
   const auto begin = std::chrono::steady_clock::now();
-  while (until.wait_for(std::chrono::seconds(0)) != std::future_status::ready ||
-         std::chrono::steady_clock::now() - begin < WAKE_TIME)
-    static_cast<void>(prepared.renderer->time(lighting, Timing::parts));
+  while (!is_there() || std::chrono::steady_clock::now() - begin < WAKE_TIME)
+    static_cast<void>(renderer.time(lighting, Timing::parts));
+}
+
+template <class Result>
+bool is_ready(const std::future<Result>& result) {
+  return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point,
@@ -225,21 +225,30 @@ CostSample sample_of(const Timed& timed, const Workload& workload) {
 
 Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
   const bool software = is_software(context);
+  const Scene scene = calibration_scene();
+  const GpuScene gpu_scene(context, scene);
   auto compiling = std::async(std::launch::async, [&] { return compile_all(context, shaders); });
-  const Preparation preparation(context, shaders);
-  if (!software) keep_awake(context, shaders, preparation.points().front(), compiling);
+  const auto pictures = make_pictures(context, shaders, scene, gpu_scene);
+  auto loading = std::async(std::launch::async, [&] { return make_loads(context, scene, pictures); });
+  const auto is_there = [&] { return is_ready(compiling) && is_ready(loading); };
+  if (!software) keep_awake(context, shaders, *pictures.front()->renderer, is_there);
   Compiled compiled = compiling.get();
+  const std::vector<LightLoad> loads = loading.get();
   auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
-  for (std::size_t i = 0; i < compiled.size(); ++i) {
-    const Prepared& point = preparation.points()[i];
-    point.renderer->set_frame(point.view, point.lights);
-    std::list<Timed> timed = candidates_for(context, shaders, points_of(context)[i], compiled[i]);
+  std::list<std::list<Timed>>
+      timed_all;  // kept where there is room: to free memory takes time, and the GPU falls asleep
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    Renderer& renderer = *pictures[i]->renderer;
+    renderer.set_frame(pictures[i]->view, loads[i].lights);
+    std::list<Timed>& timed =
+        timed_all.emplace_back(candidates_for(context, shaders, points_of(context)[i], compiled.points[i]));
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
-    if (!software) wake(*point.renderer, timed.front().lighting, waited.count());  // the host had work
-    time_rounds(*point.renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
-    for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, point.workload));
+    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work
+    time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
+    for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, loads[i].workload));
+    if (!compiled.all_wait) timed_all.clear();
     before = std::chrono::steady_clock::now();
   }
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};
