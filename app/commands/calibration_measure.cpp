@@ -237,8 +237,8 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
-  std::list<std::list<Timed>>
-      timed_all;  // kept where there is room: to free memory takes time, and the GPU falls asleep
+  // Kept where there is room: to free memory takes time, in which the GPU falls asleep.
+  std::list<std::list<Timed>> timed_all;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     Renderer& renderer = *pictures[i]->renderer;
     renderer.set_frame(pictures[i]->view, loads[i].lights);

@@ -1,5 +1,5 @@
 // An exclusive prefix sum over the threads of a work group of full subgroups, with one barrier: each subgroup adds up
-// what the subgroups before it hold. For one scan in a shader: no barrier lets its shared memory be used again.
+// what the subgroups before it hold. Between two scans a barrier must stand, as its shared memory is used again.
 // Needs: GROUP_THREADS, a constant.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SUBGROUP_SCAN

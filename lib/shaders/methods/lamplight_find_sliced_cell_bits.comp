@@ -1,4 +1,4 @@
-// Lights in view look for cells in layers of depth, without a depth buffer, and leave a bit in each.
+// Lights look for cells in layers of depth, without a depth buffer, and leave a bit in each.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require

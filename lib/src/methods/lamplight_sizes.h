@@ -43,7 +43,8 @@ struct Sizes {
 /// A power of two that the device takes.
 [[nodiscard]] std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted);
 
-/// Of a pass whose subgroups take lights of their own: not more than eight subgroups, where these are small.
+/// Of a pass whose subgroups take lights of their own: not more than eight subgroups, where these are small, but a
+/// thread for each row of a group.
 [[nodiscard]] std::uint32_t light_threads(const Problem& problem);
 
 /// What a thread that reads depths loads at once. Subgroups of fewer than 32 read a tile twice either way, and a
