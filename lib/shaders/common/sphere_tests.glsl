@@ -71,13 +71,19 @@ bool sphere_touches_frustum(LightBounds sphere, TileSides sides, float z_near, f
   return true;
 }
 
+// The depths that parts of a mask span, with a margin for rounding.
+vec2 depths_of_parts(float z_mask, float step, uint parts) {
+  return z_mask + step * vec2(float(findLSB(parts)) - 0.001, float(findMSB(parts)) + 1.001);
+}
+
 // The same for the occupied parts of a mask alone. f has one minimum, so that of what is occupied lies there, or at the
 // nearest occupied depth on either side.
 bool sphere_touches_parts(LightBounds sphere, TileSides sides, float z_mask, float step, uint parts) {
   if (parts == 0u) return false;
   const float radius2 = sphere.radius * sphere.radius;
-  const float z_near = z_mask + step * (float(findLSB(parts)) - 0.001);
-  const float z_far = z_mask + step * (float(findMSB(parts)) + 1.001);
+  const vec2 depths = depths_of_parts(z_mask, step, parts);
+  const float z_near = depths.x;
+  const float z_far = depths.y;
   float z = clamp(-sphere.center.z, z_near, z_far);
   for (int i = 0; i < 3; ++i) {
     const Section section = section_at(sphere, sides, z);

@@ -26,6 +26,9 @@ Pair pair_of(uint packed) {
 uint first_pair() { return gl_SubgroupID * 2u * gl_SubgroupSize; }
 uint first_spot() { return PAIRS / 2u + first_pair(); }
 
+// For one more of each thread.
+bool has_room(uint waiting) { return waiting <= gl_SubgroupSize; }
+
 // Returns how many wait now, from `first` on.
 uint wait(uint first, uint waiting, bool has_pair, uint packed) {
   const uvec4 those = subgroupBallot(has_pair);

@@ -17,7 +17,6 @@ struct Cell {
 
 shared vec4 s_x_edges[ROWS];
 shared vec4 s_y_edges[ROWS];
-shared vec4 s_lengths[ROWS];  // of the normals of the four edges
 shared TileDepths s_depths[ROWS];
 
 uvec2 tile_of_row(Cell cell, uint row) {
@@ -33,26 +32,19 @@ void load_sides(Cell cell, uint row) {
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
   s_x_edges[row] = x_edges;
   s_y_edges[row] = y_edges;
-  s_lengths[row] = edge_lengths(x_edges, y_edges);
 }
 
 bool is_in_picture(uvec2 tile) { return all(lessThan(tile * TILE_PX, frame.size_px)); }
 
-// The first look: depths, occupied parts, each of the four sides alone.
-bool may_reach_row(LightBounds sphere, uint row) {
-  const TileDepths depths = s_depths[row];
-  return sphere_touches_depths(sphere, depths.z_near, depths.z_far) &&
-         parts_near(sphere, depths.z_near, depths.scale, depths.mask) != 0u &&
-         inside_edges(sphere.center, sphere.radius, s_x_edges[row], s_y_edges[row], s_lengths[row]);
-}
-
 // The depths of a row that a sphere can reach: of a slice the part that the sphere spans, which is never infinite.
-TileRanges ranges_of_row(uint row, LightBounds sphere) {
+TileDepths depths_in_reach(uint row, LightBounds sphere) {
 #ifdef SLICED
   const float z = -sphere.center.z;
-  return masked_range(max(s_depths[row].z_near, z - sphere.radius), min(s_depths[row].z_far, z + sphere.radius), ~0u);
+  const float z_near = max(s_depths[row].z_near, z - sphere.radius);
+  const float z_far = min(s_depths[row].z_far, z + sphere.radius);
+  return TileDepths(z_near, z_far, mask_scale(z_near, z_far), z_near <= z_far ? ~0u : 0u);
 #else
-  return masked_range(s_depths[row].z_near, s_depths[row].z_far, s_depths[row].mask);
+  return s_depths[row];
 #endif
 }
 
