@@ -49,7 +49,6 @@ constexpr std::uint64_t SOFTWARE_PAIRS = 40'000'000;
 // for every count of lights.
 constexpr std::uint32_t SOFTWARE_CAPACITY = 2048;
 
-constexpr int WARM_UP = 1;
 constexpr int GPU_FRAMES = 3;
 constexpr int SOFTWARE_FRAMES = 4;
 
@@ -208,11 +207,9 @@ std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, 
 
 /// In turns, so that what changes with time (clocks, other work) meets all alike.
 void time_rounds(Renderer& renderer, std::list<Timed>& timed, int frames) {
-  for (int frame = 0; frame < WARM_UP + frames; ++frame)
-    for (Timed& one : timed) {
-      const std::vector<vulkan::Timestamps::Time> times = renderer.time(one.lighting, one.times.next());
-      if (frame >= WARM_UP) one.times.add(times, one.lighting);
-    }
+  for (Timed& one : timed) renderer.warm_up(one.lighting);
+  for (int frame = 0; frame < frames; ++frame)
+    for (Timed& one : timed) one.times.add(renderer.time(one.lighting, one.times.next()), one.lighting);
 }
 
 /// The least of each: what disturbs a frame makes it longer, never shorter.

@@ -156,6 +156,13 @@ std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing 
   return timestamps_.read();
 }
 
+void Renderer::warm_up(Lighting& lighting) {
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    record_frame(recorder, lighting, true);
+  });
+}
+
 template <class Texel>
 std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;

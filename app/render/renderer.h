@@ -75,6 +75,10 @@ class Renderer {
   /// Records and submits one frame, reads nothing back but its times.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 
+  /// Culls and shades one frame and reads nothing back: for what a first use alone takes. Surfaces that an earlier
+  /// frame of this view left in the G-buffer are not drawn again.
+  void warm_up(Lighting& lighting);
+
   /// The depth of the last frame, device depth, row by row; 0 is sky.
   [[nodiscard]] std::vector<float> read_depth();
 

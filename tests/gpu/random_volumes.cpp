@@ -14,6 +14,7 @@ namespace {
 
 constexpr double DEGREE = std::numbers::pi / 180.0;
 constexpr double WORLD_M = 5000.0;
+constexpr std::uint32_t BATCH_VIEWS = 256;
 
 double device_depth(const View& view, double z_view) {
   const glm::dmat4& p = view.clip_from_view();
@@ -73,7 +74,8 @@ RandomTile RandomVolumes::tile(const View& view) {
                      .max_px = corner + tile_px,
                      .nearest = std::min(1.0F, depth * (1.0F + thickness)),
                      .farthest = depth * (1.0F - thickness)},
-          .position_world = view.world_position(pixel.x, pixel.y, depth)};
+          .position_world = view.world_position(pixel.x, pixel.y, depth),
+          .depth = depth};
 }
 
 Light RandomVolumes::light_at(const glm::dvec3& position, const glm::dvec3& towards) {
@@ -104,6 +106,25 @@ Light RandomVolumes::light_around(const glm::dvec3& position_world) {
   Light light = light_at(position_world + unit_vector() * (range * uniform(0.0, 10.0)), unit_vector());
   light.range = static_cast<float>(range);
   return light;
+}
+
+RandomBatch draw_batch(std::uint32_t seed, std::uint32_t tiles, Lights kind) {
+  RandomVolumes random(seed);
+  std::vector<View> views;
+  RandomBatch batch;
+  for (std::uint32_t i = 0; i < BATCH_VIEWS; ++i) {
+    views.push_back(random.view());
+    batch.frames.push_back(views.back().frame(0));
+  }
+  for (std::uint32_t i = 0; i < tiles; ++i) {
+    const View& view = views[i % BATCH_VIEWS];
+    RandomTile tile = random.tile(view);
+    tile.volume.frame = i % BATCH_VIEWS;
+    batch.tiles.push_back(tile);
+    batch.lights.push_back(pack(kind == Lights::reaching ? random.light_reaching(view, tile.position_world)
+                                                         : random.light_around(tile.position_world)));
+  }
+  return batch;
 }
 
 }  // namespace lamp::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <random>
+#include <vector>
 
 #include "gpu/shaders/volume_case.h"
 #include "lamplight/light.h"
@@ -14,6 +15,7 @@ namespace lamp::app {
 struct RandomTile {
   shared::VolumeCase volume;
   glm::dvec3 position_world{0.0};
+  float depth = 0.0F;  ///< device depth of the position
 };
 
 class RandomVolumes {
@@ -46,5 +48,16 @@ class RandomVolumes {
 
   std::mt19937 random_;
 };
+
+/// Tiles of many views with a light each.
+struct RandomBatch {
+  std::vector<shared::Frame> frames;
+  std::vector<RandomTile> tiles;  ///< `volume.frame` is one of the frames
+  std::vector<shared::Light> lights;
+};
+
+enum class Lights : std::uint8_t { reaching, around };  ///< of RandomVolumes
+
+[[nodiscard]] RandomBatch draw_batch(std::uint32_t seed, std::uint32_t tiles, Lights kind);
 
 }  // namespace lamp::app

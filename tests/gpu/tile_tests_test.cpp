@@ -14,43 +14,15 @@ namespace {
 
 constexpr std::uint32_t BATCH = 1U << 16;
 constexpr std::uint32_t BATCHES = 24;  // a million and a half lights for each pair of tests
-constexpr std::uint32_t VIEWS = 256;
 constexpr std::uint32_t SPHERE_TOUCHES = 1;
 constexpr std::uint32_t SPOT_TOUCHES = 2;
 
-struct Batch {
-  std::vector<shared::Frame> frames;
+std::vector<std::uint32_t> ask(const RandomBatch& batch, std::uint32_t test, std::uint32_t spot) {
   std::vector<shared::VolumeCase> cases;
-  std::vector<shared::Light> lights;
-  std::vector<glm::dvec3> positions;
-};
-
-enum class Lights : std::uint8_t { reaching, around };
-
-Batch draw(std::uint32_t seed, Lights kind) {
-  RandomVolumes random(seed);
-  std::vector<View> views;
-  Batch batch;
-  for (std::uint32_t i = 0; i < VIEWS; ++i) {
-    views.push_back(random.view());
-    batch.frames.push_back(views.back().frame(0));
-  }
-  for (std::uint32_t i = 0; i < BATCH; ++i) {
-    const View& view = views[i % VIEWS];
-    RandomTile tile = random.tile(view);
-    tile.volume.frame = i % VIEWS;
-    batch.cases.push_back(tile.volume);
-    batch.positions.push_back(tile.position_world);
-    batch.lights.push_back(pack(kind == Lights::reaching ? random.light_reaching(view, tile.position_world)
-                                                         : random.light_around(tile.position_world)));
-  }
-  return batch;
-}
-
-std::vector<std::uint32_t> ask(const Batch& batch, std::uint32_t test, std::uint32_t spot) {
-  const vulkan::Buffer buffers[] = {host_buffer_of("frames", batch.frames), host_buffer_of("cases", batch.cases),
+  for (const RandomTile& tile : batch.tiles) cases.push_back(tile.volume);
+  const vulkan::Buffer buffers[] = {host_buffer_of("frames", batch.frames), host_buffer_of("cases", cases),
                                     host_buffer_of("lights", batch.lights),
-                                    host_buffer("answers", batch.cases.size() * sizeof(std::uint32_t))};
+                                    host_buffer("answers", cases.size() * sizeof(std::uint32_t))};
   Dispatch what{.shader = "tile_tests", .constants = {test, spot}, .groups = {(BATCH + 63) / 64, 1, 1}};
   for (const vulkan::Buffer& buffer : buffers) what.resources.push_back(vulkan::Resource::storage(buffer.handle()));
   dispatch(what);
@@ -67,10 +39,10 @@ class TileTests : public GpuTest, public ::testing::WithParamInterface<Pair> {};
 TEST_P(TileTests, WhatALightReachesIsNeverRejected) {
   std::uint64_t checked = 0;
   for (std::uint32_t seed = 1; seed <= BATCHES; ++seed) {
-    const Batch batch = draw(seed, Lights::reaching);
+    const RandomBatch batch = draw_batch(seed, BATCH, Lights::reaching);
     const std::vector<std::uint32_t> answers = ask(batch, GetParam().test, GetParam().spot);
     for (std::size_t i = 0; i < BATCH; ++i) {
-      if (reach(batch.lights[i], batch.positions[i]) != Reach::inside) continue;
+      if (reach(batch.lights[i], batch.tiles[i].position_world) != Reach::inside) continue;
       ++checked;
       ASSERT_EQ(answers[i], SPHERE_TOUCHES | SPOT_TOUCHES)
           << "seed " << seed << " case " << i << ": range " << batch.lights[i].range << ", outer angle "
@@ -81,7 +53,7 @@ TEST_P(TileTests, WhatALightReachesIsNeverRejected) {
 }
 
 TEST_P(TileTests, LightsElsewhereAreOftenRejected) {
-  const Batch batch = draw(77, Lights::around);
+  const RandomBatch batch = draw_batch(77, BATCH, Lights::around);
   const std::vector<std::uint32_t> answers = ask(batch, GetParam().test, GetParam().spot);
   const auto rejected = std::ranges::count_if(answers, [](std::uint32_t a) { return (a & SPHERE_TOUCHES) == 0; });
   EXPECT_GT(rejected, BATCH / 2);

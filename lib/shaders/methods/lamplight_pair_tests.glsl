@@ -1,6 +1,4 @@
 // Whether a light of a piece reaches a row of its cell: a first look, the exact test of spheres, the test of cones.
-// Based on: one step of the minimisation in common/sphere_tests.glsl, for the first look.
-// Promise: the first look decides a pair only as the exact test would.
 // Needs: TILE_PX, CELL_TILES, ROWS, PAIRS; `frame`, `lights`; s_lights.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_PAIR_TESTS
@@ -33,24 +31,11 @@ Target target_of(Pair pair) {
   return target;
 }
 
-// The first look: that cross-section of the occupied depths which is nearest to the sphere's centre. It decides 79 to 98
-// of 100 pairs with occupied parts at the sphere's depths.
-const uint APART = 0u;
-const uint TOUCHES = 1u;
-const uint UNDECIDED = 2u;
-
+// The first look. Returns APART, TOUCHES or UNDECIDED.
 uint look_at_pair(Pair pair) {
   const Target target = target_of(pair);
-  if (target.parts == 0u) return APART;
-  const vec2 depths = depths_of_parts(target.depths.z_near, target.step, target.parts);
-  const float radius2 = target.sphere.radius * target.sphere.radius;
-  const float z_center = -target.sphere.center.z;
-  const float z = clamp(z_center, depths.x, depths.y);
-  const Section section = section_at(target.sphere, target.sides, z);
-  if (least_in(section, z, depths.x, depths.y) > radius2) return APART;
-  const uint part = mask_part(z, target.depths.z_near, target.depths.scale);
-  const bool is_occupied = z != z_center || (target.parts >> part & 1u) != 0u;  // both ends are
-  return is_occupied && section.value <= radius2 ? TOUCHES : UNDECIDED;
+  return look_at_parts(target.sphere, target.sides, target.depths.z_near, target.step, target.depths.scale,
+                       target.parts);
 }
 
 bool sphere_reaches_row(Pair pair) {
