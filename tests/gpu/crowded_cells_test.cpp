@@ -7,6 +7,7 @@
 #include "gpu/test_scenes.h"
 #include "lamplight/shared/lamplight.h"
 #include "scene/flight.h"
+#include "scene/place_lights.h"
 
 namespace lamp::app {
 namespace {
@@ -15,6 +16,8 @@ constexpr std::uint32_t WIDTH = 61;
 constexpr std::uint32_t HEIGHT = 35;
 
 class CrowdedCells : public GpuTest, public ::testing::WithParamInterface<std::uint32_t> {};
+
+class ManyPieces : public GpuTest {};
 
 // On a device with eight threads a subgroup, more than 16 384 lights are more words of bits than a thread holds at
 // once.
@@ -38,6 +41,28 @@ TEST_P(CrowdedCells, KeepTheirOrderAsListsAndAsBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CrowdedCells, ::testing::Values(4097, 20011));
+
+// A cell with 2048 pieces, of which no work group may take so many that a software device ends its loops: it does so
+// after 65535 rounds of a thread, and then lists lack lights.
+TEST_F(ManyPieces, AllComeToTheirEnd) {
+  constexpr std::uint32_t COUNT = 1U << 18;
+  constexpr glm::uvec2 SIZE{96, 54};
+  const TestScene& scene = builtin_test_scene("one-tile");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, SIZE.x, SIZE.y, COUNT);
+  renderer.set_frame(view_of(find_camera(scene.scene, ""), SIZE.x, SIZE.y, "camera"),
+                     pack(place_lights(scene.scene, {.count = COUNT})));
+  const auto listed = [&](const char* cells) {
+    const Candidate candidate{.method = take(find_method("lamplight")),
+                              .settings = {fmt::format("cells={}", cells)},
+                              .light_capacity = COUNT};
+    const vulkan::FrameCounts counts = renderer.cull(kept_lighting(renderer, candidate, ShadingPath::deferred));
+    EXPECT_EQ(counts.counters.overflowed_cells, 0);
+    return counts.needed.back();
+  };
+  const std::uint32_t expected = listed("list");
+  EXPECT_GT(expected, COUNT / 2);
+  EXPECT_EQ(listed("bits"), expected);
+}
 
 }  // namespace
 }  // namespace lamp::app

@@ -33,7 +33,9 @@ constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a grou
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
 constexpr std::uint32_t FURTHER_GROUPS = 512;       // for what cells have beyond their first piece
-constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups are small
+constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups are small, unless it takes more:
+constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread; llvmpipe ends them after twice as many
+constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 
 /// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
@@ -181,15 +183,25 @@ Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, scatter_x)}};
 }
 
-/// With bits a group for each cell's first piece, and some that take in turns what cells have beyond it: that costs
-/// less than to have the GPU read how many groups it needs.
+/// Groups, for each of a cell's row groups, that take in turns what cells have beyond their first piece.
+std::uint32_t further_groups(const Problem& problem, const Sizes& s) {
+  const std::uint32_t row_groups = s.cell_rows / s.group_rows;
+  const std::uint64_t most = std::uint64_t{s.cell_count} * ((parts::capacity(problem) - 1) / PIECE);
+  std::uint64_t groups = parts::divide_up(FURTHER_GROUPS, row_groups);
+  if (problem.traits.subgroup_size < 32) {
+    const std::uint32_t rounds = PIECE_ROUNDS + s.blocks / light_threads(problem) + s.cell_count / 32;
+    const std::uint32_t of_group = std::max(1U, SOFTWARE_ROUNDS / rounds);
+    const std::uint64_t needed = (std::min<std::uint64_t>(most, s.pieces - s.cell_count) + of_group - 1) / of_group;
+    groups = std::max<std::uint64_t>(parts::divide_up(SOFTWARE_GROUPS, row_groups), needed);
+  }
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, 1, groups));
+}
+
+/// With bits a group for each cell's first piece, and some for further ones: that costs less than to have the GPU read
+/// how many groups it needs.
 Extent lists_extent(const Problem& problem, const Sizes& s, const Buffers& b) {
   if (!s.cell_bits) return {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)};
-  const std::uint32_t row_groups = s.cell_rows / s.group_rows;
-  const std::uint32_t groups = problem.traits.subgroup_size < 32 ? SOFTWARE_GROUPS : FURTHER_GROUPS;
-  const std::uint64_t most = std::uint64_t{s.cell_count} * ((parts::capacity(problem) - 1) / PIECE);
-  const std::uint64_t further = std::clamp<std::uint64_t>(most, 1, parts::divide_up(groups, row_groups));
-  return {.x = s.cell_count + static_cast<std::uint32_t>(further), .y = row_groups};
+  return {.x = s.cell_count + further_groups(problem, s), .y = s.cell_rows / s.group_rows};
 }
 
 Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
