@@ -43,11 +43,6 @@ vec4 edge_lengths(vec4 x_edges, vec4 y_edges) {
   return sqrt(1.0 + slopes * slopes);
 }
 
-// Whether a sphere reaches to the inner side of each edge; `lengths` are edge_lengths. Says yes near corners that it misses.
-bool inside_edges(vec3 center, float radius, vec4 x_edges, vec4 y_edges, vec4 lengths) {
-  return all(lessThanEqual(edges_outside(center, x_edges, y_edges), radius * lengths));
-}
-
 // The edges of a rectangle of pixels, for a look at many spheres.
 struct RectangleEdges {
   vec4 x_edges;
@@ -62,8 +57,9 @@ RectangleEdges rectangle_edges(Frame frame, vec2 min_px, vec2 max_px) {
   return edges;
 }
 
+// Whether a sphere reaches to the inner side of each edge. Says yes near corners that it misses.
 bool inside_edges(vec3 center, float radius, RectangleEdges edges) {
-  return inside_edges(center, radius, edges.x_edges, edges.y_edges, edges.lengths);
+  return all(lessThanEqual(edges_outside(center, edges.x_edges, edges.y_edges), radius * edges.lengths));
 }
 
 // The larger of width and height at a depth.

@@ -187,12 +187,12 @@ Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
 std::uint32_t further_groups(const Problem& problem, const Sizes& s) {
   const std::uint32_t row_groups = s.cell_rows / s.group_rows;
   const std::uint64_t most = std::uint64_t{s.cell_count} * ((parts::capacity(problem) - 1) / PIECE);
-  std::uint64_t groups = parts::divide_up(FURTHER_GROUPS, row_groups);
+  std::uint32_t groups = parts::divide_up(FURTHER_GROUPS, row_groups);
   if (problem.traits.subgroup_size < 32) {
     const std::uint32_t rounds = PIECE_ROUNDS + s.blocks / light_threads(problem) + s.cell_count / 32;
     const std::uint32_t of_group = std::max(1U, SOFTWARE_ROUNDS / rounds);
-    const std::uint64_t needed = (std::min<std::uint64_t>(most, s.pieces - s.cell_count) + of_group - 1) / of_group;
-    groups = std::max<std::uint64_t>(parts::divide_up(SOFTWARE_GROUPS, row_groups), needed);
+    const auto further = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, s.pieces - s.cell_count));
+    groups = std::max(parts::divide_up(SOFTWARE_GROUPS, row_groups), parts::divide_up(further, of_group));
   }
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, 1, groups));
 }
@@ -229,7 +229,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                          {b.piece_lists, Access::write},
                          {b.lists, Access::write}},
             .extent = lists_extent(problem, s, b),
-            .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 72 + 80};
+            .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 56 + 80};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});

@@ -74,7 +74,7 @@ Plan plan_at_once(const Problem& problem) {
                                {rows, Access::write},
                                {lists, Access::write}},
                   .extent = {.x = grid.cells.width, .y = grid.cells.height},
-                  .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 64 + 32}};
+                  .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 48 + 32}};
   if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});
   plan.lookup = {.name = bits ? "cell_bits" : "cell_lists",
                  .constants = with_slices({grid.tile_px, grid.cell_tiles}, problem, 1, 1),
