@@ -10,8 +10,8 @@ vulkan::Buffer host_buffer(const std::string& name, std::uint64_t bytes) {
   vulkan::Buffer buffer = take(vulkan::Buffer::create(
       test_context().device(), {.name = name,
                                 .bytes = bytes,
-                                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                 .memory = vulkan::MemoryUse::readback}));
   std::memset(buffer.mapped().data(), 0, bytes);
   return buffer;

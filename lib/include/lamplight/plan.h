@@ -21,7 +21,7 @@ namespace lamp {
 /// A resource of a plan: one of the inputs below, or `PLAN_BUFFER + i` for the plan's i-th buffer.
 using ResourceId = std::uint32_t;
 
-inline constexpr ResourceId INPUT_FRAME = 0;    ///< storage buffer, one shared::Frame
+inline constexpr ResourceId INPUT_FRAME = 0;    ///< one shared::Frame: a uniform buffer in compute passes, else storage
 inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, shared::Light[light capacity]
 inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth, one sample a pixel
 inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]

@@ -11,9 +11,9 @@
 vec2 outside_edges(float x, vec4 edges, float z) {
   const float below = edges.x + edges.y * z - x;
   const float above = x - (edges.z + edges.w * z);
-  if (below > 0.0) return vec2(below, edges.y);
-  if (above > 0.0) return vec2(above, -edges.w);
-  return vec2(0.0);
+  const bool is_below = below > 0.0;
+  const bool is_above = above > 0.0;
+  return vec2(is_below ? below : is_above ? above : 0.0, is_below ? edges.y : is_above ? -edges.w : 0.0);
 }
 
 // Squared distance from a sphere's centre to a frustum's cross-section at a depth, with its first derivative along z and half
@@ -88,15 +88,15 @@ const uint TOUCHES = 1u;
 const uint UNDECIDED = 2u;
 
 uint look_at_parts(LightBounds sphere, TileSides sides, float z_mask, float step, float scale, uint parts) {
-  if (parts == 0u) return APART;
   const float radius2 = sphere.radius * sphere.radius;
   const vec2 depths = depths_of_parts(z_mask, step, parts);
   const float z = clamp(-sphere.center.z, depths.x, depths.y);
   const Section section = section_at(sphere, sides, z);
-  if (least_in(section, z, depths.x, depths.y) > radius2) return APART;
+  const bool apart = parts == 0u || least_in(section, z, depths.x, depths.y) > radius2;
   const bool is_end = z != -sphere.center.z;  // both are occupied
   const bool is_occupied = is_end || (parts >> mask_part(z, z_mask, scale) & 1u) != 0u;
-  return is_occupied && section.value <= radius2 ? TOUCHES : UNDECIDED;
+  const bool touches = is_occupied && section.value <= radius2;
+  return apart ? APART : touches ? TOUCHES : UNDECIDED;
 }
 
 #endif

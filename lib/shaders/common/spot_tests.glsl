@@ -87,25 +87,31 @@ bool cone_touches_planes(SpotCone cone, TileSides sides, float z_near, float z_f
 }
 
 // Against the spheres around the occupied parts of the mask, of which neighbours are taken together while they are not
-// longer than the tile is wide: a sphere around fewer of them would hardly be smaller.
-bool cone_touches_parts(SpotCone cone, TileSides sides, float z_near, float z_far, uint parts) {
+// longer than the tile is wide: a sphere around fewer of them would hardly be smaller. None reaches across a border, a bit
+// at the part behind it.
+bool cone_touches_parts(SpotCone cone, TileSides sides, float z_near, float z_far, uint parts, uint borders) {
   const float step = (z_far - z_near) / float(MASK_BITS);
   while (parts != 0u) {
     const uint first = uint(findLSB(parts));
     const float z_first = z_near + step * (float(first) - 0.001);
     const float most = clamp(tile_width(sides, z_first) / max(step, 1e-30), 1.0, float(MASK_BITS));
-    const uint end = first + min(uint(most), bits_in_a_row(parts >> first));
+    const uint to_border = uint(findLSB(borders >> first & ~1u));  // without one the largest number there is
+    const uint end = first + min(to_border, min(uint(most), bits_in_a_row(parts >> first)));
     if (cone_touches_sphere(cone, tile_sphere(sides, z_first, z_near + step * (float(end) + 0.001)))) return true;
     parts &= bits_from(end);
   }
   return false;
 }
 
-bool spot_touches_tile(Frame frame, Light light, TileSides sides, float z_near, float z_far, uint parts) {
+bool spot_touches_tile(Frame frame, Light light, TileSides sides, float z_near, float z_far, uint parts, uint borders) {
   const SpotCone cone = spot_cone(frame, light);
   if (SPOT == SPOT_CONE_PLANES) return cone_touches_planes(cone, sides, z_near, z_far);
   if (!cone_touches_sphere(cone, tile_sphere(sides, z_near, z_far))) return false;
-  return SPOT != SPOT_CONE_SEGMENTS || cone_touches_parts(cone, sides, z_near, z_far, parts);
+  return SPOT != SPOT_CONE_SEGMENTS || cone_touches_parts(cone, sides, z_near, z_far, parts, borders);
+}
+
+bool spot_touches_tile(Frame frame, Light light, TileSides sides, float z_near, float z_far, uint parts) {
+  return spot_touches_tile(frame, light, sides, z_near, z_far, parts, 0u);
 }
 
 #endif

@@ -4,20 +4,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SUBGROUP_SCAN
 #define LAMP_COMMON_SUBGROUP_SCAN
-#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "common/subgroup_sum.glsl"
 
-shared uint s_subgroup_sums[GROUP_THREADS];  // there are no more subgroups than threads
+shared uvec2 s_subgroup_sums[GROUP_THREADS];  // there are no more subgroups than threads
 
 // The thread's place in the order of the sum.
 uint scan_thread() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
 
 // By all threads of the group together: the sum of the threads before.
 uint subgroup_scan(uint value) {
-  const uint end = subgroupInclusiveAdd(value);
-  if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) s_subgroup_sums[gl_SubgroupID] = end;
+  const uint end = inclusive_sum(value);
+  if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) s_subgroup_sums[gl_SubgroupID].x = end;
   barrier();  // every subgroup's sum before they are added up
   uint before = end - value;
-  for (uint i = 0u; i < gl_SubgroupID; ++i) before += s_subgroup_sums[i];
+  for (uint i = 0u; i < gl_SubgroupID; ++i) before += s_subgroup_sums[i].x;
+  return before;
+}
+
+// Of two numbers at once, and the sum of all threads.
+uvec2 subgroup_scan(uvec2 value, out uvec2 total) {
+  const uvec2 end = inclusive_sum(value);
+  if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) s_subgroup_sums[gl_SubgroupID] = end;
+  barrier();  // every subgroup's sums before they are added up
+  uvec2 before = end - value;
+  total = uvec2(0u);
+  for (uint i = 0u; i < gl_NumSubgroups; ++i) {
+    if (i < gl_SubgroupID) before += s_subgroup_sums[i];
+    total += s_subgroup_sums[i];
+  }
   return before;
 }
 

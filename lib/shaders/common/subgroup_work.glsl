@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SUBGROUP_WORK
 #define LAMP_COMMON_SUBGROUP_WORK
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#include "common/subgroup_sum.glsl"
 
 struct SharedWork {
   uint end;    // of this thread's items among all
@@ -12,7 +12,7 @@ struct SharedWork {
 };
 
 SharedWork share_work(uint items) {
-  const uint end = subgroupInclusiveAdd(items);
+  const uint end = inclusive_sum(items);
   return SharedWork(end, subgroupShuffle(end, gl_SubgroupSize - 1u));
 }
 

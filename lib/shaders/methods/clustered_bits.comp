@@ -12,7 +12,7 @@ layout(constant_id = 1) const uint TILE_PX = 64;
 #define SLICE_CONSTANT 2
 #include "common/slice_constants.glsl"
 layout(constant_id = 6) const uint WORDS = 1;  // words a cluster: light capacity / 32, rounded up
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BitBuffer { uint bits[]; };
 

@@ -13,7 +13,7 @@ layout(constant_id = 1) const uint TILE_PX = 64;
 #include "common/slice_constants.glsl"
 layout(constant_id = 6) const uint ENTRIES = 1;
 layout(constant_id = 7) const uint WORDS = 0;  // of a tile's bits; 0: there are none
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer ListBuffer { uint lists[]; };

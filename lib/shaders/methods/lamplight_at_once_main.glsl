@@ -68,12 +68,12 @@ void write_rows(uint cell, uint count) {
   const uint words = (count + 31u) / 32u;
   const uint first_row = cell * ROWS;
   if (BITS) {
-    write_bits(first_row);
+    write_bits(first_row, ROWS);
     for (uint i = thread; i < count; i += gl_WorkGroupSize.x) lists[cell * PIECE + i] = s_lights[i];
     return;
   }
-  for (uint i = thread; i < ROWS * words; i += gl_WorkGroupSize.x)
-    write_list_word(i % ROWS, i / ROWS, (first_row + i % ROWS) * LIST_ROOM);
+  for (uint i = thread; i < ROWS * words * WORD_PARTS; i += gl_WorkGroupSize.x)
+    write_list_part(i % ROWS, i / ROWS, (first_row + i % ROWS) * LIST_ROOM);
   for (uint row = thread; row < ROWS; row += gl_WorkGroupSize.x) {
     rows[2u * (first_row + row)] = (first_row + row) * LIST_ROOM;
     rows[2u * (first_row + row) + 1u] = lights_before(row, words);
@@ -86,7 +86,7 @@ void main() {
     if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, 0u, 0u);
     return;
   }
-  const Cell cell = Cell(gl_WorkGroupID.xy * CELL_TILES, 0u, 0u);
+  const Cell cell = Cell(gl_WorkGroupID.xy * CELL_TILES, 0u, ROWS, 0u);
   if (gl_LocalInvocationIndex == 0u) clear_cell_depths();
   if (gl_LocalInvocationIndex < PIECE_WORDS) s_words[gl_LocalInvocationIndex] = 0u;
   clear_marks();

@@ -1,7 +1,9 @@
-// Which pieces of which cells a work group takes, where cells have bits. The first CELLS groups take each cell's first
-// piece, which is kept at the cell's own place. The others take in turns what cells have beyond it. They learn that from
-// the counts of all cells, each for itself: a pass that does it once for all takes longer.
-// Needs: CELL_ROWS; `cells`, `totals`. Gives further_piece.
+// Which work group takes what, where cells have bits. The last CELLS groups take a cell's first piece each. The others
+// take what is shared out, and begin first, so that nobody waits for them in the end. If crowded cells have few pieces
+// in all, these are all shared out, each in PARTS parts of its rows: they are what the pass would wait for. If there are
+// more parts than groups, only pieces beyond a cell's first are shared out, whole, and groups take them in turns. Which
+// it is they learn from the counts of all cells, each for itself: a pass that does it once for all takes longer.
+// Needs: ROWS, CELL_ROWS; `cells`, `totals`; s_piece. Gives share_pieces.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_BIT_PIECES
 #define LAMP_METHODS_LAMPLIGHT_BIT_PIECES
@@ -9,18 +11,20 @@
 layout(constant_id = 10) const uint GROUP_THREADS = 256;
 layout(constant_id = 11) const uint PIECES = 1;  // capacity, at least CELLS
 layout(constant_id = 12) const uint CELLS = 1;
+layout(constant_id = 13) const uint CROWDED = ~0u;    // a cell of more lights is; ~0: none is
+layout(constant_id = 14) const uint PARTS = 1;        // a power of two
 #include "common/subgroup_scan.glsl"
 
-struct CellPiece {
-  uint cell;    // NO_CELL: there is none
-  uint number;  // among the cell's pieces
-  uint place;   // among all
-};
+const uint NO_GROUP = ~0u;  // takes nothing
 
-shared CellPiece s_piece;
+bool is_crowded(uint entries) { return entries > CROWDED; }
 
-// Pieces beyond the first.
-uint further_pieces(uint cell) { return (max(cells[cell].entries, 1u) - 1u) / PIECE; }
+// All of a crowded cell; beyond the first of any cell.
+uvec2 pieces_of(uint cell) {
+  const uint entries = cells[cell].entries;
+  const uint pieces = (entries + PIECE - 1u) / PIECE;
+  return uvec2(is_crowded(entries) ? pieces : 0u, max(pieces, 1u) - 1u);
+}
 
 // For the look-up, of a cell with further pieces, of which all cells before have `first`.
 void write_cell(uint cell, uint first, uint further, bool fits) {
@@ -29,28 +33,41 @@ void write_cell(uint cell, uint first, uint further, bool fits) {
   if (!fits) atomicAdd(totals.counters.overflowed_cells, CELL_ROWS);
 }
 
-// By all threads of the group together: the further piece of that number among those of all cells. If `writes`, all
-// cells that have some are written as well.
-CellPiece further_piece(uint number, bool writes) {
+// Piece `number` of the cell, the group's part of it if all are shared out; `first`: further pieces of cells before.
+CellPiece part_of_piece(uint cell, uint number, uint first, bool all, uint group) {
+  const uint count = min(cells[cell].entries - number * PIECE, PIECE);
+  const uint place = number == 0u ? cell : CELLS + first + number - 1u;
+  const uint rows = all ? ROWS / PARTS : ROWS;
+  return CellPiece(cell, number * PIECE, count, place, all ? group % PARTS * rows : 0u, rows);
+}
+
+// By all threads of the group together: s_piece becomes what the group with that number of `groups` takes, if there is
+// something. Returns whether all pieces of crowded cells are shared out. If `writes`, all cells with further pieces are
+// written as well.
+bool share_pieces(uint group, uint groups, bool writes) {
   const uint thread = scan_thread();
   const uint strip = (CELLS + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;  // cells of a thread
   const uint from = min(thread * strip, CELLS);
   const uint to = min(from + strip, CELLS);
-  if (thread == 0u) s_piece.cell = NO_CELL;
-  uint own = 0u;
-  for (uint cell = from; cell < to; ++cell) own += further_pieces(cell);
-  uint first = subgroup_scan(own);
-  const bool has_it = number >= first && number - first < own;
-  if (writes && thread == gl_WorkGroupSize.x - 1u) totals.wanted_pieces = CELLS + first + own;
+  uvec2 own = uvec2(0u);
+  for (uint cell = from; cell < to; ++cell) own += pieces_of(cell);
+  uvec2 total;
+  uvec2 first = subgroup_scan(own, total);
+  const bool all = CROWDED != ~0u && total.x <= groups / PARTS;
+  if (writes && thread == 0u) totals.wanted_pieces = CELLS + total.y;
+  const uint wanted = all ? group / PARTS : group;
+  const bool has_it = group != NO_GROUP && wanted - (all ? first.x : first.y) < (all ? own.x : own.y);
   for (uint cell = from; cell < to && (has_it || writes); ++cell) {
-    const uint further = further_pieces(cell);
-    const bool fits = first + further <= PIECES - CELLS;
-    if (writes && further > 0u) write_cell(cell, first, further, fits);
-    if (fits && number - first < further) s_piece = CellPiece(cell, number - first + 1u, CELLS + number);
-    first += further;
+    const uvec2 pieces = pieces_of(cell);
+    const bool fits = first.y + pieces.y <= PIECES - CELLS;
+    if (writes && pieces.y > 0u) write_cell(cell, first.y, pieces.y, fits);
+    const uint at = wanted - (all ? first.x : first.y);
+    if (fits && at < (all ? pieces.x : pieces.y))
+      s_piece = part_of_piece(cell, all ? at : at + 1u, first.y, all, group);
+    first += pieces;
   }
   barrier();  // the piece is found
-  return s_piece;
+  return all;
 }
 
 #endif

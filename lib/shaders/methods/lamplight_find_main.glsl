@@ -20,7 +20,7 @@ const uint CELL_ROWS = CELL_TILES * CELL_TILES;
 #include "common/sphere_rectangle.glsl"
 #include "lamplight/shared/lamplight.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 #ifdef CELL_BITS

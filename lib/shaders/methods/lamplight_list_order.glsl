@@ -71,8 +71,17 @@ void place_long_run(Window window, LightPiece piece, uint block) {
   barrier();  // read off before the next run
 }
 
-// By all threads of the group together: the lights of entries [begin, end) of the cell's ordered entries.
-void order_lights(LightPiece piece, uint begin, uint end) {
+// What of its cell a piece is.
+struct OrderLoad {
+  LightPiece listed;
+};
+OrderLoad load_order(CellPiece piece) { return OrderLoad(cell_pieces[piece.place]); }
+
+// By all threads of the group together: the lights of the piece, from the cell's ordered entries.
+void order_lights(OrderLoad load, CellPiece own) {
+  const LightPiece piece = load.listed;
+  const uint begin = own.begin;
+  const uint end = begin + own.count;
   Window window = Window(begin, end, max(begin, piece.begin + MARGIN) - MARGIN, 0u);
   window.count = min(end + MARGIN, piece.end) - window.first;
   for (uint i = gl_LocalInvocationIndex; i < window.count; i += gl_WorkGroupSize.x)

@@ -13,8 +13,8 @@ layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of 
 layout(constant_id = 8) const uint CELL_ROWS = 16;
 layout(constant_id = 9) const bool BITS = false;     // the container: bits, or lists
 #ifdef SLICED
-layout(constant_id = 13) const uint CELL_SLICES = 4;
-#define SLICE_CONSTANT 14
+layout(constant_id = 15) const uint CELL_SLICES = 4;
+#define SLICE_CONSTANT 16
 #include "common/slice_constants.glsl"
 #endif
 #include "methods/lamplight_exact.glsl"
@@ -28,6 +28,20 @@ layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };  // LightSpan, or PIECE_WORDS words
 layout(set = 0, binding = 6, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
+
+// What a work group looks at: a cell's entries, by some of its own rows. It stays in shared memory for when all tests
+// are done, because these need every register.
+struct CellPiece {
+  uint cell;   // NO_CELL: there is none
+  uint begin;  // of its entries
+  uint count;  // of them
+  uint place;  // among all pieces
+  uint row;    // of the group's, where they begin
+  uint rows;
+};
+
+shared CellPiece s_piece;
+
 #ifdef CELL_BITS
 layout(set = 0, binding = 8, scalar) readonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
 #define DEPTH_BINDING 9
@@ -68,60 +82,73 @@ void load_row(Cell cell, uint row) {
   load_sides(cell, row);
 }
 
-Cell cell_of(uint index) {
+Cell cell_of(CellPiece piece) {
   const uvec2 size = (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES);
-  const uint in_layer = index % (size.x * size.y);
+  const uint in_layer = piece.cell % (size.x * size.y);
 #ifdef SLICED
-  const uint first_slice = index / (size.x * size.y) * CELL_SLICES;
+  const uint first_slice = piece.cell / (size.x * size.y) * CELL_SLICES;
 #else
   const uint first_slice = 0u;
 #endif
-  return Cell(uvec2(in_layer % size.x, in_layer / size.x) * CELL_TILES, gl_WorkGroupID.y * ROWS, first_slice);
+  return Cell(uvec2(in_layer % size.x, in_layer / size.x) * CELL_TILES, gl_WorkGroupID.y * ROWS + piece.row,
+              piece.rows, first_slice);
 }
 
-// By all threads of the group together: entries [begin, end) of the listed, which are kept as the piece at `place`.
-void cull_piece(LightPiece listed, uint begin, uint place) {
-  const Cell cell = cell_of(listed.cell);
-  const uint end = min(begin + PIECE, listed.end);
-  const uint count = end - begin;
-  clear_marks();
-  if (gl_LocalInvocationIndex < ROWS) load_row(cell, gl_LocalInvocationIndex);
-  order_lights(listed, begin, end);
-  mark_lights(cell, count);
-  barrier();  // all bits before they are read
-  bool needs_piece = BITS && gl_WorkGroupID.y == 0u;
+// By all threads of the group together: from marks to what the look-up reads.
+void write_piece(CellPiece piece) {
+  const uint first_row = piece.place * CELL_ROWS + gl_WorkGroupID.y * ROWS + piece.row;
+  bool needs_lights = BITS && gl_WorkGroupID.y == 0u && piece.row == 0u;
   if (BITS)
-    write_bits(place * CELL_ROWS + cell.first_row);
+    write_bits(first_row, piece.rows);
   else
-    needs_piece = !write_lists(cell, place, count);
-  if (!needs_piece) return;
-  for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x)
-    piece_lists[place * PIECE + i] = s_lights[i];
+    needs_lights = !write_lists(piece, first_row);
+  if (!needs_lights) return;
+  for (uint i = gl_LocalInvocationIndex; i < piece.count; i += gl_WorkGroupSize.x)
+    piece_lists[piece.place * PIECE + i] = s_lights[i];
+}
+
+// By all threads of the group together.
+void cull_piece(CellPiece piece) {
+  const OrderLoad load = load_order(piece);
+  const Cell cell = cell_of(piece);
+  clear_marks();
+  if (gl_LocalInvocationIndex < cell.rows) load_row(cell, gl_LocalInvocationIndex);
+  order_lights(load, piece);
+  mark_lights(cell, piece.count);
+  barrier();  // all bits before they are read
+  write_piece(s_piece);
 }
 
 #ifdef CELL_BITS
 void main() {
-  const bool is_first = gl_WorkGroupID.x < CELLS;
-  uint number = gl_WorkGroupID.x - CELLS;
-  CellPiece piece = CellPiece(gl_WorkGroupID.x, 0u, gl_WorkGroupID.x);
-  if (!is_first) piece = further_piece(number, number == 0u && gl_WorkGroupID.y == 0u);
-  while (piece.cell != NO_CELL) {
-    const LightPiece listed = LightPiece(piece.cell, 0u, cells[piece.cell].entries);
-    if (listed.end == 0u) return;
-    cull_piece(listed, piece.number * PIECE, piece.place);
-    if (is_first) {
-      const bool is_only = listed.end <= PIECE && gl_WorkGroupID.y == 0u;
-      if (is_only && gl_LocalInvocationIndex == 0u) cells[piece.cell].pieces = 1u;
-      return;
+  const uint others = gl_NumWorkGroups.x - CELLS;
+  const bool is_own = gl_WorkGroupID.x >= others;
+  const bool is_first = gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u;
+  const uint cell = is_own ? gl_WorkGroupID.x - others : NO_CELL;
+  const uint entries = is_own ? cells[cell].entries : 0u;
+  if (is_own && entries == 0u) return;
+  if (is_own && entries <= PIECE && gl_WorkGroupID.y == 0u && gl_LocalInvocationIndex == 0u) cells[cell].pieces = 1u;
+  for (uint group = gl_WorkGroupID.x; true; group += others) {
+    CellPiece piece = CellPiece(cell, 0u, min(entries, PIECE), cell, 0u, ROWS);
+    if (gl_LocalInvocationIndex == 0u) s_piece = piece;
+    if (!is_own || is_crowded(entries)) {
+      if (share_pieces(is_own ? NO_GROUP : group, others, is_first && group == 0u) && is_own) return;
+      piece = s_piece;
     }
+    if (piece.cell == NO_CELL) return;
+    cull_piece(piece);
+    if (is_own) return;
     barrier();  // shared memory is read before the next piece takes it
-    number += gl_NumWorkGroups.x - CELLS;
-    piece = further_piece(number, false);
   }
 }
 #else
 void main() {
-  const uint piece = gl_WorkGroupID.x;
-  if (cell_pieces[piece].cell != NO_CELL) cull_piece(cell_pieces[piece], piece * PIECE, piece);
+  const uint place = gl_WorkGroupID.x;
+  const LightPiece listed = cell_pieces[place];
+  if (listed.cell == NO_CELL) return;
+  const uint begin = place * PIECE;
+  const CellPiece piece = CellPiece(listed.cell, begin, min(begin + PIECE, listed.end) - begin, place, 0u, ROWS);
+  if (gl_LocalInvocationIndex == 0u) s_piece = piece;
+  cull_piece(piece);
 }
 #endif

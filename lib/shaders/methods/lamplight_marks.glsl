@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
 #define LAMP_METHODS_LAMPLIGHT_MARKS
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "methods/lamplight_pair_tests.glsl"
 
 shared uint s_bits[MARK_WORDS];  // PIECE_WORDS for each of ROWS
@@ -52,27 +53,31 @@ void keep_pairs(Cell cell, bool reached, uint packed, inout uint spots) {
 // Of all pairs of `count` lights and row, those from `first` on.
 void look_at_pairs(Cell cell, uint first, uint count, inout uint pairs, inout uint spots) {
   const uint i = first + gl_SubgroupInvocationID;
-  uint verdict = APART;
-  uint packed = 0u;
-  if (i < count * ROWS) {
-    const uint entry = entry_of(i / ROWS);
-    packed = packed_pair(entry, i % ROWS, s_spheres[entry].radius < 0.0 ? PAIR_OF_SPOT : 0u);
-    verdict = look_at_pair(pair_of(packed));
-  }
+  const uint entry = entry_of(min(i, count * cell.rows - 1u) >> findMSB(cell.rows));
+  const uint packed = packed_pair(entry, i & cell.rows - 1u, s_spheres[entry].radius < 0.0 ? PAIR_OF_SPOT : 0u);
+  const uint found = look_at_pair(pair_of(packed));
+  const uint verdict = i < count * cell.rows ? found : APART;
   pairs = wait(first_pair(), pairs, verdict == UNDECIDED, packed);
   keep_pairs(cell, verdict == TOUCHES, packed, spots);
 }
 
 void test_spheres(Cell cell, inout uint pairs, inout uint spots) {
   bool has_pair;
-  const uint packed = take(first_pair(), pairs, has_pair);
+  const uint packed = take(first_pair(), 1u, pairs, has_pair);
   keep_pairs(cell, has_pair && sphere_reaches_row(pair_of(packed)), packed, spots);
 }
 
 void test_cones(Cell cell, inout uint spots) {
+  const uint share = sharers(spots);
+  const uint rank = gl_SubgroupInvocationID & share - 1u;
   bool has_pair;
-  const Pair pair = pair_of(take(first_spot(), spots, has_pair));
-  mark(cell, pair, has_pair && cone_reaches_row(pair));
+  const Pair pair = pair_of(take(first_spot(), share, spots, has_pair));
+  bool reached = has_pair && cone_reaches_row(pair, rank, share);
+  for (uint step = 1u; step < share; step *= 2u) {
+    const bool other = subgroupShuffleXor(reached, step);
+    reached = reached || other;
+  }
+  mark(cell, pair, reached && rank == 0u);
 }
 
 // Lights [0, count) of the piece. Looks until no more pairs have room, then tests with every thread busy, until nothing
@@ -81,7 +86,7 @@ void test_cones(Cell cell, inout uint spots) {
 void mark_lights(Cell cell, uint count) {
   const uint own = (count + gl_NumSubgroups - 1u - gl_SubgroupID) / gl_NumSubgroups;  // lights
   load_spheres(own);
-  const uint all = own * ROWS;
+  const uint all = own * cell.rows;
   uint first = 0u;  // pair of light and row not looked at
   uint pairs = 0u;  // that wait
   uint spots = 0u;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_PAIR_TESTS
 #define LAMP_METHODS_LAMPLIGHT_PAIR_TESTS
+#extension GL_EXT_control_flow_attributes : require
 #include "common/light_bounds.glsl"
 #include "common/sphere_tests.glsl"
 #include "common/spot_tests.glsl"
@@ -43,10 +44,32 @@ bool sphere_reaches_row(Pair pair) {
   return sphere_touches_parts(target.sphere, target.sides, target.depths.z_near, target.step, target.parts);
 }
 
-bool cone_reaches_row(Pair pair) {
+// What a thread looks at of a row's occupied parts: from the first to the last of them they are cut into quarters, of
+// which `share` threads take every share-th each. Cuts are always there, so that the result is the same for any share.
+struct PartShare {
+  uint parts;
+  uint borders;  // a bit behind each cut
+};
+
+PartShare share_of_parts(uint parts, uint rank, uint share) {
+  const uint first = uint(findLSB(parts));
+  const uint quarter = (uint(findMSB(parts)) - first) / MOST_SHARERS + 1u;
+  PartShare own = PartShare(0u, 0u);
+  [[unroll]] for (uint i = 0u; i < MOST_SHARERS; ++i) {
+    const uint from = bits_from(first + i * quarter);
+    const uint to = bits_from(first + (i + 1u) * quarter);
+    if ((i & share - 1u) == rank) own.parts |= parts & from & ~to;
+    own.borders |= to & ~(to << 1u);
+  }
+  return own;
+}
+
+bool cone_reaches_row(Pair pair, uint rank, uint share) {
   const Target target = target_of(pair);
+  if (target.parts == 0u) return false;
+  const PartShare own = share_of_parts(target.parts, rank, share);
   return spot_touches_tile(frame, lights[s_lights[pair.entry]], target.sides, target.depths.z_near,
-                           target.depths.z_far, target.parts);
+                           target.depths.z_far, own.parts, own.borders);
 }
 
 #endif

@@ -36,14 +36,25 @@ uint wait(uint first, uint waiting, bool has_pair, uint packed) {
   return waiting + subgroupBallotBitCount(those);
 }
 
-// One of those that came last for each thread; without one any of them again.
-uint take(uint first, inout uint waiting, out bool has_pair) {
+// How many threads share a pair, if that many wait: fewer than there are threads leave some of these without work. A power
+// of two.
+const uint MOST_SHARERS = 4u;
+
+uint sharers(uint waiting) {
+  uint share = 1u;
+  while (share < MOST_SHARERS && 2u * share * waiting <= gl_SubgroupSize) share *= 2u;
+  return share;
+}
+
+// One of those that came last for `share` threads each; without one any of them again.
+uint take(uint first, uint share, inout uint waiting, out bool has_pair) {
   subgroupMemoryBarrierShared();
   subgroupBarrier();  // pairs are there before they are read
   const uint count = min(waiting, gl_SubgroupSize);
-  has_pair = gl_SubgroupInvocationID < count;
+  const uint own = gl_SubgroupInvocationID >> findMSB(share);
+  has_pair = own < count;
   waiting -= count;
-  const uint packed = s_pairs[first + waiting + min(gl_SubgroupInvocationID, count - 1u)];
+  const uint packed = s_pairs[first + waiting + min(own, count - 1u)];
   subgroupBarrier();  // and read before others take their place
   return packed;
 }

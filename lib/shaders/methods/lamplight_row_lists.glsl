@@ -1,5 +1,5 @@
 // From marks to what the look-up reads: lists, or the bits themselves.
-// Needs: MARK_WORDS; `lists`, `rows`; s_bits, s_lights, bit_word.
+// Needs: ROWS, MARK_WORDS; `lists`, `rows`; s_bits, s_lights, bit_word.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_ROW_LISTS
 #define LAMP_METHODS_LAMPLIGHT_ROW_LISTS
@@ -11,16 +11,24 @@ uint lights_before(uint row, uint word) {
   return count;
 }
 
-// By one thread: the lights of a word of the row's marks, into its list, which begins there.
-void write_list_word(uint row, uint word, uint begin) {
-  uint place = begin + lights_before(row, word);
-  for (uint bits = s_bits[bit_word(row, word)]; bits != 0u; bits &= bits - 1u)
-    lists[place++] = s_lights[word * 32u + uint(findLSB(bits))];
+// Threads share a word of marks where there are more of them than words.
+const uint WORD_THREADS = gl_WorkGroupSize.x / (ROWS * PIECE_WORDS);
+const uint WORD_PARTS = WORD_THREADS >= 4u ? 4u : WORD_THREADS >= 2u ? 2u : 1u;
+const uint PART_BITS = 32u / WORD_PARTS;
+
+// By one thread: the lights of a part of a word of the row's marks, into its list, which begins there.
+void write_list_part(uint row, uint part, uint begin) {
+  const uint word = part / WORD_PARTS;
+  const uint first = part % WORD_PARTS * PART_BITS;
+  const uint marks = s_bits[bit_word(row, word)];
+  uint place = begin + lights_before(row, word) + uint(bitCount(marks & (1u << first) - 1u));
+  for (uint bits = bitfieldExtract(marks, int(first), int(PART_BITS)); bits != 0u; bits &= bits - 1u)
+    lists[place++] = s_lights[word * 32u + first + uint(findLSB(bits))];
 }
 
-// By all threads of the group together: the marks of all its rows, of which that is the first.
-void write_bits(uint first_row) {
-  for (uint i = gl_LocalInvocationIndex; i < MARK_WORDS; i += gl_WorkGroupSize.x)
+// By all threads of the group together: the marks of its rows, of which that is the first.
+void write_bits(uint first_row, uint count) {
+  for (uint i = gl_LocalInvocationIndex; i < count * PIECE_WORDS; i += gl_WorkGroupSize.x)
     rows[first_row * PIECE_WORDS + i] = s_bits[i];
 }
 

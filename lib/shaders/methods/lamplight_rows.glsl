@@ -12,6 +12,7 @@ const uint TILES = CELL_TILES * CELL_TILES;  // a whole number of ROWS, which ar
 struct Cell {
   uvec2 first_tile;
   uint first_row;    // of the work group; its rows are of one slice
+  uint rows;         // of the work group; a power of two, ROWS at most
   uint first_slice;
 };
 

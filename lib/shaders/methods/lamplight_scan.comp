@@ -19,7 +19,7 @@ layout(constant_id = 5) const uint CELL_ROWS = 16;
 layout(constant_id = 6) const uint SCATTER_THREADS = 256;
 layout(constant_id = 7) const uint ROW_GROUPS = 1;  // work groups of the last pass for a piece
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]; becomes first places
 layout(set = 0, binding = 2, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };

@@ -13,7 +13,7 @@ layout(constant_id = 1) const uint GROUP_FEW = 32;  // lights
 #include "lamplight/shared/lamplight.h"
 #include "methods/lamplight_share.glsl"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 2, scalar) buffer TotalBuffer { LightTotals totals; };
 layout(set = 0, binding = 3, scalar) writeonly buffer SeenBuffer { uint seen[]; };  // lights

@@ -6,7 +6,7 @@
 #include "common/light_bounds.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BoundsBuffer { LightBounds bounds[]; };
 

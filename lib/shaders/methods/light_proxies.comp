@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint CAPACITY = 1;      // lights, of each part of `drawn`
 layout(constant_id = 1) const uint REACH_1024 = 0;    // how far a sample may be from a pixel's centre, pixels / 1024
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer ProxyBuffer { LightProxy proxies[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer DrawnBuffer { uint drawn[]; };  // lights, outside, then inside

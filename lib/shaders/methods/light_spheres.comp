@@ -6,7 +6,7 @@
 #include "common/light_bounds.glsl"
 
 layout(local_size_x_id = 0) in;
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer SphereBuffer { LightSphere spheres[]; };
 

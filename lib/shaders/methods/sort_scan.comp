@@ -7,7 +7,7 @@
 #include "lamplight/shared/slices.h"
 
 layout(local_size_x_id = 0) in;
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer TotalBuffer { uint totals[]; };  // a digit
 #include "common/group_scan.glsl"

@@ -10,7 +10,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint SHIFT = 0;
 layout(constant_id = 2) const bool FIRST = false;  // as in sort_count
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer OrderBuffer { uint order[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer CountBuffer { uint counts[]; };

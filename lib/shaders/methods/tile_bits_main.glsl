@@ -5,6 +5,7 @@
 layout(local_size_x_id = 0) in;  // before anything that asks for the work group's size
 #define TILE_CONSTANT 1
 #define TILE_BINDING 0
+#define TILE_FRAME uniform
 #include "methods/tile_inputs.glsl"
 #include "common/pixel_tests.glsl"
 

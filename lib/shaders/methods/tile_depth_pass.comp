@@ -11,7 +11,7 @@ layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint BOUNDS = 0;
 #include "common/tile_ranges.glsl"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1) uniform texture2D depth_image;
 layout(set = 0, binding = 2, scalar) writeonly buffer RangeBuffer { TileRanges ranges[]; };
 

@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint TILE_PX = 16;
 layout(constant_id = 1) const uint TEST = 0;
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) writeonly buffer FrustaBuffer { vec4 frusta[]; };
 
 void main() {

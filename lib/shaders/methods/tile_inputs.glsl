@@ -1,5 +1,5 @@
 // What a shader that culls tiles reads and how it is specialised: the axes of tiled culling.
-// Needs: TILE_CONSTANT and TILE_BINDING, where its constants and bindings begin.
+// Needs: TILE_CONSTANT and TILE_BINDING, where its constants and bindings begin; TILE_FRAME, how the frame is bound.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_TILE_INPUTS
 #define LAMP_METHODS_TILE_INPUTS
@@ -22,7 +22,7 @@ layout(constant_id = TILE_CONSTANT + 9) const bool OWN_DEPTH_PASS = false; // re
 layout(constant_id = TILE_CONSTANT + 10) const uint LIST_ENTRIES = 512;    // CAPACITY times the number of ranges
 layout(constant_id = TILE_CONSTANT + 11) const uint RANGES = 1;            // depth ranges a tile: 2 for the halves
 
-layout(set = 0, binding = TILE_BINDING + 0, scalar) readonly buffer CullFrame { Frame cull_frame; };
+layout(set = 0, binding = TILE_BINDING + 0, scalar) TILE_FRAME CullFrame { Frame cull_frame; };
 layout(set = 0, binding = TILE_BINDING + 1) uniform texture2D cull_depth;
 layout(set = 0, binding = TILE_BINDING + 2, scalar) readonly buffer CullLights { Light cull_lights[]; };
 layout(set = 0, binding = TILE_BINDING + 3, scalar) readonly buffer CullBounds { LightBounds cull_bounds[]; };

@@ -3,6 +3,7 @@
 layout(local_size_x_id = 0) in;  // before anything that asks for the work group's size
 #define TILE_CONSTANT 1
 #define TILE_BINDING 0
+#define TILE_FRAME uniform
 #include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
 

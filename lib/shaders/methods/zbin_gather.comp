@@ -7,7 +7,7 @@
 #include "lamplight/shared/light.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer OrderBuffer { uint order[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer SortedBuffer { LightBounds sorted[]; };

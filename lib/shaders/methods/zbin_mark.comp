@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 #define SLICE_CONSTANT 0  // bins
 #include "common/slice_constants.glsl"
 layout(constant_id = 4) const uint LEAVES = 1;  // bins, rounded up to a power of two
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SortedBuffer { LightBounds sorted[]; };
 layout(set = 0, binding = 2, scalar) buffer TreeBuffer { uvec2 tree[]; };  // ~least and greatest + 1; 0: no light
 

@@ -10,7 +10,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 8;
 layout(constant_id = 2) const uint WORDS = 1;  // words a tile: light capacity / 32, rounded up
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SortedBuffer { LightBounds sorted[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BitBuffer { uint bits[]; };
 

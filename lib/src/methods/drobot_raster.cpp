@@ -142,9 +142,9 @@ Plan plan_raster_tile(const Problem& problem) {
     Pass pass = draw_pass(problem, raster, b, draw);
     pass.constants.insert(pass.constants.end(), {step, depth_bounds});
     pass.bindings.insert(pass.bindings.end(), {{INPUT_DEPTH},
-                                               {raster.exact() ? INPUT_FRAME : b.ranges},
+                                               {raster.exact() ? INPUT_LIGHTS : b.ranges},
                                                {writes, Access::read_write},
-                                               {step == shared::TILES_BEHIND ? b.stencil : INPUT_FRAME}});
+                                               {step == shared::TILES_BEHIND ? b.stencil : INPUT_LIGHTS}});
     plan.passes.push_back(std::move(pass));
   }
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_bits"),
@@ -185,7 +185,8 @@ Plan plan_raster_cluster(const Problem& problem) {
     pass.constants.push_back(mode);
     pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
     pass.constants.push_back(early_px);
-    pass.bindings.insert(pass.bindings.end(), {{b.bits, Access::read_write}, {early_px != 0 ? b.ranges : INPUT_FRAME}});
+    pass.bindings.insert(pass.bindings.end(),
+                         {{b.bits, Access::read_write}, {early_px != 0 ? b.ranges : INPUT_LIGHTS}});
     plan.passes.push_back(std::move(pass));
   }
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),

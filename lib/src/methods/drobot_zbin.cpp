@@ -65,7 +65,7 @@ ResourceId add_sort(Plan& plan, const Sizes& s, ResourceId bounds) {
   std::swap(from, to);  // an even number of digits: the last one writes "light order"
   for (std::uint32_t digit = 0; digit < std::size(NAMES); ++digit) {
     const bool first = digit == 0;
-    const ResourceId order = first ? INPUT_FRAME : from;
+    const ResourceId order = first ? bounds : from;
     const std::vector<std::uint32_t> constants{s.threads, digit * shared::SORT_DIGIT_BITS, first ? 1U : 0U};
     plan.passes.push_back({.name = NAMES[digit][0],
                            .shader = "methods/sort_count",

@@ -32,7 +32,9 @@ constexpr std::uint32_t MARGIN = 32;                // around them, where runs o
 constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
-constexpr std::uint32_t FURTHER_GROUPS = 512;       // for what cells have beyond their first piece
+constexpr std::uint32_t CROWDED = 64;               // lights; all pieces of cells of more are shared out, if few
+constexpr std::uint32_t PARTS = 2;                  // of the rows of a group, for each such piece
+constexpr std::uint32_t SHARED_GROUPS = 512;        // that take what is shared out
 constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups are small, unless it takes more:
 constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread; llvmpipe ends them after twice as many
 constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
@@ -61,6 +63,9 @@ std::uint32_t find_share(const Problem& problem, std::uint32_t threads) {
   const std::uint32_t wanted = parts::divide_up(parts::capacity(problem), WANTED_GROUPS);
   return std::clamp(wanted, subgroups, threads);
 }
+
+/// Whose groups run few at once, so that more of them are only more work.
+bool is_software(const Problem& problem) { return problem.traits.subgroup_size < 32; }
 
 struct Buffers {
   ResourceId totals, tile_depths, cell_depths, seen, matrix, hits, cells, pieces, entries, piece_lists, rows, lists;
@@ -183,25 +188,25 @@ Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, scatter_x)}};
 }
 
-/// Groups, for each of a cell's row groups, that take in turns what cells have beyond their first piece.
-std::uint32_t further_groups(const Problem& problem, const Sizes& s) {
+/// Groups of the last pass, for each of a cell's row groups, that take what is shared out, where cells have bits.
+std::uint32_t sharing_groups(const Problem& problem, const Sizes& s) {
   const std::uint32_t row_groups = s.cell_rows / s.group_rows;
-  const std::uint64_t most = std::uint64_t{s.cell_count} * ((parts::capacity(problem) - 1) / PIECE);
-  std::uint32_t groups = parts::divide_up(FURTHER_GROUPS, row_groups);
-  if (problem.traits.subgroup_size < 32) {
+  const std::uint64_t most = std::uint64_t{s.cell_count} * parts::divide_up(parts::capacity(problem), PIECE);
+  std::uint32_t groups = parts::divide_up(SHARED_GROUPS, row_groups);
+  if (is_software(problem)) {
     const std::uint32_t rounds = PIECE_ROUNDS + s.blocks / light_threads(problem) + s.cell_count / 32;
     const std::uint32_t of_group = std::max(1U, SOFTWARE_ROUNDS / rounds);
     const auto further = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, s.pieces - s.cell_count));
     groups = std::max(parts::divide_up(SOFTWARE_GROUPS, row_groups), parts::divide_up(further, of_group));
   }
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, 1, groups));
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most * PARTS, 1, groups));
 }
 
-/// With bits a group for each cell's first piece, and some for further ones: that costs less than to have the GPU read
-/// how many groups it needs.
+/// With bits a group for each cell, and some for crowded ones: that costs less than to have the GPU read how many
+/// groups it needs.
 Extent lists_extent(const Problem& problem, const Sizes& s, const Buffers& b) {
   if (!s.cell_bits) return {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)};
-  return {.x = s.cell_count + further_groups(problem, s), .y = s.cell_rows / s.group_rows};
+  return {.x = s.cell_count + sharing_groups(problem, s), .y = s.cell_rows / s.group_rows};
 }
 
 Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
@@ -209,27 +214,29 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t mark_words = s.group_rows * shared::PIECE_WORDS;
   const std::uint32_t threads = light_threads(problem);
   const std::uint32_t pairs = THREAD_PAIRS * threads;
-  // Words in shared memory to put lights in order by: a sum for each thread, or a long run of a block.
-  const std::uint32_t order_words = s.cell_bits ? threads : parts::divide_up(s.block, 32);
-  Pass pass{.name = s.bits ? "tile bits" : "tile lists",
-            .shader = shader_of(s.sliced() ? "lists_sliced"
-                                : pruned   ? "lists_pruned"
-                                           : "lists",
-                                s),
-            .constants = with_slices(
-                {threads, s.tile_px, s.cell_tiles, s.listed, lists_may_wrap(s), pairs, s.group_rows, mark_words,
-                 s.cell_rows, s.bits ? 1U : 0U, order_words, s.cell_bits ? s.pieces : s.block, s.cell_count},
-                problem, s),
-            .bindings = {{INPUT_FRAME},
-                         {INPUT_LIGHTS},
-                         {INPUT_SPHERES},
-                         s.cell_bits ? Binding{b.cells, Access::read_write} : Binding{b.pieces},
-                         {b.totals, Access::read_write},
-                         {b.rows, Access::write},
-                         {b.piece_lists, Access::write},
-                         {b.lists, Access::write}},
-            .extent = lists_extent(problem, s, b),
-            .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 56 + 80};
+  // In shared memory, to put lights in order by: two sums for each thread, or a bit for each light of a block.
+  const std::uint32_t order_size = s.cell_bits ? threads : parts::divide_up(s.block, 32);
+  const std::uint32_t order_words = s.cell_bits ? 2 * threads : order_size;
+  Pass pass{
+      .name = s.bits ? "tile bits" : "tile lists",
+      .shader = shader_of(s.sliced() ? "lists_sliced"
+                          : pruned   ? "lists_pruned"
+                                     : "lists",
+                          s),
+      .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, lists_may_wrap(s), pairs, s.group_rows,
+                                mark_words, s.cell_rows, s.bits ? 1U : 0U, order_size, s.cell_bits ? s.pieces : s.block,
+                                s.cell_count, is_software(problem) ? ~0U : CROWDED, PARTS},
+                               problem, s),
+      .bindings = {{INPUT_FRAME},
+                   {INPUT_LIGHTS},
+                   {INPUT_SPHERES},
+                   s.cell_bits ? Binding{b.cells, Access::read_write} : Binding{b.pieces},
+                   {b.totals, Access::read_write},
+                   {b.rows, Access::write},
+                   {b.piece_lists, Access::write},
+                   {b.lists, Access::write}},
+      .extent = lists_extent(problem, s, b),
+      .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 56 + 80};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});

@@ -31,10 +31,10 @@ std::vector<std::uint32_t> tile_constants(const TiledAxes& axes) {
           axes.ranges()};
 }
 
-/// Bindings of tile_inputs.glsl. A buffer that the axes do without is bound to the frame, and not read.
+/// Bindings of tile_inputs.glsl. A buffer that the axes do without is bound to the lights, and not read.
 std::vector<Binding> tile_bindings(const Buffers& b) {
-  const auto or_frame = [](ResourceId id) { return Binding{id == NO_RESOURCE ? INPUT_FRAME : id}; };
-  return {{INPUT_FRAME}, {INPUT_DEPTH}, {INPUT_LIGHTS}, or_frame(b.bounds), or_frame(b.frusta), or_frame(b.ranges)};
+  const auto or_lights = [](ResourceId id) { return Binding{id == NO_RESOURCE ? INPUT_LIGHTS : id}; };
+  return {{INPUT_FRAME}, {INPUT_DEPTH}, {INPUT_LIGHTS}, or_lights(b.bounds), or_lights(b.frusta), or_lights(b.ranges)};
 }
 
 /// What comes before the cull: light bounds, tile frusta, depth ranges, as far as the axes have them.

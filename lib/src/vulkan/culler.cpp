@@ -30,7 +30,8 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   Result<Buffer> frame =
       Buffer::create(device, {.name = "frame",
                               .bytes = sizeof(shared::Frame),
-                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT});
   if (!frame) return frame.error();
   Result<Buffer> counts = Buffer::create(device, {.name = "counts read-back",
                                                   .bytes = slots_bytes,

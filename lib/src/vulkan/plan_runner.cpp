@@ -17,8 +17,11 @@ constexpr std::uint64_t COUNT_BYTES = sizeof(std::uint32_t);
 Use use_of(const Resource& resource, Access access, VkPipelineStageFlags2 stages) {
   VkAccessFlags2 flags = 0;
   const bool sampled = resource.image != VK_NULL_HANDLE;
+  const bool uniform = resource.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   if (access != Access::write)
-    flags |= sampled ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+    flags |= sampled   ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
+             : uniform ? VK_ACCESS_2_UNIFORM_READ_BIT
+                       : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
   if (access != Access::read) flags |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   return {.resource = resource, .stages = stages, .access = flags};
 }
@@ -33,11 +36,18 @@ BufferInfo buffer_info(const BufferDesc& desc) {
           .memory = desc.memory == BufferMemory::upload ? MemoryUse::upload : MemoryUse::device};
 }
 
+/// Constants are no loads on some GPUs. Not of raster passes: llvmpipe's fragment shaders go wrong where they branch on
+/// what they read from a uniform buffer.
+VkDescriptorType type_in_pass(const Pass& pass, ResourceId id) {
+  const bool is_constant = id == INPUT_FRAME && pass.kind == PassKind::compute;
+  return is_constant ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : descriptor_type(id);
+}
+
 PipelineInfo pipeline_info(const Pass& pass) {
   PipelineInfo info{.name = pass.name};
   for (std::uint32_t i = 0; i < pass.constants.size(); ++i) info.constants.push_back({i, pass.constants[i]});
   for (std::uint32_t i = 0; i < pass.bindings.size(); ++i)
-    info.bindings.push_back({i, descriptor_type(pass.bindings[i].resource)});
+    info.bindings.push_back({i, type_in_pass(pass, pass.bindings[i].resource)});
   return info;
 }
 
@@ -272,7 +282,8 @@ PlanRunner::BoundPass PlanRunner::bind(const BuiltPass& built, const PlanInputs&
                                     : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   BoundPass bound{.built = &built};
   for (std::uint32_t i = 0; i < pass.bindings.size(); ++i) {
-    const Resource used = resource(pass.bindings[i].resource, inputs);
+    Resource used = resource(pass.bindings[i].resource, inputs);
+    used.type = type_in_pass(pass, pass.bindings[i].resource);
     bound.uses.push_back(use_of(used, pass.bindings[i].access, stages));
     bound.resources.push_back({i, used});
   }

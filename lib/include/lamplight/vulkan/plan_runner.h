@@ -18,7 +18,7 @@ using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::strin
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
-  VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame
+  VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame; usable as uniform and as storage buffer
   VkBuffer lights = VK_NULL_HANDLE;   ///< shared::Light[light_count]
   VkBuffer spheres = VK_NULL_HANDLE;  ///< shared::LightSphere[light_count]
   Resource depth;                     ///< image, view, aspect and layout; unset for methods that do not need it

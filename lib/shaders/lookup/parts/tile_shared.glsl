@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #define TILE_CONSTANT 100
 #define TILE_BINDING 16
+#define TILE_FRAME readonly buffer
 #include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
 
