@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_BIT_PIECES
 #define LAMP_METHODS_LAMPLIGHT_BIT_PIECES
+#extension GL_EXT_control_flow_attributes : require
 
 layout(constant_id = 10) const uint GROUP_THREADS = 256;
 layout(constant_id = 11) const uint PIECES = 1;  // capacity, at least CELLS
@@ -19,9 +20,15 @@ const uint NO_GROUP = ~0u;  // takes nothing
 
 bool is_crowded(uint entries) { return entries > CROWDED; }
 
+// Counts that a thread holds, so that it need not load them twice: all that it looks at, where cells are few.
+const uint HELD_CELLS = 2u;
+
+void load_counts(uint from, uint to, out uint held[HELD_CELLS]) {
+  [[unroll]] for (uint k = 0u; k < HELD_CELLS; ++k) held[k] = from + k < to ? cells[from + k].entries : 0u;
+}
+
 // All of a crowded cell; beyond the first of any cell.
-uvec2 pieces_of(uint cell) {
-  const uint entries = cells[cell].entries;
+uvec2 pieces_of(uint entries) {
   const uint pieces = (entries + PIECE - 1u) / PIECE;
   return uvec2(is_crowded(entries) ? pieces : 0u, max(pieces, 1u) - 1u);
 }
@@ -34,8 +41,8 @@ void write_cell(uint cell, uint first, uint further, bool fits) {
 }
 
 // Piece `number` of the cell, the group's part of it if all are shared out; `first`: further pieces of cells before.
-CellPiece part_of_piece(uint cell, uint number, uint first, bool all, uint group) {
-  const uint count = min(cells[cell].entries - number * PIECE, PIECE);
+CellPiece part_of_piece(uint cell, uint entries, uint number, uint first, bool all, uint group) {
+  const uint count = min(entries - number * PIECE, PIECE);
   const uint place = number == 0u ? cell : CELLS + first + number - 1u;
   const uint rows = all ? ROWS / PARTS : ROWS;
   return CellPiece(cell, number * PIECE, count, place, all ? group % PARTS * rows : 0u, rows);
@@ -49,22 +56,29 @@ bool share_pieces(uint group, uint groups, bool writes) {
   const uint strip = (CELLS + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;  // cells of a thread
   const uint from = min(thread * strip, CELLS);
   const uint to = min(from + strip, CELLS);
+  uint held[HELD_CELLS];
   uvec2 own = uvec2(0u);
-  for (uint cell = from; cell < to; ++cell) own += pieces_of(cell);
+  for (uint cell = from; cell < to; cell += HELD_CELLS) {
+    load_counts(cell, to, held);
+    [[unroll]] for (uint k = 0u; k < HELD_CELLS; ++k) own += pieces_of(held[k]);
+  }
   uvec2 total;
   uvec2 first = subgroup_scan(own, total);
   const bool all = CROWDED != ~0u && total.x <= groups / PARTS;
   if (writes && thread == 0u) totals.wanted_pieces = CELLS + total.y;
   const uint wanted = all ? group / PARTS : group;
   const bool has_it = group != NO_GROUP && wanted - (all ? first.x : first.y) < (all ? own.x : own.y);
-  for (uint cell = from; cell < to && (has_it || writes); ++cell) {
-    const uvec2 pieces = pieces_of(cell);
-    const bool fits = first.y + pieces.y <= PIECES - CELLS;
-    if (writes && pieces.y > 0u) write_cell(cell, first.y, pieces.y, fits);
-    const uint at = wanted - (all ? first.x : first.y);
-    if (fits && at < (all ? pieces.x : pieces.y))
-      s_piece = part_of_piece(cell, all ? at : at + 1u, first.y, all, group);
-    first += pieces;
+  for (uint at = from; at < to && (has_it || writes); at += HELD_CELLS) {
+    if (strip > HELD_CELLS) load_counts(at, to, held);
+    [[unroll]] for (uint k = 0u; k < HELD_CELLS; ++k) {
+      const uvec2 pieces = pieces_of(held[k]);
+      const bool fits = first.y + pieces.y <= PIECES - CELLS;
+      if (writes && pieces.y > 0u) write_cell(at + k, first.y, pieces.y, fits);
+      const uint number = wanted - (all ? first.x : first.y);
+      if (fits && has_it && number < (all ? pieces.x : pieces.y))
+        s_piece = part_of_piece(at + k, held[k], all ? number : number + 1u, first.y, all, group);
+      first += pieces;
+    }
   }
   barrier();  // the piece is found
   return all;
