@@ -87,8 +87,8 @@ bool cone_touches_planes(SpotCone cone, TileSides sides, float z_near, float z_f
 }
 
 // Against the spheres around the occupied parts of the mask, of which neighbours are taken together while they are not
-// longer than the tile is wide: a sphere around fewer of them would hardly be smaller. None reaches across a border, a bit
-// at the part behind it.
+// longer than the tile is wide: a sphere around fewer of them would hardly be smaller. None reaches across a border, a
+// bit at the part behind it.
 bool cone_touches_parts(SpotCone cone, TileSides sides, float z_near, float z_far, uint parts, uint borders) {
   const float step = (z_far - z_near) / float(MASK_BITS);
   while (parts != 0u) {

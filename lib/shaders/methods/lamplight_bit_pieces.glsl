@@ -1,8 +1,8 @@
 // Which work group takes what, where cells have bits. The last CELLS groups take a cell's first piece each. The others
 // take what is shared out, and begin first, so that nobody waits for them in the end. If crowded cells have few pieces
-// in all, these are all shared out, each in PARTS parts of its rows: they are what the pass would wait for. If there are
-// more parts than groups, only pieces beyond a cell's first are shared out, whole, and groups take them in turns. Which
-// it is they learn from the counts of all cells, each for itself: a pass that does it once for all takes longer.
+// in all, these are all shared out, each in PARTS parts of its rows: they are what the pass would wait for. If there
+// are more parts than groups, only pieces beyond a cell's first are shared out, whole, and groups take them in turns.
+// Which it is they learn from the counts of all cells, each for itself: a pass that does it once for all takes longer.
 // Needs: ROWS, CELL_ROWS; `cells`, `totals`; s_piece. Gives share_pieces.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_BIT_PIECES

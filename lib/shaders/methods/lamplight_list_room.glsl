@@ -1,5 +1,5 @@
 // Lists of a work group's rows: room for all of them together, then each in order. Threads are no fewer than rows.
-// Needs: ROWS, CELL_ROWS, LIST_ENTRIES, MAY_WRAP; `totals`, `rows`; methods/lamplight_row_lists.glsl.
+// Needs: ROWS, LIST_ENTRIES, MAY_WRAP; `totals`, `rows`; CellPiece; methods/lamplight_row_lists.glsl.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_LIST_ROOM
 #define LAMP_METHODS_LAMPLIGHT_LIST_ROOM

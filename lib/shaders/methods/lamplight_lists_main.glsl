@@ -1,5 +1,5 @@
-// A piece of a cell's lights by one work group for each ROWS rows of the cell: put in order, tested exactly against
-// every row that the light's rectangle covers, and written as one ascending list a row, or as one bit a row and light.
+// A piece of a cell's lights by one work group for each ROWS rows of the cell, or for a part of these: put in order,
+// tested exactly against every row, and written as one ascending list a row, or as one bit a row and light.
 // A bit matrix in shared memory (rows x lights) holds who reaches what, so that each list is written once and in order.
 // SPDX-License-Identifier: Apache-2.0
 layout(local_size_x_id = 0) in;
@@ -29,18 +29,7 @@ layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; }
 layout(set = 0, binding = 6, scalar) writeonly buffer PieceListBuffer { uint piece_lists[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[]; };  // not of bits
 
-// What a work group looks at: a cell's entries, by some of its own rows. It stays in shared memory for when all tests
-// are done, because these need every register.
-struct CellPiece {
-  uint cell;   // NO_CELL: there is none
-  uint begin;  // of its entries
-  uint count;  // of them
-  uint place;  // among all pieces
-  uint row;    // of the group's, where they begin
-  uint rows;
-};
-
-shared CellPiece s_piece;
+#include "methods/lamplight_cell_piece.glsl"
 
 #ifdef CELL_BITS
 layout(set = 0, binding = 8, scalar) readonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]

@@ -36,10 +36,10 @@ uint wait(uint first, uint waiting, bool has_pair, uint packed) {
   return waiting + subgroupBallotBitCount(those);
 }
 
-// How many threads share a pair, if that many wait: fewer than there are threads leave some of these without work. A power
-// of two.
 const uint MOST_SHARERS = 4u;
 
+// How many threads share a pair, if that many wait: fewer than there are threads leave some of these without work. A
+// power of two.
 uint sharers(uint waiting) {
   uint share = 1u;
   while (share < MOST_SHARERS && 2u * share * waiting <= gl_SubgroupSize) share *= 2u;
