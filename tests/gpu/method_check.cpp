@@ -84,7 +84,9 @@ LitCase make_case(Renderer& renderer, const View& view, std::vector<shared::Ligh
 }
 
 Lighting make_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
-  return {renderer.device(), shader_library(), info_of(renderer, candidate, path)};
+  vulkan::Device device = renderer.device();
+  if (candidate.subgroup_size != 0) device.traits.subgroup_size = candidate.subgroup_size;
+  return {device, shader_library(), info_of(renderer, candidate, path)};
 }
 
 Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
@@ -92,18 +94,17 @@ Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, Sh
   // Brute force has no buffers of its own, so one lighting does for any number of lights that tests have.
   constexpr std::uint32_t MANY = (1U << 16) - 1;  // llvmpipe walks no more
   const std::uint32_t capacity = candidate.method == &brute_force() ? MANY : candidate.light_capacity;
-  const std::string key =
-      fmt::format("{} {} {}x{} {} {}", candidate.method->name, fmt::join(candidate.settings, " "),
-                  renderer.targets().width, renderer.targets().height, capacity, static_cast<int>(path));
+  const std::string key = fmt::format(
+      "{} {} {}x{} {} {} {}", candidate.method->name, fmt::join(candidate.settings, " "), renderer.targets().width,
+      renderer.targets().height, capacity, candidate.subgroup_size, static_cast<int>(path));
   const auto found = std::ranges::find(kept, key, &std::pair<std::string, Lighting>::first);
   if (found != kept.end()) {
     kept.splice(kept.begin(), kept, found);
     return kept.front().second;
   }
-  kept.emplace_front(
-      key,
-      make_lighting(renderer, {.method = candidate.method, .settings = candidate.settings, .light_capacity = capacity},
-                    path));
+  Candidate kept_candidate = candidate;
+  kept_candidate.light_capacity = capacity;
+  kept.emplace_front(key, make_lighting(renderer, kept_candidate, path));
   if (kept.size() > KEPT) kept.pop_back();
   return kept.front().second;
 }

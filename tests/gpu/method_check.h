@@ -27,6 +27,7 @@ struct Candidate {
   const Method* method = nullptr;
   std::vector<std::string> settings;
   std::uint32_t light_capacity = 0;
+  std::uint32_t subgroup_size = 0;  ///< that the plan is made for, whatever the shaders find; 0: the device's
 };
 
 /// Throws Error when the plan does not fit the device.
