@@ -17,6 +17,7 @@ constexpr std::uint32_t HEIGHT = 35;
 
 class CrowdedCells : public GpuTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
+class CellsWithoutRoom : public GpuTest {};
 class ManyPieces : public GpuTest {};
 
 // Plans for large subgroups share crowded cells out in parts, those for small ones do not: here either is run. With
@@ -45,6 +46,26 @@ TEST_P(CrowdedCells, KeepTheirOrderAsListsAndAsBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CrowdedCells, ::testing::Values(4097, 20011));
+
+// A cell that has a piece of its own alone needs no room, whatever became of those before it.
+TEST_F(CellsWithoutRoom, LeaveOthersTheirPieces) {
+  constexpr std::uint32_t COUNT = 3000;
+  constexpr glm::uvec2 SIZE{200, 113};
+  const TestScene& scene = builtin_test_scene("posts");
+  const View view = view_of(find_camera(scene.scene, ""), SIZE.x, SIZE.y, "camera");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, SIZE.x, SIZE.y, COUNT);
+  const LitCase lit = make_case(renderer, view, pack(place_lights(scene.scene, {.count = COUNT})));
+  for (const std::uint32_t subgroup : PLAN_SUBGROUPS) {
+    SCOPED_TRACE(subgroup);
+    const Candidate candidate{.method = take(find_method("lamplight")),
+                              .settings = {"cells=bits", "mean_cells=0", "mean_capacity=1000"},
+                              .light_capacity = COUNT,
+                              .subgroup_size = subgroup};
+    check_method(renderer, lit, candidate, Check::separate);
+    const Rendered rendered = renderer.render(kept_lighting(renderer, candidate, ShadingPath::deferred));
+    EXPECT_GT(rendered.counters.overflowed_cells, 0);
+  }
+}
 
 // A cell with 2048 pieces, of which no work group may take so many that a software device ends its loops: it does so
 // after 65535 rounds of a thread, and then lists lack lights.

@@ -72,7 +72,7 @@ bool share_pieces(uint group, uint groups, bool writes) {
     if (strip > HELD_CELLS) load_counts(at, to, held);
     [[unroll]] for (uint k = 0u; k < HELD_CELLS; ++k) {
       const uvec2 pieces = pieces_of(held[k]);
-      const bool fits = first.y + pieces.y <= PIECES - CELLS;
+      const bool fits = pieces.y == 0u || first.y + pieces.y <= PIECES - CELLS;
       if (writes && pieces.y > 0u) write_cell(at + k, first.y, pieces.y, fits);
       const uint number = wanted - (all ? first.x : first.y);
       if (fits && has_it && number < (all ? pieces.x : pieces.y))
