@@ -98,19 +98,21 @@ TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
   for (shared::Light& light : wide) light.range *= 30.0F;
   const LitCase lit = make_case(renderer_, view_, wide);
   const Method& method = *take(find_method("lamplight"));
-  const auto overflowed = [&](const std::vector<std::string>& settings) {
-    SCOPED_TRACE(fmt::format("{}", fmt::join(settings, " ")));
-    const Candidate candidate{.method = &method, .settings = settings, .light_capacity = COUNT};
+  const auto overflowed = [&](std::uint32_t subgroup, const std::vector<std::string>& settings) {
+    SCOPED_TRACE(fmt::format("{}, {} a subgroup", fmt::join(settings, " "), subgroup));
+    const Candidate candidate{
+        .method = &method, .settings = settings, .light_capacity = COUNT, .subgroup_size = subgroup};
     check_method(renderer_, lit, candidate, Check::separate);
     renderer_.set_frame(view_, lit.lights);
     return renderer_.render(kept_lighting(renderer_, candidate, ShadingPath::deferred)).counters.overflowed_cells;
   };
-  for (const char* cells : {"cells=list", "cells=bits"}) {
-    EXPECT_EQ(overflowed({cells, "mean_cells=8", "mean_capacity=300"}), 0);
-    EXPECT_GT(overflowed({cells, "mean_cells=8", "mean_capacity=1"}), 0);
-    EXPECT_GT(overflowed({cells, "mean_cells=0", "mean_capacity=300"}), 0);
-    EXPECT_GT(overflowed({cells, "mean_cells=0", "mean_capacity=1"}), 0);
-  }
+  for (const char* cells : {"cells=list", "cells=bits"})
+    for (const std::uint32_t subgroup : {8U, 32U}) {  // large ones share crowded cells out
+      EXPECT_EQ(overflowed(subgroup, {cells, "mean_cells=8", "mean_capacity=300"}), 0);
+      EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=8", "mean_capacity=1"}), 0);
+      EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=0", "mean_capacity=300"}), 0);
+      EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=0", "mean_capacity=1"}), 0);
+    }
 }
 
 /// A row with every option that sizes a list set to its least, and lights so wide that all of them are too small.
