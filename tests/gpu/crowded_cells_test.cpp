@@ -20,10 +20,8 @@ class CrowdedCells : public GpuTest, public ::testing::WithParamInterface<std::u
 class CellsWithoutRoom : public GpuTest {};
 class ManyPieces : public GpuTest {};
 
-// Plans for large subgroups share crowded cells out in parts, those for small ones do not: here either is run. With
-// eight threads a subgroup, more than 16 384 lights are more words of bits than a thread holds at once.
-constexpr std::uint32_t PLAN_SUBGROUPS[] = {8, 32};
-
+// On a device with eight threads a subgroup, more than 16 384 lights are more words of bits than a thread holds at
+// once.
 TEST_P(CrowdedCells, KeepTheirOrderAsListsAndAsBits) {
   const std::uint32_t count = GetParam();
   const TestScene& scene = builtin_test_scene("blocks");

@@ -30,6 +30,9 @@ struct Candidate {
   std::uint32_t subgroup_size = 0;  ///< that the plan is made for, whatever the shaders find; 0: the device's
 };
 
+/// Plans of `lamplight` for large subgroups share crowded cells out in parts, those for small ones do not.
+inline constexpr std::uint32_t PLAN_SUBGROUPS[] = {8, 32};
+
 /// Throws Error when the plan does not fit the device.
 [[nodiscard]] Lighting make_lighting(const Renderer& renderer, const Candidate& candidate,
                                      ShadingPath path = ShadingPath::deferred);

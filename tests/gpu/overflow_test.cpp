@@ -107,7 +107,7 @@ TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
     return renderer_.render(kept_lighting(renderer_, candidate, ShadingPath::deferred)).counters.overflowed_cells;
   };
   for (const char* cells : {"cells=list", "cells=bits"})
-    for (const std::uint32_t subgroup : {8U, 32U}) {  // large ones share crowded cells out
+    for (const std::uint32_t subgroup : PLAN_SUBGROUPS) {
       EXPECT_EQ(overflowed(subgroup, {cells, "mean_cells=8", "mean_capacity=300"}), 0);
       EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=8", "mean_capacity=1"}), 0);
       EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=0", "mean_capacity=300"}), 0);

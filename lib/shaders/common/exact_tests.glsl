@@ -16,8 +16,8 @@ vec2 outside_edges(float x, vec4 edges, float z) {
   return vec2(is_below ? below : is_above ? above : 0.0, is_below ? edges.y : is_above ? -edges.w : 0.0);
 }
 
-// Squared distance from a sphere's centre to a frustum's cross-section at a depth, with its first derivative along z and half
-// its second. f(z) = (z - c)^2 + dx(z)^2 + dy(z)^2 is convex and piecewise quadratic, and f'' >= 2 everywhere.
+// Squared distance from a sphere's centre to a frustum's cross-section at a depth, with its first derivative along z and
+// half its second. f(z) = (z - c)^2 + dx(z)^2 + dy(z)^2 is convex and piecewise quadratic, and f'' >= 2 everywhere.
 struct Section {
   float value;
   float slope;
@@ -80,8 +80,8 @@ bool sphere_touches_parts(LightBounds sphere, TileSides sides, float z_mask, flo
          (above != 0u && least_in(section_at(sphere, sides, z_above), z_above, z_above, z_far) <= radius2);
 }
 
-// A first look at the same: only at that cross-section of the occupied depths which is nearest to the sphere's centre, of
-// a mask with `scale` parts a metre. It decides 79 to 98 of 100 lights and tiles with occupied parts at the light's
+// A first look at the same: only at that cross-section of the occupied depths which is nearest to the sphere's centre,
+// of a mask with `scale` parts a metre. It decides 79 to 98 of 100 lights and tiles with occupied parts at the light's
 // depths, and these as the exact test would.
 const uint APART = 0u;
 const uint TOUCHES = 1u;

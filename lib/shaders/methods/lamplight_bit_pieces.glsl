@@ -75,7 +75,7 @@ bool share_pieces(uint group, uint groups, bool writes) {
       const bool fits = pieces.y == 0u || first.y + pieces.y <= PIECES - CELLS;
       if (writes && pieces.y > 0u) write_cell(at + k, first.y, pieces.y, fits);
       const uint number = wanted - (all ? first.x : first.y);
-      if (fits && has_it && number < (all ? pieces.x : pieces.y))
+      if (fits && number < (all ? pieces.x : pieces.y))
         s_piece = part_of_piece(at + k, held[k], all ? number : number + 1u, first.y, all, group);
       first += pieces;
     }

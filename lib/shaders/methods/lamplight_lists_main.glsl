@@ -112,7 +112,6 @@ void cull_piece(CellPiece piece) {
 void main() {
   const uint others = gl_NumWorkGroups.x - CELLS;
   const bool is_own = gl_WorkGroupID.x >= others;
-  const bool is_first = gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u;
   const uint cell = is_own ? gl_WorkGroupID.x - others : NO_CELL;
   const uint entries = is_own ? cells[cell].entries : 0u;
   if (is_own && entries == 0u) return;
@@ -121,7 +120,7 @@ void main() {
     CellPiece piece = CellPiece(cell, 0u, min(entries, PIECE), cell, 0u, ROWS);
     if (gl_LocalInvocationIndex == 0u) s_piece = piece;
     if (!is_own || is_crowded(entries)) {
-      if (share_pieces(is_own ? NO_GROUP : group, others, is_first && group == 0u) && is_own) return;
+      if (share_pieces(is_own ? NO_GROUP : group, others, group == 0u && gl_WorkGroupID.y == 0u) && is_own) return;
       piece = s_piece;
     }
     if (piece.cell == NO_CELL) return;

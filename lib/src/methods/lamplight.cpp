@@ -19,6 +19,7 @@ namespace lamp {
 namespace {
 
 using lamplight::group_threads;
+using lamplight::has_small_subgroups;
 using lamplight::light_threads;
 using lamplight::Sizes;
 using lamplight::THREAD_PAIRS;
@@ -63,9 +64,6 @@ std::uint32_t find_share(const Problem& problem, std::uint32_t threads) {
   const std::uint32_t wanted = parts::divide_up(parts::capacity(problem), WANTED_GROUPS);
   return std::clamp(wanted, subgroups, threads);
 }
-
-/// Whose groups run few at once, so that more of them are only more work.
-bool is_software(const Problem& problem) { return problem.traits.subgroup_size < 32; }
 
 struct Buffers {
   ResourceId totals, tile_depths, cell_depths, seen, matrix, hits, cells, pieces, entries, piece_lists, rows, lists;
@@ -190,10 +188,11 @@ Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
 
 /// Groups of the last pass, for each of a cell's row groups, that take what is shared out, where cells have bits.
 std::uint32_t sharing_groups(const Problem& problem, const Sizes& s) {
+  if (parts::capacity(problem) <= (has_small_subgroups(problem) ? PIECE : CROWDED)) return 1;  // nothing is
   const std::uint32_t row_groups = s.cell_rows / s.group_rows;
   const std::uint64_t most = std::uint64_t{s.cell_count} * parts::divide_up(parts::capacity(problem), PIECE);
   std::uint32_t groups = parts::divide_up(SHARED_GROUPS, row_groups);
-  if (is_software(problem)) {
+  if (has_small_subgroups(problem)) {
     const std::uint32_t rounds = PIECE_ROUNDS + s.blocks / light_threads(problem) + s.cell_count / 32;
     const std::uint32_t of_group = std::max(1U, SOFTWARE_ROUNDS / rounds);
     const auto further = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, s.pieces - s.cell_count));
@@ -225,7 +224,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                           s),
       .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, lists_may_wrap(s), pairs, s.group_rows,
                                 mark_words, s.cell_rows, s.bits ? 1U : 0U, order_size, s.cell_bits ? s.pieces : s.block,
-                                s.cell_count, is_software(problem) ? ~0U : CROWDED, PARTS},
+                                s.cell_count, has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
                                problem, s),
       .bindings = {{INPUT_FRAME},
                    {INPUT_LIGHTS},

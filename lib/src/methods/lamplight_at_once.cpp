@@ -28,7 +28,7 @@ Grid grid_of(const Problem& problem) {
   Grid grid{.tile_px = problem.options.integer("tile"), .cell_tiles = CELL_TILES, .threads = light_threads(problem)};
   grid.tiles = parts::tile_grid(problem, grid.tile_px);
   // A software device takes longer for more groups.
-  if (grid.tiles.count() <= FEW_TILES && problem.traits.subgroup_size >= 32) {
+  if (grid.tiles.count() <= FEW_TILES && !has_small_subgroups(problem)) {
     grid.cell_tiles = 1;
     grid.threads = FEW_TILES_THREADS;
   }

@@ -93,7 +93,9 @@ std::uint32_t light_threads(const Problem& problem) {
   return group_threads(problem, std::clamp(GROUP_SUBGROUPS * problem.traits.subgroup_size, GROUP_ROWS, THREADS));
 }
 
-std::uint32_t squares_held(const Problem& problem) { return problem.traits.subgroup_size < 32 ? 1 : 2; }
+bool has_small_subgroups(const Problem& problem) { return problem.traits.subgroup_size < 32; }
+
+std::uint32_t squares_held(const Problem& problem) { return has_small_subgroups(problem) ? 1 : 2; }
 
 std::vector<std::uint32_t> with_slices(std::vector<std::uint32_t> constants, const Problem& problem,
                                        std::uint32_t cell_slices, std::uint32_t slices) {

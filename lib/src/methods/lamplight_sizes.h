@@ -47,6 +47,9 @@ struct Sizes {
 /// thread for each row of a group.
 [[nodiscard]] std::uint32_t light_threads(const Problem& problem);
 
+/// As software devices have, whose groups run few at once: more of them are only more work.
+[[nodiscard]] bool has_small_subgroups(const Problem& problem);
+
 /// What a thread that reads depths loads at once. Subgroups of fewer than 32 read a tile twice either way, and a
 /// software device takes a third less time for that one by one.
 [[nodiscard]] std::uint32_t squares_held(const Problem& problem);
