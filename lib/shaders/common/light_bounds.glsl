@@ -20,12 +20,13 @@ LightSphere light_sphere(Light light) {
 }
 
 LightBounds view_bounds(Frame frame, LightSphere sphere) {
-  if (sphere.radius < 0.0) return LightBounds(vec3(0.0), REACHES_NOTHING);
   const vec3 center = (frame.view_from_world * vec4(sphere.center, 1.0)).xyz;
   // A spot's tip, which rounds as well, is within two radii of the centre.
   const float slack = (ROUND_RADIUS + 2.0 * ROUND_POSITION) * sphere.radius +
                       ROUND_POSITION * (length(center) + length(sphere.center) + length(frame.eye_world));
-  return LightBounds(center, sphere.radius + slack);
+  // Without a branch: compilers load what comes behind one only then.
+  const bool reaches = sphere.radius >= 0.0;
+  return LightBounds(reaches ? center : vec3(0.0), reaches ? sphere.radius + slack : REACHES_NOTHING);
 }
 
 LightBounds light_bounds(Frame frame, Light light) { return view_bounds(frame, light_sphere(light)); }

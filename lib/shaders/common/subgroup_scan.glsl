@@ -1,12 +1,12 @@
 // An exclusive prefix sum over the threads of a work group of full subgroups, with one barrier: each subgroup adds up
 // what the subgroups before it hold. Between two scans a barrier must stand, as its shared memory is used again.
-// Needs: GROUP_THREADS, a constant.
+// Needs: MOST_SUBGROUPS, a constant.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SUBGROUP_SCAN
 #define LAMP_COMMON_SUBGROUP_SCAN
 #include "common/subgroup_sum.glsl"
 
-shared uvec2 s_subgroup_sums[GROUP_THREADS];  // there are no more subgroups than threads
+shared uvec2 s_subgroup_sums[MOST_SUBGROUPS];
 
 // The thread's place in the order of the sum.
 uint scan_thread() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
@@ -17,7 +17,7 @@ uint subgroup_scan(uint value) {
   if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) s_subgroup_sums[gl_SubgroupID].x = end;
   barrier();  // every subgroup's sum before they are added up
   uint before = end - value;
-  for (uint i = 0u; i < gl_SubgroupID; ++i) before += s_subgroup_sums[i].x;
+  for (uint i = 0u; i < gl_NumSubgroups; ++i) before += i < gl_SubgroupID ? s_subgroup_sums[i].x : 0u;
   return before;
 }
 

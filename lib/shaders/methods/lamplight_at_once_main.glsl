@@ -29,7 +29,7 @@ shared uint s_words[PIECE_WORDS];  // a bit for each light that may reach the ce
 
 // By all threads of the group together, before a barrier.
 void load_rows(Cell cell) {
-  for (uint row = gl_LocalInvocationIndex; row < ROWS; row += gl_WorkGroupSize.x) load_sides(cell, row);
+  if (gl_LocalInvocationIndex < CELL_TILES) load_sides(cell, gl_LocalInvocationIndex);
   for (uint row = gl_SubgroupID; row < ROWS; row += gl_NumSubgroups) {
     const uvec2 tile = tile_of_row(cell, row);
     TileDepths depths = TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);

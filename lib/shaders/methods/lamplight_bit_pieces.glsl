@@ -9,7 +9,7 @@
 #define LAMP_METHODS_LAMPLIGHT_BIT_PIECES
 #extension GL_EXT_control_flow_attributes : require
 
-layout(constant_id = 10) const uint GROUP_THREADS = 256;
+layout(constant_id = 10) const uint MOST_SUBGROUPS = 64;  // of a work group
 layout(constant_id = 11) const uint PIECES = 1;  // capacity, at least CELLS
 layout(constant_id = 12) const uint CELLS = 1;
 layout(constant_id = 13) const uint CROWDED = ~0u;    // a cell of more lights is; ~0: none is
@@ -58,8 +58,8 @@ bool share_pieces(uint group, uint groups, bool writes) {
   const uint to = min(from + strip, CELLS);
   uint held[HELD_CELLS];
   uvec2 own = uvec2(0u);
-  for (uint cell = from; cell < to; cell += HELD_CELLS) {
-    load_counts(cell, to, held);
+  for (uint at = 0u; at < strip; at += HELD_CELLS) {
+    load_counts(from + at, to, held);
     [[unroll]] for (uint k = 0u; k < HELD_CELLS; ++k) own += pieces_of(held[k]);
   }
   uvec2 total;
@@ -68,15 +68,15 @@ bool share_pieces(uint group, uint groups, bool writes) {
   if (writes && thread == 0u) totals.wanted_pieces = CELLS + total.y;
   const uint wanted = all ? group / PARTS : group;
   const bool has_it = group != NO_GROUP && wanted - (all ? first.x : first.y) < (all ? own.x : own.y);
-  for (uint at = from; at < to && (has_it || writes); at += HELD_CELLS) {
-    if (strip > HELD_CELLS) load_counts(at, to, held);
+  for (uint at = 0u; at < strip && (has_it || writes); at += HELD_CELLS) {
+    if (strip > HELD_CELLS) load_counts(from + at, to, held);
     [[unroll]] for (uint k = 0u; k < HELD_CELLS; ++k) {
       const uvec2 pieces = pieces_of(held[k]);
       const bool fits = pieces.y == 0u || first.y + pieces.y <= PIECES - CELLS;
-      if (writes && pieces.y > 0u) write_cell(at + k, first.y, pieces.y, fits);
+      if (writes && pieces.y > 0u) write_cell(from + at + k, first.y, pieces.y, fits);
       const uint number = wanted - (all ? first.x : first.y);
       if (fits && number < (all ? pieces.x : pieces.y))
-        s_piece = part_of_piece(at + k, held[k], all ? number : number + 1u, first.y, all, group);
+        s_piece = part_of_piece(from + at + k, held[k], all ? number : number + 1u, first.y, all, group);
       first += pieces;
     }
   }

@@ -68,15 +68,15 @@ TileDepths depths_of_row(Cell cell, uvec2 tile) {
 void load_row(Cell cell, uint row) {
   const uvec2 tile = tile_of_row(cell, row);
   s_depths[row] = is_in_picture(tile) ? depths_of_row(cell, tile) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
-  load_sides(cell, row);
 }
 
 Cell cell_of(CellPiece piece) {
   const uvec2 size = (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES);
-  const uint in_layer = piece.cell % (size.x * size.y);
 #ifdef SLICED
+  const uint in_layer = piece.cell % (size.x * size.y);
   const uint first_slice = piece.cell / (size.x * size.y) * CELL_SLICES;
 #else
+  const uint in_layer = piece.cell;
   const uint first_slice = 0u;
 #endif
   return Cell(uvec2(in_layer % size.x, in_layer / size.x) * CELL_TILES, gl_WorkGroupID.y * ROWS + piece.row,
@@ -92,8 +92,10 @@ void write_piece(CellPiece piece) {
   else
     needs_lights = !write_lists(piece, first_row);
   if (!needs_lights) return;
-  for (uint i = gl_LocalInvocationIndex; i < piece.count; i += gl_WorkGroupSize.x)
-    piece_lists[piece.place * PIECE + i] = s_lights[i];
+  for (uint first = 0u; first < PIECE; first += gl_WorkGroupSize.x) {
+    const uint i = first + gl_LocalInvocationIndex;
+    if (i < piece.count) piece_lists[piece.place * PIECE + i] = s_lights[i];
+  }
 }
 
 // By all threads of the group together.
@@ -102,6 +104,7 @@ void cull_piece(CellPiece piece) {
   const Cell cell = cell_of(piece);
   clear_marks();
   if (gl_LocalInvocationIndex < cell.rows) load_row(cell, gl_LocalInvocationIndex);
+  if (gl_LocalInvocationIndex < CELL_TILES) load_sides(cell, gl_LocalInvocationIndex);
   order_lights(load, piece);
   mark_lights(cell, piece.count);
   barrier();  // all bits before they are read

@@ -15,26 +15,28 @@ uint bit_word(uint row, uint word) { return row * PIECE_WORDS + word; }
 
 // By all threads of the group together, before a barrier.
 void clear_marks() {
-  for (uint i = gl_LocalInvocationIndex; i < MARK_WORDS; i += gl_WorkGroupSize.x) s_bits[i] = 0u;
+  for (uint first = 0u; first < MARK_WORDS; first += gl_WorkGroupSize.x)
+    if (first + gl_LocalInvocationIndex < MARK_WORDS) s_bits[first + gl_LocalInvocationIndex] = 0u;
 }
 
 #ifdef PRUNED
 #include "methods/lamplight_prune.glsl"
 #endif
 
+// By all threads of the group together.
+void load_spheres(uint count) {
+  for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x) {
+    const uint light = s_lights[i];
+    const bool is_spot = lights[light].type == LIGHT_SPOT;
+    const LightBounds sphere = view_bounds(frame, spheres[light]);
+    s_spheres[i] = LightBounds(sphere.center, is_spot ? -sphere.radius : sphere.radius);
+  }
+  barrier();  // spheres before other threads read them
+}
+
 // All below is for the threads of a subgroup together.
 // Its i-th light in the piece. Neighbours go to different subgroups, because they tend to have as many pairs.
 uint entry_of(uint i) { return gl_SubgroupID + i * gl_NumSubgroups; }
-
-void load_spheres(uint count) {
-  for (uint i = gl_SubgroupInvocationID; i < count; i += gl_SubgroupSize) {
-    const uint light = s_lights[entry_of(i)];
-    s_spheres[entry_of(i)] = view_bounds(frame, spheres[light]);
-    if (lights[light].type == LIGHT_SPOT) s_spheres[entry_of(i)].radius *= -1.0;
-  }
-  subgroupMemoryBarrierShared();
-  subgroupBarrier();  // spheres before other threads read them
-}
 
 void mark(Cell cell, Pair pair, bool reached) {
 #ifdef PRUNED
@@ -80,12 +82,12 @@ void test_cones(Cell cell, inout uint spots) {
   mark(cell, pair, reached && rank == 0u);
 }
 
-// Lights [0, count) of the piece. Looks until no more pairs have room, then tests with every thread busy, until nothing
-// is left. So every test is in the code once; and each has a loop of its own, because some devices go through all of a
-// loop's body for the threads that need a part of it.
+// By all threads of the group together: lights [0, count) of the piece. Each subgroup looks until no more pairs have
+// room, then tests with every thread busy, until nothing is left. So every test is in the code once; and each has a loop
+// of its own, because some devices go through all of a loop's body for the threads that need a part of it.
 void mark_lights(Cell cell, uint count) {
+  load_spheres(count);
   const uint own = (count + gl_NumSubgroups - 1u - gl_SubgroupID) / gl_NumSubgroups;  // lights
-  load_spheres(own);
   const uint all = own * cell.rows;
   uint first = 0u;  // pair of light and row not looked at
   uint pairs = 0u;  // that wait

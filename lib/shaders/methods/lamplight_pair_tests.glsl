@@ -24,8 +24,8 @@ struct Target {
 Target target_of(Pair pair) {
   Target target;
   target.sphere = LightBounds(s_spheres[pair.entry].center, abs(s_spheres[pair.entry].radius));
-  target.sides.x_edges = s_x_edges[pair.row];
-  target.sides.y_edges = s_y_edges[pair.row];
+  target.sides.x_edges = x_edges_of_row(pair.row);
+  target.sides.y_edges = y_edges_of_row(pair.row);
   target.depths = depths_in_reach(pair.row, target.sphere);
   target.step = (target.depths.z_far - target.depths.z_near) / float(MASK_BITS);
   target.parts = parts_near(target.sphere, target.depths.z_near, target.depths.scale, target.depths.mask);

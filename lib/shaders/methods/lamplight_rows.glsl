@@ -16,8 +16,8 @@ struct Cell {
   uint first_slice;
 };
 
-shared vec4 s_x_edges[ROWS];
-shared vec4 s_y_edges[ROWS];
+shared vec4 s_x_edges[CELL_TILES];  // of columns of tiles, from that of the first row on
+shared vec4 s_y_edges[CELL_TILES];  // of lines of tiles, from that of the first row on
 shared TileDepths s_depths[ROWS];
 
 uvec2 tile_of_row(Cell cell, uint row) {
@@ -25,15 +25,18 @@ uvec2 tile_of_row(Cell cell, uint row) {
   return cell.first_tile + uvec2(tile % CELL_TILES, tile / CELL_TILES);
 }
 
-// By one thread a row.
-void load_sides(Cell cell, uint row) {
-  const uvec2 tile = tile_of_row(cell, row);
+// By one thread each for number `i` of CELL_TILES columns and as many lines.
+void load_sides(Cell cell, uint i) {
+  const uvec2 tile = uvec2(tile_of_row(cell, i).x, tile_of_row(cell, i * CELL_TILES).y);
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
-  s_x_edges[row] = x_edges;
-  s_y_edges[row] = y_edges;
+  s_x_edges[i] = x_edges;
+  s_y_edges[i] = y_edges;
 }
+
+vec4 x_edges_of_row(uint row) { return s_x_edges[row % CELL_TILES]; }
+vec4 y_edges_of_row(uint row) { return s_y_edges[row / CELL_TILES]; }
 
 bool is_in_picture(uvec2 tile) { return all(lessThan(tile * TILE_PX, frame.size_px)); }
 

@@ -31,11 +31,12 @@ constexpr std::uint32_t SCAN_THREADS = 256;
 using shared::PIECE;                                // entries that a work group culls
 constexpr std::uint32_t MARGIN = 32;                // around them, where runs of a block begin and end
 constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
+constexpr std::uint32_t LEAST_SUBGROUP = 4;         // threads, unless the device says so
 constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
 constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
 constexpr std::uint32_t CROWDED = 64;               // lights; all pieces of cells of more are shared out, if few
 constexpr std::uint32_t PARTS = 2;                  // of the rows of a group, for each such piece
-constexpr std::uint32_t SHARED_GROUPS = 512;        // that take what is shared out
+constexpr std::uint32_t SHARED_GROUPS = 384;        // that take what is shared out
 constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups are small, unless it takes more:
 constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread; llvmpipe ends them after twice as many
 constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
@@ -208,14 +209,19 @@ Extent lists_extent(const Problem& problem, const Sizes& s, const Buffers& b) {
   return {.x = s.cell_count + sharing_groups(problem, s), .y = s.cell_rows / s.group_rows};
 }
 
+/// Subgroups of one pass may be smaller than others, but not smaller than this.
+std::uint32_t most_subgroups(const Problem& problem, std::uint32_t threads) {
+  return parts::divide_up(threads, std::min(LEAST_SUBGROUP, problem.traits.subgroup_size));
+}
+
 Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const bool pruned = problem.options.word("prune") == "pixel";
   const std::uint32_t mark_words = s.group_rows * shared::PIECE_WORDS;
   const std::uint32_t threads = light_threads(problem);
   const std::uint32_t pairs = THREAD_PAIRS * threads;
-  // In shared memory, to put lights in order by: two sums for each thread, or a bit for each light of a block.
-  const std::uint32_t order_size = s.cell_bits ? threads : parts::divide_up(s.block, 32);
-  const std::uint32_t order_words = s.cell_bits ? 2 * threads : order_size;
+  // In shared memory, to put lights in order by: two sums for each subgroup, or a bit for each light of a block.
+  const std::uint32_t order_size = s.cell_bits ? most_subgroups(problem, threads) : parts::divide_up(s.block, 32);
+  const std::uint32_t order_words = s.cell_bits ? 2 * order_size : order_size;
   Pass pass{
       .name = s.bits ? "tile bits" : "tile lists",
       .shader = shader_of(s.sliced() ? "lists_sliced"
@@ -235,7 +241,8 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                    {b.piece_lists, Access::write},
                    {b.lists, Access::write}},
       .extent = lists_extent(problem, s, b),
-      .shared_bytes = (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 56 + 80};
+      .shared_bytes =
+          (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 + s.cell_tiles * 32 + 80};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});

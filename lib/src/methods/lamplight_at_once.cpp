@@ -62,19 +62,20 @@ Plan plan_at_once(const Problem& problem) {
   const ResourceId rows = plan.add({.name = bits ? "tile bits" : "tile spans", .bytes = grid.rows() * row_bytes(bits)});
   const ResourceId lists = plan.add({.name = bits ? "cell lists" : "tile lists",
                                      .bytes = bits ? grid.cells.count() * PIECE * 4 : list_bytes(problem, grid)});
-  plan.passes = {{.name = bits ? "tile bits" : "tile lists",
-                  .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
-                  .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
-                                grid.cell_rows(), mark_words, bits ? 1U : 0U},
-                  .bindings = {{INPUT_FRAME},
-                               {INPUT_LIGHTS},
-                               {INPUT_SPHERES},
-                               {INPUT_DEPTH},
-                               {cells, Access::write},
-                               {rows, Access::write},
-                               {lists, Access::write}},
-                  .extent = {.x = grid.cells.width, .y = grid.cells.height},
-                  .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 48 + 32}};
+  plan.passes = {
+      {.name = bits ? "tile bits" : "tile lists",
+       .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
+       .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
+                     grid.cell_rows(), mark_words, bits ? 1U : 0U},
+       .bindings = {{INPUT_FRAME},
+                    {INPUT_LIGHTS},
+                    {INPUT_SPHERES},
+                    {INPUT_DEPTH},
+                    {cells, Access::write},
+                    {rows, Access::write},
+                    {lists, Access::write}},
+       .extent = {.x = grid.cells.width, .y = grid.cells.height},
+       .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32}};
   if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});
   plan.lookup = {.name = bits ? "cell_bits" : "cell_lists",
                  .constants = with_slices({grid.tile_px, grid.cell_tiles}, problem, 1, 1),

@@ -12,7 +12,7 @@ using shared::PIECE;
 // Tuned on an H100 and an H200, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was
 // tried.
 constexpr std::uint32_t GROUP_SUBGROUPS = 8;   // more of them than of their lights cost a software device its time
-constexpr std::uint32_t GROUP_ROWS = 32;       // of a cell that a work group looks at
+constexpr std::uint32_t GROUP_ROWS = 64;       // of a cell that a work group looks at
 constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
 constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
 constexpr std::uint32_t MOST_CELL_TILES = 32;  // a side
