@@ -149,6 +149,7 @@ std::vector<std::shared_ptr<const Picture>> make_pictures(Context& context, cons
     const View view = view_of(scene.cameras.front(), point.width, point.height, "camera");
     renderer->set_frame(view, {});
     std::vector<float> depth = renderer->draw_depth();
+    renderer->keep_surfaces();  // frames that copy them take less time
     pictures.push_back(
         std::make_shared<Picture>(Picture{point.width, point.height, view, std::move(renderer), std::move(depth)}));
   }

@@ -1,13 +1,25 @@
-// Uploads a captured frame once, and copies it into the targets every frame, as meshes are drawn every frame.
+// Uploads a captured frame once, or keeps what targets hold, and copies it into the targets every frame, as meshes are
+// drawn every frame.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/captured_surfaces.h"
 
-#include <utility>
-
+#include "gpu/check.h"
 #include "render/gbuffer_texels.h"
 #include "render/pass_uses.h"
 
 namespace lamp::app {
+namespace {
+
+/// In the order of CapturedSurfaces::buffers.
+std::array<const GpuImage*, 4> images_of(const Targets& targets) {
+  return {&targets.depth, &targets.base_color, &targets.surface, &targets.emission};
+}
+
+VkBufferImageCopy all_of(const GpuImage& image, const Targets& targets) {
+  return {.imageSubresource = {image.aspect(), 0, 0, 1}, .imageExtent = {targets.width, targets.height, 1}};
+}
+
+}  // namespace
 
 CapturedSurfaces::CapturedSurfaces(Context& context, const CapturedFrame& frame) {
   const GBufferTexels texels = encode(frame);
@@ -20,22 +32,43 @@ CapturedSurfaces::CapturedSurfaces(Context& context, const CapturedFrame& frame)
   emission_ = upload("captured emission", bytes_of(texels.emission));
 }
 
+CapturedSurfaces::CapturedSurfaces(const vulkan::Device& device, const Targets& targets) {
+  const auto room = [&](const char* name, std::uint64_t texel_bytes) {
+    return take(
+        vulkan::Buffer::create(device, {.name = name,
+                                        .bytes = texel_bytes * targets.width * targets.height,
+                                        .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT}));
+  };
+  depth_ = room("kept depth", sizeof(GBufferTexels::depth[0]));
+  base_color_ = room("kept base colour", sizeof(GBufferTexels::base_color[0]));
+  surface_ = room("kept surface", sizeof(GBufferTexels::surface[0]));
+  emission_ = room("kept emission", sizeof(GBufferTexels::emission[0]));
+}
+
+void CapturedSurfaces::record_keep(vulkan::Recorder& recorder, const Targets& targets) const {
+  const auto images = images_of(targets);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const GpuImage& image = *images[i];
+    const VkBuffer buffer = buffers()[i]->handle();
+    recorder.barrier({copies_from(image.transfer_source()), copies_to(vulkan::Resource::storage(buffer))});
+    const VkBufferImageCopy whole = all_of(image, targets);
+    vkCmdCopyImageToBuffer(recorder.commands(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1,
+                           &whole);
+  }
+}
+
 void CapturedSurfaces::record(vulkan::Recorder& recorder, const Targets& targets) const {
-  const std::pair<const vulkan::Buffer*, const GpuImage*> copies[] = {{&depth_, &targets.depth},
-                                                                      {&base_color_, &targets.base_color},
-                                                                      {&surface_, &targets.surface},
-                                                                      {&emission_, &targets.emission}};
+  const auto images = images_of(targets);
   std::vector<vulkan::Use> uses;
-  for (const auto& [buffer, image] : copies) {
-    uses.push_back(copies_from(vulkan::Resource::storage(buffer->handle())));
-    uses.push_back(copies_to(image->transfer_target()));
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    uses.push_back(copies_from(vulkan::Resource::storage(buffers()[i]->handle())));
+    uses.push_back(copies_to(images[i]->transfer_target()));
   }
   recorder.begin_pass("captured surfaces", uses);
-  for (const auto& [buffer, image] : copies) {
-    const VkBufferImageCopy whole{.imageSubresource = {image->aspect(), 0, 0, 1},
-                                  .imageExtent = {targets.width, targets.height, 1}};
-    vkCmdCopyBufferToImage(recorder.commands(), buffer->handle(), image->handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                           1, &whole);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const VkBufferImageCopy whole = all_of(*images[i], targets);
+    vkCmdCopyBufferToImage(recorder.commands(), buffers()[i]->handle(), images[i]->handle(),
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
   }
   recorder.end_pass();
 }

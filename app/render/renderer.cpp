@@ -63,7 +63,10 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 
 void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
-  surfaces_drawn_ = surfaces_drawn_ && view == view_;
+  if (view != view_) {
+    surfaces_drawn_ = false;
+    drop_kept();
+  }
   view_ = view;
   data_.set(view, lights, decals);
 }
@@ -89,6 +92,10 @@ void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool
   data_.record_upload(recorder);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
+  if (kept_ && lighting.info().path != ShadingPath::forward && !lighting.info().decals && !frame.surfaces_drawn) {
+    kept_->record(recorder, *targets_);
+    frame.surfaces_drawn = true;
+  }
   lighting.record(recorder, frame);
   // Forward paths leave the G-buffer as it was, decals are painted into it.
   if (lighting.info().path != ShadingPath::forward) surfaces_drawn_ = !lighting.info().decals;
@@ -187,6 +194,22 @@ void Renderer::draw_surfaces(Lighting* decals) {
       geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
   });
   surfaces_drawn_ = decals == nullptr;
+}
+
+void Renderer::keep_surfaces() {
+  if (!surfaces_drawn_) draw_surfaces();
+  drop_kept();
+  kept_.emplace(context_.device(), *targets_);
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    kept_->record_keep(recorder, *targets_);
+  });
+}
+
+void Renderer::drop_kept() {
+  if (!kept_) return;
+  for (const vulkan::Buffer* buffer : kept_->buffers()) forget(*buffer);
+  kept_.reset();
 }
 
 std::vector<float> Renderer::draw_depth() {

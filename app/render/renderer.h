@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -79,6 +80,10 @@ class Renderer {
   /// frame of this view left in the G-buffer are not drawn again.
   void warm_up(Lighting& lighting);
 
+  /// Draws the surfaces of this view and keeps a copy of them. Until the view changes, frames of the deferred paths
+  /// copy that into the G-buffer instead of drawing, in less time; those with decals, and forward paths, draw as ever.
+  void keep_surfaces();
+
   /// The depth of the last frame, device depth, row by row; 0 is sky.
   [[nodiscard]] std::vector<float> read_depth();
 
@@ -113,6 +118,7 @@ class Renderer {
 
  private:
   void draw_surfaces(Lighting* decals = nullptr);
+  void drop_kept();
   [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
   void record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights);
   [[nodiscard]] LightingFrame lighting_frame() const;
@@ -128,7 +134,8 @@ class Renderer {
   FrameData data_;
   Geometry geometry_;
   View view_;
-  bool surfaces_drawn_ = false;  ///< the G-buffer has those of view_, without decals
+  bool surfaces_drawn_ = false;           ///< the G-buffer has those of view_, without decals
+  std::optional<CapturedSurfaces> kept_;  ///< of view_
   vulkan::AccessTracker tracker_;
   vulkan::Timestamps timestamps_;
 };

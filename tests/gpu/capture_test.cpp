@@ -2,6 +2,7 @@
 // picture, bit for bit; the four shading paths agree on it.
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <cstring>
 
 #include "gpu/method_check.h"
@@ -101,6 +102,27 @@ TEST_P(Captures, ComeBackExactly) {
   EXPECT_GT(largest_value(source.reference), 0.01F);
   EXPECT_EQ(max_abs_difference(copy.reference, source.reference), 0.0F);
   expect_same_lists(renderer_, renderer, source);
+}
+
+bool has_pass(const Rendered& rendered, std::string_view name) {
+  return std::ranges::any_of(rendered.passes, [&](const PassTime& pass) { return pass.name == name; });
+}
+
+TEST_P(Captures, KeptSurfacesStandForDrawnOnesUntilTheViewChanges) {
+  Lighting lighting = make_lighting(renderer_, {.method = take(find_method("tiled")), .light_capacity = COUNT + 64});
+  const Rendered drawn = renderer_.render(lighting);
+  EXPECT_TRUE(has_pass(drawn, "g-buffer"));
+  EXPECT_GT(largest_value(drawn.image), 0.01F);
+  renderer_.keep_surfaces();
+  const Rendered copied = renderer_.render(lighting, 2);
+  EXPECT_TRUE(has_pass(copied, "captured surfaces"));
+  EXPECT_FALSE(has_pass(copied, "g-buffer"));
+  EXPECT_EQ(max_abs_difference(copied.image, drawn.image), 0.0F);
+
+  const View other = view_of(find_camera(source_.scene, ""), WIDTH, HEIGHT,
+                             GetParam().projection == "orthographic" ? "perspective" : "orthographic");
+  renderer_.set_frame(other, pack(lights_));
+  EXPECT_TRUE(has_pass(renderer_.render(lighting), "g-buffer"));
 }
 
 TEST_P(Captures, PathsAgree) {
