@@ -13,7 +13,7 @@ shared uint s_bits[MARK_WORDS];  // PIECE_WORDS for each of ROWS
 
 uint bit_word(uint row, uint word) { return row * PIECE_WORDS + word; }
 
-// By all threads of the group together, before a barrier.
+// By all threads of the group together, before a barrier. A loop of constant length: of others compilers make versions.
 void clear_marks() {
   for (uint first = 0u; first < MARK_WORDS; first += gl_WorkGroupSize.x)
     if (first + gl_LocalInvocationIndex < MARK_WORDS) s_bits[first + gl_LocalInvocationIndex] = 0u;
@@ -83,8 +83,8 @@ void test_cones(Cell cell, inout uint spots) {
 }
 
 // By all threads of the group together: lights [0, count) of the piece. Each subgroup looks until no more pairs have
-// room, then tests with every thread busy, until nothing is left. So every test is in the code once; and each has a loop
-// of its own, because some devices go through all of a loop's body for the threads that need a part of it.
+// room, then tests with every thread busy, until nothing is left. So every test is in the code once. Each has a loop of
+// its own, because some devices go through all of a loop's body for the threads that need a part of it.
 void mark_lights(Cell cell, uint count) {
   load_spheres(count);
   const uint own = (count + gl_NumSubgroups - 1u - gl_SubgroupID) / gl_NumSubgroups;  // lights
