@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::string_view CALIBRATION_FORMAT = "lamplight-calibration";
-constexpr int VERSION = 4;  // of the file and of the model: grows when an old file would mislead
+constexpr int VERSION = 5;  // of the file and of the model: grows when an old file would mislead
 
 template <std::size_t COUNT>
 std::array<double, COUNT> parse_terms(const json& entry, const char* key, const std::string& where) {

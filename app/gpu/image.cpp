@@ -55,6 +55,10 @@ VkImageAspectFlags GpuImage::aspect() const {
   return info_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
+VkBufferImageCopy GpuImage::whole() const {
+  return {.imageSubresource = {aspect(), 0, 0, 1}, .imageExtent = {info_.width, info_.height, 1}};
+}
+
 vulkan::Resource GpuImage::as(VkDescriptorType type, VkImageLayout layout) const {
   return {.type = type, .image = handle(), .view = view(), .aspect = aspect(), .layout = layout};
 }

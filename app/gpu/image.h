@@ -27,6 +27,8 @@ class GpuImage {
   [[nodiscard]] VkImage handle() const { return image_.get(); }
   [[nodiscard]] VkImageView view() const { return view_.get(); }
   [[nodiscard]] VkImageAspectFlags aspect() const;
+  /// Its first level, to or from the beginning of a buffer, row by row.
+  [[nodiscard]] VkBufferImageCopy whole() const;
 
   /// As a descriptor or an attachment, with the layout that goes with it.
   [[nodiscard]] vulkan::Resource sampled() const;

@@ -79,9 +79,8 @@ GpuImage upload_texture(Context& context, const GpuImageInfo& wanted, std::span<
   context.submit([&](VkCommandBuffer commands) {
     for (std::uint32_t level = 0; level < info.mips; ++level)
       level_barrier(commands, image.handle(), level, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                 .imageExtent = {info.width, info.height, 1}};
-    vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    const VkBufferImageCopy whole = image.whole();
+    vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
     for (std::uint32_t level = 1; level < info.mips; ++level) {
       level_barrier(commands, image.handle(), level - 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);

@@ -15,10 +15,6 @@ std::array<const GpuImage*, 4> images_of(const Targets& targets) {
   return {&targets.depth, &targets.base_color, &targets.surface, &targets.emission};
 }
 
-VkBufferImageCopy all_of(const GpuImage& image, const Targets& targets) {
-  return {.imageSubresource = {image.aspect(), 0, 0, 1}, .imageExtent = {targets.width, targets.height, 1}};
-}
-
 }  // namespace
 
 CapturedSurfaces::CapturedSurfaces(Context& context, const CapturedFrame& frame) {
@@ -47,14 +43,7 @@ CapturedSurfaces::CapturedSurfaces(const vulkan::Device& device, const Targets& 
 
 void CapturedSurfaces::record_keep(vulkan::Recorder& recorder, const Targets& targets) const {
   const auto images = images_of(targets);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const GpuImage& image = *images[i];
-    const VkBuffer buffer = buffers()[i]->handle();
-    recorder.barrier({copies_from(image.transfer_source()), copies_to(vulkan::Resource::storage(buffer))});
-    const VkBufferImageCopy whole = all_of(image, targets);
-    vkCmdCopyImageToBuffer(recorder.commands(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1,
-                           &whole);
-  }
+  for (std::size_t i = 0; i < images.size(); ++i) record_copy(recorder, *images[i], *buffers()[i]);
 }
 
 void CapturedSurfaces::record(vulkan::Recorder& recorder, const Targets& targets) const {
@@ -66,7 +55,7 @@ void CapturedSurfaces::record(vulkan::Recorder& recorder, const Targets& targets
   }
   recorder.begin_pass("captured surfaces", uses);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const VkBufferImageCopy whole = all_of(*images[i], targets);
+    const VkBufferImageCopy whole = images[i]->whole();
     vkCmdCopyBufferToImage(recorder.commands(), buffers()[i]->handle(), images[i]->handle(),
                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
   }

@@ -214,7 +214,10 @@ void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& fram
 }
 
 void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
+  if (frame.kept != nullptr)
+    frame.kept->record(recorder, frame.targets);
+  else
+    frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
   if (!decals_) return;
   record_cull(recorder, frame);
   const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());

@@ -52,6 +52,7 @@ struct LightingFrame {
   const FrameData& data;
   const Targets& targets;
   const Geometry& geometry;
+  const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   glm::vec3 eye{0.0F};
   bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none
 };

@@ -56,6 +56,14 @@ enum class Load : std::uint8_t { keep, clear };
           .discard = resource.image != VK_NULL_HANDLE};
 }
 
+/// All of the image's first level.
+inline void record_copy(vulkan::Recorder& recorder, const GpuImage& from, const vulkan::Buffer& to) {
+  recorder.barrier({copies_from(from.transfer_source()), copies_to(vulkan::Resource::storage(to.handle()))});
+  const VkBufferImageCopy whole = from.whole();
+  vkCmdCopyImageToBuffer(recorder.commands(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1,
+                         &whole);
+}
+
 [[nodiscard]] inline vulkan::Use host_reads(const vulkan::Resource& resource) {
   return {.resource = resource, .stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT};
 }

@@ -36,6 +36,11 @@ EntityRange visited_ids(const EntityRanges& entities, Renderer::Kind kind) {
   return entities.boxes.count() == 0 ? EntityRange{0, ~0U} : entities.lights;
 }
 
+void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) {
+  record_copy(recorder, image, buffer);
+  recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
+}
+
 template <class T>
 std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
   std::vector<T> values(count);
@@ -65,7 +70,8 @@ void Renderer::set_frame(const View& view, std::span<const shared::Light> lights
                          std::span<const gpu::DecalData> decals) {
   if (view != view_) {
     surfaces_drawn_ = false;
-    drop_kept();
+    if (kept_) std::ranges::for_each(kept_->buffers(), [&](const vulkan::Buffer* buffer) { forget(*buffer); });
+    kept_.reset();
   }
   view_ = view;
   data_.set(view, lights, decals);
@@ -76,26 +82,14 @@ LightingFrame Renderer::lighting_frame() const {
           .data = data_,
           .targets = *targets_,
           .geometry = geometry_,
+          .kept = kept_ ? &*kept_ : nullptr,
           .eye = glm::vec3(view_.world_from_view()[3])};
-}
-
-void Renderer::record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) const {
-  recorder.barrier({copies_from(image.transfer_source()), copies_to(vulkan::Resource::storage(buffer.handle()))});
-  const VkBufferImageCopy whole{.imageSubresource = {image.aspect(), 0, 0, 1},
-                                .imageExtent = {targets_->width, targets_->height, 1}};
-  vkCmdCopyImageToBuffer(recorder.commands(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.handle(), 1,
-                         &whole);
-  recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
 }
 
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
   data_.record_upload(recorder);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
-  if (kept_ && lighting.info().path != ShadingPath::forward && !lighting.info().decals && !frame.surfaces_drawn) {
-    kept_->record(recorder, *targets_);
-    frame.surfaces_drawn = true;
-  }
   lighting.record(recorder, frame);
   // Forward paths leave the G-buffer as it was, decals are painted into it.
   if (lighting.info().path != ShadingPath::forward) surfaces_drawn_ = !lighting.info().decals;
@@ -197,19 +191,13 @@ void Renderer::draw_surfaces(Lighting* decals) {
 }
 
 void Renderer::keep_surfaces() {
+  if (kept_) return;
   if (!surfaces_drawn_) draw_surfaces();
-  drop_kept();
   kept_.emplace(context_.device(), *targets_);
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     kept_->record_keep(recorder, *targets_);
   });
-}
-
-void Renderer::drop_kept() {
-  if (!kept_) return;
-  for (const vulkan::Buffer* buffer : kept_->buffers()) forget(*buffer);
-  kept_.reset();
 }
 
 std::vector<float> Renderer::draw_depth() {

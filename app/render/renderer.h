@@ -80,8 +80,8 @@ class Renderer {
   /// frame of this view left in the G-buffer are not drawn again.
   void warm_up(Lighting& lighting);
 
-  /// Draws the surfaces of this view and keeps a copy of them. Until the view changes, frames of the deferred paths
-  /// copy that into the G-buffer instead of drawing, in less time; those with decals, and forward paths, draw as ever.
+  /// Keeps a copy of the surfaces of this view, drawn first where there are none yet. Until the view changes, frames of
+  /// the deferred paths copy that into the G-buffer instead of drawing, in less time.
   void keep_surfaces();
 
   /// The depth of the last frame, device depth, row by row; 0 is sky.
@@ -118,14 +118,12 @@ class Renderer {
 
  private:
   void draw_surfaces(Lighting* decals = nullptr);
-  void drop_kept();
   [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
   void record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>
   [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);
-  void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) const;
 
   Context& context_;
   const ShaderLibrary& shaders_;

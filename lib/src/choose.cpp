@@ -178,14 +178,11 @@ CullTerms cull_terms(const AutoCandidate& candidate, const Workload& w) {
   if (candidate.listed == nullptr) return {};
   const TileLoad& load = load_of(candidate, w);
   const double tiles = tiles_of(candidate, w);
-  const double visits = candidate.gathers ? w.lights * tiles : w.lights * load.cells;
-  const double listed = load.*candidate.listed;
-  return {1.0,
-          w.lights / LIGHTS,
-          pixels_of(w) / PIXELS,
-          visits / PAIRS,
-          tiles * listed / PIXELS,
-          candidate.prunes ? pixels_of(w) * load.interval / PAIRS : 0.0};
+  const double pairs = w.lights * (candidate.gathers ? tiles : load.tested);
+  const double looks = candidate.prunes ? pixels_of(w) * load.interval : 0.0;
+  const double found = candidate.gathers ? 0.0 : w.lights * load.cells;
+  const double listed = tiles * load.*candidate.listed;
+  return {1.0, w.lights / LIGHTS, pixels_of(w) / PIXELS, pairs / PAIRS, listed / PIXELS, (looks + found) / PAIRS};
 }
 
 ShadeTerms shade_terms(const AutoCandidate& candidate, const Workload& w) {

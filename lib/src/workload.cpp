@@ -8,6 +8,7 @@
 
 #include "lamplight/choose.h"
 #include "lamplight/reference.h"
+#include "methods/lamplight_sizes.h"
 
 namespace lamp {
 namespace {
@@ -18,7 +19,6 @@ constexpr std::uint32_t TILES_X = 16;
 constexpr std::uint32_t TILES_Y = 9;
 constexpr std::uint32_t SAMPLES_A_SIDE = 3;  // pixels of a tile
 constexpr double LIST_PLACES = 512.0;        // of a tiled list
-constexpr std::uint64_t MOST_CELLS = 2304;   // of `lamplight`, which takes larger cells rather than more
 constexpr double HALF_RIGHT_ANGLE = 0.785398163;
 
 /// A light that stands for `weight` lights: its volume's bounding sphere, view space with z ahead.
@@ -204,19 +204,18 @@ Sums sums_of(const View& view, std::span<const float> depth, std::uint32_t px, s
   return sums;
 }
 
-// Cells of `lamplight` are squares of tiles, as small as their number allows.
+// What `lamplight` does with its cells, each a square of tiles.
 void add_cells(TileLoad& load, const View& view, std::span<const float> depth, std::uint32_t tile_px,
-               std::span<const Sphere> spheres, double all_lights) {
-  std::uint32_t px = tile_px;
-  std::uint64_t count = 0;
-  do {
-    px *= 2;
-    count = (view.width() + px - 1ULL) / px * ((view.height() + px - 1ULL) / px);
-  } while (count > MOST_CELLS);
-  const TileLoad met = sums_of(view, depth, px, spheres, all_lights).load;
-  const double share = static_cast<double>(count) / std::max(1.0, all_lights);
+               std::span<const Sphere> spheres, std::size_t lights) {
+  const auto capacity = static_cast<std::uint32_t>(lights);
+  const std::uint32_t tiles = lamplight::cell_tiles(view.width(), view.height(), tile_px, capacity);
+  const std::uint32_t px = tile_px * tiles;
+  const std::uint64_t count = ((view.width() + px - 1ULL) / px) * ((view.height() + px - 1ULL) / px);
+  const TileLoad met = sums_of(view, depth, px, spheres, static_cast<double>(lights)).load;
+  const double share = static_cast<double>(count) / std::max(1.0, static_cast<double>(lights));
   load.cells = met.column * share;
   load.entries = met.interval * share;
+  load.tested = load.entries * tiles * tiles;
 }
 
 }  // namespace
@@ -226,8 +225,8 @@ Workload estimate_workload(const View& view, std::span<const float> depth, std::
   const auto all = static_cast<double>(lights.size());
   Sums fine = sums_of(view, depth, 8, spheres, all);
   Sums coarse = sums_of(view, depth, 16, spheres, all);
-  add_cells(fine.load, view, depth, 8, spheres, all);
-  add_cells(coarse.load, view, depth, 16, spheres, all);
+  add_cells(fine.load, view, depth, 8, spheres, lights.size());
+  add_cells(coarse.load, view, depth, 16, spheres, lights.size());
   return {.width = view.width(),
           .height = view.height(),
           .lights = static_cast<std::uint32_t>(lights.size()),

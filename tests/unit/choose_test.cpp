@@ -61,7 +61,8 @@ std::size_t candidate(const std::string& label) {
 }
 
 Workload some_workload(std::uint32_t lights) {
-  const TileLoad load{.column = 60, .interval = 30, .walked = 30, .slab = 20, .exact = 15, .cells = 3, .entries = 2};
+  const TileLoad load{
+      .column = 60, .interval = 30, .walked = 30, .slab = 20, .exact = 15, .cells = 3, .entries = 2, .tested = 32};
   return {.width = 1920, .height = 1080, .lights = lights, .capacity = lights, .tile8 = load, .tile16 = load};
 }
 
@@ -90,6 +91,7 @@ TEST(Workload, CloserTestsKeepFewerLights) {
     EXPECT_EQ(load.interval, load.walked);
     EXPECT_GT(load.cells, load.entries);
     EXPECT_GT(load.entries, 0.0);
+    EXPECT_EQ(load.tested, load.entries * 16);  // tiles of a cell, in a small picture
   }
   EXPECT_LT(w.tile8.interval, w.tile16.interval);
 }

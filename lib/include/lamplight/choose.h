@@ -26,6 +26,7 @@ struct TileLoad {
   double exact = 0.0;     ///< lights that reach the tile's surfaces, cones included
   double cells = 0.0;     ///< cells of `lamplight` whose columns a light touches, mean over all lights
   double entries = 0.0;   ///< of those, cells whose depths it touches: it is listed there
+  double tested = 0.0;    ///< tiles of the latter, which it is held against
 };
 
 /// What a frame asks of a method, as far as the cost model looks.
@@ -67,8 +68,9 @@ inline constexpr std::size_t SHADE_TERMS = 4;
 using CullTerms = std::array<double, CULL_TERMS>;
 using ShadeTerms = std::array<double, SHADE_TERMS>;
 
-/// What the coefficients are multiplied with. Cull: 1; lights; pixels; lights times tiles (gathering) or times cells a
-/// light; entries of lists; pixels times lists (pruning). Shading: 1; pixels; lights walked; words walked.
+/// What the coefficients are multiplied with. Cull: 1; lights; pixels; lights times tiles (gathering), or tiles that
+/// lights are held against; entries of lists; pixels times lists (pruning), or cells that lights look at. Shading: 1;
+/// pixels; lights walked; words walked.
 [[nodiscard]] CullTerms cull_terms(const AutoCandidate& candidate, const Workload& workload);
 [[nodiscard]] ShadeTerms shade_terms(const AutoCandidate& candidate, const Workload& workload);
 

@@ -11,6 +11,7 @@ layout(constant_id = 5) const uint PAIRS = 1024;     // of light and row that wa
 layout(constant_id = 6) const uint ROWS = 16;        // tiles of the cell
 layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
+const bool LIGHTS_MISS = false;                      // a work group has all rows of its cell
 #include "methods/lamplight_exact.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth_squares;

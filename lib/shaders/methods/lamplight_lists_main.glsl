@@ -32,11 +32,13 @@ layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[];
 #include "methods/lamplight_cell_piece.glsl"
 
 #ifdef CELL_BITS
+const bool LIGHTS_MISS = false;  // the code for it costs more here than it saves
 layout(set = 0, binding = 8, scalar) readonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
 #define DEPTH_BINDING 9
 #include "methods/lamplight_bit_pieces.glsl"
 #include "methods/lamplight_bit_order.glsl"
 #else
+const bool LIGHTS_MISS = CELL_ROWS > ROWS;
 layout(set = 0, binding = 8, scalar) readonly buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
 #define DEPTH_BINDING 10
@@ -105,6 +107,7 @@ void cull_piece(CellPiece piece) {
   clear_marks();
   if (gl_LocalInvocationIndex < cell.rows) load_row(cell, gl_LocalInvocationIndex);
   if (gl_LocalInvocationIndex < CELL_TILES) load_sides(cell, gl_LocalInvocationIndex);
+  if (LIGHTS_MISS && gl_LocalInvocationIndex == CELL_TILES) load_edges(cell);
   order_lights(load, piece);
   mark_lights(cell, piece.count);
   barrier();  // all bits before they are read

@@ -2,11 +2,13 @@
 // its own, and no barrier of the group stands between them. A first look at all pairs of light and row decides most.
 // Those that it leaves open wait until there are enough for the exact test of spheres by all of the subgroup's threads.
 // Spots whose spheres reach wait as well, for the test of cones.
-// Needs: TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS; `frame`, `lights`, `spheres`; s_lights; PRUNED or not.
+// Needs: TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS, LIGHTS_MISS; `frame`, `lights`, `spheres`; s_lights; PRUNED or
+// not.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
 #define LAMP_METHODS_LAMPLIGHT_MARKS
 #extension GL_KHR_shader_subgroup_shuffle : require
+#include "methods/lamplight_kept.glsl"
 #include "methods/lamplight_pair_tests.glsl"
 
 shared uint s_bits[MARK_WORDS];  // PIECE_WORDS for each of ROWS
@@ -17,26 +19,29 @@ uint bit_word(uint row, uint word) { return row * PIECE_WORDS + word; }
 void clear_marks() {
   for (uint first = 0u; first < MARK_WORDS; first += gl_WorkGroupSize.x)
     if (first + gl_LocalInvocationIndex < MARK_WORDS) s_bits[first + gl_LocalInvocationIndex] = 0u;
+  if (gl_LocalInvocationIndex == 0u) s_kept_count = 0u;
 }
 
 #ifdef PRUNED
 #include "methods/lamplight_prune.glsl"
 #endif
 
-// By all threads of the group together.
-void load_spheres(uint count) {
+// By all threads of the group together. Returns how many of the lights may reach its rows.
+uint load_spheres(uint count) {
   for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x) {
     const uint light = s_lights[i];
     const bool is_spot = lights[light].type == LIGHT_SPOT;
     const LightBounds sphere = view_bounds(frame, spheres[light]);
     s_spheres[i] = LightBounds(sphere.center, is_spot ? -sphere.radius : sphere.radius);
+    keep_entry(i, sphere);
   }
   barrier();  // spheres before other threads read them
+  return kept_count(count);
 }
 
 // All below is for the threads of a subgroup together.
 // Its i-th light in the piece. Neighbours go to different subgroups, because they tend to have as many pairs.
-uint entry_of(uint i) { return gl_SubgroupID + i * gl_NumSubgroups; }
+uint entry_of(uint i) { return kept_entry(gl_SubgroupID + i * gl_NumSubgroups); }
 
 void mark(Cell cell, Pair pair, bool reached) {
 #ifdef PRUNED
@@ -85,8 +90,8 @@ void test_cones(Cell cell, inout uint spots) {
 // By all threads of the group together: lights [0, count) of the piece. Each subgroup looks until no more pairs have
 // room, then tests with every thread busy, until nothing is left. So every test is in the code once. Each has a loop of
 // its own, because some devices go through all of a loop's body for the threads that need a part of it.
-void mark_lights(Cell cell, uint count) {
-  load_spheres(count);
+void mark_lights(Cell cell, uint entries) {
+  const uint count = load_spheres(entries);
   const uint own = (count + gl_NumSubgroups - 1u - gl_SubgroupID) / gl_NumSubgroups;  // lights
   const uint all = own * cell.rows;
   uint first = 0u;  // pair of light and row not looked at

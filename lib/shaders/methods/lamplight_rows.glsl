@@ -18,6 +18,7 @@ struct Cell {
 
 shared vec4 s_x_edges[CELL_TILES];  // of columns of tiles, from that of the first row on
 shared vec4 s_y_edges[CELL_TILES];  // of lines of tiles, from that of the first row on
+shared RectangleEdges s_edges;      // of all rows together
 shared TileDepths s_depths[ROWS];
 
 uvec2 tile_of_row(Cell cell, uint row) {
@@ -33,6 +34,12 @@ void load_sides(Cell cell, uint i) {
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
   s_x_edges[i] = x_edges;
   s_y_edges[i] = y_edges;
+}
+
+// By one thread.
+void load_edges(Cell cell) {
+  const uvec2 end_tile = tile_of_row(cell, cell.rows - 1u) + 1u;
+  s_edges = rectangle_edges(frame, vec2(tile_of_row(cell, 0u) * TILE_PX), vec2(end_tile * TILE_PX));
 }
 
 vec4 x_edges_of_row(uint row) { return s_x_edges[row % CELL_TILES]; }

@@ -241,8 +241,8 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                    {b.piece_lists, Access::write},
                    {b.lists, Access::write}},
       .extent = lists_extent(problem, s, b),
-      .shared_bytes =
-          (6 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 + s.cell_tiles * 32 + 80};
+      .shared_bytes = (7 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 +
+                      s.cell_tiles * 32 + 132};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
@@ -316,7 +316,7 @@ std::vector<OptionSpec> lamplight_options() {
            .choices = {"list", "bits"}},
           {.key = "cells",
            .help = "how cells get lights: these find them and are kept as a list, or as a bit for every light; gather: "
-                   "cells look at all of up to 128; auto: gather, bits up to 5 MiB, list",
+                   "cells look at all of up to 128; auto: gather, bits while these are small, list",
            .fallback = "auto",
            .choices = {"auto", "list", "bits", "gather"}},
           {.key = "prune",

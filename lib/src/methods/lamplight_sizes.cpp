@@ -17,7 +17,7 @@ constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
 constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
 constexpr std::uint32_t MOST_CELL_TILES = 32;  // a side
 constexpr std::uint32_t GOOD_CELLS = 2304;     // not more where cells can be larger; 4K has 2040
-constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most SPARSE_LIGHTS
+constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most SPARSE_LIGHTS, but of GROUP_ROWS tiles at most
 constexpr std::uint32_t SPARSE_LIGHTS = 1U << 17;
 constexpr std::uint32_t WANTED_BLOCKS = 256;         // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;        // lights
@@ -27,10 +27,11 @@ constexpr std::uint64_t CELL_PIECES = 2;             // for each cell, besides t
 constexpr std::uint64_t FEW_PIECES = 1024;           // as many instead, unless all lights in all cells take fewer
 constexpr std::uint64_t FEW_BITS_PIECES = 4096;      // likewise, of cells with bits: pieces take less memory there
 constexpr std::uint64_t CELL_BITS_BYTES = 5U << 20;  // of all cells, at most, for cells=auto
-constexpr std::uint64_t MEAN_CAPACITY = 32;          // default of the option
-constexpr std::uint64_t LIST_LIGHTS = 4;             // entries for each light that are room as well, within LIST_BUDGET
-constexpr std::uint64_t LIST_BUDGET = 5U << 18;      // entries, 5 MiB: what small pictures leave of it is room as well
-constexpr std::uint64_t MOST_ENTRIES = 1U << 30;     // an entry's place has 31 bits
+constexpr std::uint64_t SPARSE_CELL_BITS_BYTES = 17U << 20;  // likewise, with depth buffer and at most SPARSE_LIGHTS
+constexpr std::uint64_t MEAN_CAPACITY = 32;                  // default of the option
+constexpr std::uint64_t LIST_LIGHTS = 4;          // entries for each light that are room as well, within LIST_BUDGET
+constexpr std::uint64_t LIST_BUDGET = 5U << 18;   // entries, 5 MiB: what small pictures leave of it is room as well
+constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // an entry's place has 31 bits
 static_assert(LARGEST_BLOCK <= 1U << (32 - shared::HIT_CELL_BITS));
 
 std::uint32_t block_size(std::uint32_t lights) {
@@ -58,17 +59,14 @@ std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
 /// Tiles, slices, and cells of them.
 Sizes grid_of(const Problem& problem) {
   const Options& o = problem.options;
-  Sizes s{.tile_px = o.integer("tile"), .cell_tiles = LEAST_CELL_TILES / 2, .slices = 1, .cell_slices = 1};
+  Sizes s{.tile_px = o.integer("tile"), .slices = 1, .cell_slices = 1};
   if (o.word("depth") == "none") {
     s.slices = o.integer("slices");
     s.cell_slices = CELL_SLICES;
   }
   s.tiles = parts::tile_grid(problem, s.tile_px);
-  const std::uint32_t good_cells = parts::capacity(problem) <= SPARSE_LIGHTS ? FEW_CELLS : GOOD_CELLS;
-  do {
-    s.cell_tiles *= 2;
-    s.cells = parts::tile_grid(problem, s.tile_px * s.cell_tiles);
-  } while (s.cells.count() > good_cells && s.cell_tiles < MOST_CELL_TILES);
+  s.cell_tiles = cell_tiles(problem.width, problem.height, s.tile_px, parts::capacity(problem));
+  s.cells = parts::tile_grid(problem, s.tile_px * s.cell_tiles);
   s.cell_count = static_cast<std::uint32_t>(s.cells.count()) * parts::divide_up(s.slices, s.cell_slices);
   s.cell_rows = s.cell_tiles * s.cell_tiles * s.cell_slices;
   // Of one slice, in whole lines of tiles.
@@ -80,10 +78,24 @@ Sizes grid_of(const Problem& problem) {
 bool wants_cell_bits(const Problem& problem, const Sizes& s) {
   const std::string_view wanted = problem.options.word("cells");
   const std::uint64_t words = parts::divide_up(parts::capacity(problem), WORD_LIGHTS);
-  return wanted == "bits" || (wanted == "auto" && words * 4 * s.cell_count <= CELL_BITS_BYTES);
+  const bool is_sparse = parts::capacity(problem) <= SPARSE_LIGHTS;
+  const std::uint64_t most = s.sliced() || !is_sparse ? CELL_BITS_BYTES : SPARSE_CELL_BITS_BYTES;
+  return wanted == "bits" || (wanted == "auto" && words * 4 * s.cell_count <= most);
 }
 
 }  // namespace
+
+std::uint32_t cell_tiles(std::uint32_t width, std::uint32_t height, std::uint32_t tile_px, std::uint32_t lights) {
+  const auto is_good = [&](std::uint32_t tiles) {
+    const bool may_be_fewer = lights <= SPARSE_LIGHTS && tiles * tiles < GROUP_ROWS;
+    const std::uint64_t across = parts::divide_up(width, tile_px * tiles);
+    const std::uint64_t down = parts::divide_up(height, tile_px * tiles);
+    return across * down <= (may_be_fewer ? FEW_CELLS : GOOD_CELLS);
+  };
+  std::uint32_t tiles = LEAST_CELL_TILES;
+  while (!is_good(tiles) && tiles < MOST_CELL_TILES) tiles *= 2;
+  return tiles;
+}
 
 std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
