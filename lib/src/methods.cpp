@@ -36,8 +36,6 @@ Result<const Method*> find_method(std::string_view name) {
 
 namespace {
 
-constexpr std::uint32_t LIGHT_ROUNDS = 3;  ///< of the nested loops of a walk, at most
-
 /// A device that ends long loops cannot walk every light: an error where every pixel does, a note where one may.
 std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
   const std::uint32_t rounds = problem.traits.max_loop_rounds;
@@ -46,9 +44,9 @@ std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
     if (problem.light_capacity <= rounds) return std::nullopt;
     return Error{"look-up all", "walks " + std::to_string(problem.light_capacity) + " lights, but " + ends};
   }
-  if (problem.light_capacity > rounds / LIGHT_ROUNDS)
-    plan.notes.push_back("a pixel that walks more than " + std::to_string(rounds / LIGHT_ROUNDS) +
-                         " lights can lose some: " + ends);
+  const std::uint64_t most = plan.lookup.most_walked != 0 ? plan.lookup.most_walked : rounds / WALK_ROUNDS;
+  if (problem.light_capacity > most)
+    plan.notes.push_back("a pixel that walks more than " + std::to_string(most) + " lights can lose some: " + ends);
   return std::nullopt;
 }
 

@@ -19,6 +19,7 @@ class CrowdedCells : public GpuTest, public ::testing::WithParamInterface<std::u
 
 class CellsWithoutRoom : public GpuTest {};
 class ManyPieces : public GpuTest {};
+class LongWalks : public GpuTest {};
 
 // On a device with eight threads a subgroup, more than 16 384 lights are more words of bits than a thread holds at
 // once.
@@ -86,6 +87,29 @@ TEST_F(ManyPieces, AllComeToTheirEnd) {
   const std::uint32_t expected = listed("list", 8);
   EXPECT_GT(expected, COUNT / 2);
   for (const std::uint32_t subgroup : PLAN_SUBGROUPS) EXPECT_EQ(listed("bits", subgroup), expected);
+}
+
+// Pixels with more lights than a software device walks one by one.
+TEST_F(LongWalks, BringTheirLastLights) {
+  constexpr std::uint32_t COUNT = 40'000;
+  constexpr glm::uvec2 SIZE{64, 36};
+  const TestScene& scene = builtin_test_scene("one-tile");
+  const View view = view_of(find_camera(scene.scene, ""), SIZE.x, SIZE.y, "camera");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, SIZE.x, SIZE.y, COUNT);
+  const LitCase lit = make_case(renderer, view, pack(place_lights(scene.scene, {.count = COUNT})));
+  const auto forward = [&](const Candidate& candidate) {
+    return renderer.render(kept_lighting(renderer, candidate, ShadingPath::forward)).image;
+  };
+  const HdrImage reference = forward({.method = &brute_force()});
+  for (const char* container : {"container=list", "container=bits"})
+    for (const char* room : {"mean_cells=8", "mean_cells=0"}) {
+      const Candidate candidate{.method = take(find_method("lamplight")),
+                                .settings = {container, room, "cells=list", "mean_capacity=40000"},
+                                .light_capacity = COUNT};
+      SCOPED_TRACE(fmt::format("{}", fmt::join(candidate.settings, " ")));
+      EXPECT_GT(check_method(renderer, lit, candidate, Check::separate).list_max, 32768);
+      EXPECT_EQ(max_abs_difference(forward(candidate), reference), 0.0F);
+    }
 }
 
 }  // namespace

@@ -142,13 +142,34 @@ TEST(LoopLimits, ADeviceThatEndsLoopsWalksNoMoreLights) {
   ASSERT_FALSE(all);
   EXPECT_EQ(all.error().text(),
             "method all: look-up all: walks 65536 lights, but the device ends a thread's loops after 65535 rounds");
-  for (const char* name : {"tiled", "tiled-bits", "lamplight"}) {
+  for (const char* name : {"tiled", "tiled-bits", "clustered"}) {
     EXPECT_TRUE(plan(name, 21845).value().notes.empty());
     ASSERT_EQ(plan(name, 21846).value().notes.size(), 1U);
     EXPECT_EQ(plan(name, 21846).value().notes.front(),
               "a pixel that walks more than 21845 lights can lose some: the device ends a thread's loops after 65535 "
               "rounds");
   }
+}
+
+TEST(LoopLimits, LamplightWalksInAsManyStepsARoundAsItTakes) {
+  DeviceTraits traits = test::LARGE_DEVICE;
+  traits.max_loop_rounds = 65535;
+  const Method& method = *find_method("lamplight").value();
+  const auto plan = [&](std::uint32_t lights) {
+    return make_plan(method, problem_of(method, 640, 360, lights, traits)).value();
+  };
+  EXPECT_EQ(plan(21845).lookup.name, "cell_lists");
+  for (const auto& [lights, steps] : {std::pair{21846U, 1U}, {63000U, 1U}, {65536U, 2U}, {262144U, 8U}, {1U << 19, 16U}}) {
+    const Plan stepped = plan(lights);
+    EXPECT_EQ(stepped.lookup.name, "cell_lists_stepped");
+    EXPECT_EQ(stepped.lookup.constants.back(), steps) << lights;
+    EXPECT_GE(stepped.lookup.most_walked, lights);
+    EXPECT_TRUE(stepped.notes.empty());
+  }
+  ASSERT_EQ(plan(1U << 20).notes.size(), 1U);
+  EXPECT_EQ(plan(1U << 20).notes.front(),
+            "a pixel that walks more than 1015791 lights can lose some: the device ends a thread's loops after 65535 "
+            "rounds");
 }
 
 // Pieces of cells are work groups of an indirect dispatch, which no check sees while it runs.

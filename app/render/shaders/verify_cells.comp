@@ -15,6 +15,7 @@ layout(push_constant) uniform Push {
   uint origin_row;  // of the dispatch
 };
 #include "lookup.glsl"
+#include "lookup/parts/each.glsl"
 #include "common/frame.glsl"
 
 void main() {
@@ -27,10 +28,12 @@ void main() {
   const dvec3 position = exact_world_position(pixel, depth);
   uint place = first_places[(pixel.y - buffer_row) * frame.size_px.x + pixel.x];
   uint light;
-  for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light); ++place) {
+  LOOKUP_EACH(light, pixel, z_view) {
     const uint bit = 1u << (place % 32u);
+    const uint word = place / 32u;
+    ++place;
     // Most are marked already, and an atomic is dear.
-    if ((marks[place / 32u] & bit) != 0u) continue;
-    if (light < frame.light_count && surely_reaches(light, position)) atomicOr(marks[place / 32u], bit);
+    if ((marks[word] & bit) != 0u) continue;
+    if (light < frame.light_count && surely_reaches(light, position)) atomicOr(marks[word], bit);
   }
 }

@@ -30,7 +30,7 @@ PixelTruth distinct(uvec2 pixel, float z_view, dvec3 position) {
   for (uint next = 0u; next != NONE;) {
     uvec4 least = uvec4(NONE);
     uint light;
-    for (Walk walk = walk_begin(pixel, z_view); walk_next(walk, light);) {
+    LOOKUP_EACH(light, pixel, z_view) {
       if (light < next || any(equal(least, uvec4(light))) || !reaches(light, position)) continue;
       for (uint i = 0u; i < 4u; ++i) {
         const uint larger = max(least[i], light);

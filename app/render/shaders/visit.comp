@@ -40,7 +40,7 @@ uint walk_brings(uvec2 pixel, float z_view, uint first, uint count) {
   return brought;
 }
 
-// The oracle's lights that an ascending walk passes over are missed. One that is not ascending is searched anew.
+// An ascending walk meets all of the oracle's lights in passing. If it does not, each of them is searched.
 void main() {
   lookup_prepare();
   const uvec2 pixel = gl_GlobalInvocationID.xy;
@@ -62,25 +62,13 @@ void main() {
     last = light;
     ++visit.visited;
     visit.hash = (visit.hash ^ light) * 16777619u;  // FNV-1a, a light at a time
-    for (; next < end && truth[next] < light; ++next) {
-      ++visit.missed;
-      visit.first_missed = min(visit.first_missed, truth[next]);
-    }
     if (next < end && truth[next] == light) ++next;
   }
-  for (; next < end; ++next) {
-    ++visit.missed;
-    visit.first_missed = min(visit.first_missed, truth[next]);
-  }
-  if (visit.unordered != 0u) {
-    visit.missed = 0u;
-    visit.first_missed = NONE;
-    for (uint first = truth_offsets[index]; first < end; first += 32u) {
-      const uint count = min(32u, end - first);
-      const uint lost = ~walk_brings(pixel, z_view, first, count) & (~0u >> (32u - count));
-      visit.missed += bitCount(lost);
-      if (lost != 0u) visit.first_missed = min(visit.first_missed, truth[first + uint(findLSB(lost))]);
-    }
+  for (uint first = next; first < end; first += 32u) {
+    const uint count = min(32u, end - first);
+    const uint lost = ~walk_brings(pixel, z_view, first, count) & (~0u >> (32u - count));
+    visit.missed += bitCount(lost);
+    if (lost != 0u) visit.first_missed = min(visit.first_missed, truth[first + uint(findLSB(lost))]);
   }
   visits[index] = visit;
 }

@@ -103,7 +103,12 @@ struct LookUp {
   std::string name;
   std::vector<std::uint32_t> constants;  ///< specialization constants LOOKUP_CONSTANT + 0, 1, ...
   std::vector<Binding> bindings;         ///< set 0, bindings LOOKUP_BINDING + 0, 1, ...; read
+  /// Lights that a pixel can walk where the device ends loops; 0: the usual, one in WALK_ROUNDS rounds.
+  std::uint64_t most_walked = 0;
 };
+
+/// Rounds of a look-up's loops for each light, at most: two loops, one in the other.
+inline constexpr std::uint32_t WALK_ROUNDS = 3;
 
 /// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl).
 inline constexpr std::uint32_t LOOKUP_CONSTANT = 100;

@@ -29,15 +29,16 @@ Walk walk_begin(uvec2 pixel, float z_view) {
 
 // Of all lights, each word is full but the last.
 void lookup_next_word(inout Walk walk) {
-  walk.base = 32u * walk.word;
+  const uint word = walk.word++;
+  walk.base = 32u * word;
   if (walk.all) {
     const uint left = lookup_frame.light_count - walk.base;
     walk.bits = left < 32u ? (1u << left) - 1u : ~0u;
     return;
   }
-  const uint piece = walk.word / PIECE_WORDS;
+  const uint piece = word / PIECE_WORDS;
   const uint place = piece == 0u ? walk.first : walk.second + piece;
-  walk.bits = lookup_bits[(place * LOOKUP_CELL_ROWS + walk.row) * PIECE_WORDS + walk.word % PIECE_WORDS];
+  walk.bits = lookup_bits[(place * LOOKUP_CELL_ROWS + walk.row) * PIECE_WORDS + word % PIECE_WORDS];
   walk.base += (place - piece) * PIECE;
 }
 
@@ -45,7 +46,6 @@ bool walk_word(inout Walk walk) {
   while (walk.bits == 0u) {
     if (walk.word >= walk.words) return false;
     lookup_next_word(walk);
-    ++walk.word;
   }
   return true;
 }

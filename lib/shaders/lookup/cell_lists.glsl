@@ -29,14 +29,18 @@ Walk walk_begin(uvec2 pixel, float z_view) {
   return Walk(span.first, span.first + count, next, next + further * LOOKUP_CELL_ROWS, false);
 }
 
+void lookup_next_span(inout Walk walk) {
+  const LightSpan span = lookup_spans[walk.span];
+  walk.span += LOOKUP_CELL_ROWS;
+  walk.at = span.first;
+  walk.end = span.first + span.count;
+}
+
 // The next span with lights left; false if there is none.
 bool walk_span(inout Walk walk) {
   while (walk.at >= walk.end) {
     if (walk.span >= walk.spans) return false;
-    const LightSpan span = lookup_spans[walk.span];
-    walk.span += LOOKUP_CELL_ROWS;
-    walk.at = span.first;
-    walk.end = span.first + span.count;
+    lookup_next_span(walk);
   }
   return true;
 }

@@ -5,6 +5,8 @@
 // A 2.5D Culling for Forward+, SIGGRAPH Asia (2012). Promise: work grows with lights and output, whatever their
 // distribution; lists of any length ascend; what does not fit is counted and walked the long way.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -24,6 +26,7 @@ using lamplight::light_threads;
 using lamplight::Sizes;
 using lamplight::THREAD_PAIRS;
 using lamplight::THREADS;
+using lamplight::WORD_LIGHTS;
 
 // Tuned on an H100, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was tried.
 constexpr std::uint32_t SCAN_COLUMNS = 16;
@@ -41,6 +44,7 @@ constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups
 constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread; llvmpipe ends them after twice as many
 constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
+constexpr std::uint64_t MOST_STEPS = 16;            // of a walk in each round of its loop: shading is in the code as often
 
 /// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
 /// 65535 groups, all that some have, are one short of 16 million lights.
@@ -269,6 +273,19 @@ bool gathers(const Problem& problem) {
   return wanted == "gather" || (wanted == "auto" && lamplight::can_gather(problem));
 }
 
+/// On a device that ends a pixel's loop before it has walked all lights: as many steps of the walk in each round as it
+/// takes. A step may bring none, at a word without a bit or a piece without a light.
+void walk_in_steps(LookUp& lookup, const Problem& problem) {
+  const std::uint64_t rounds = problem.traits.max_loop_rounds;
+  const std::uint64_t lights = parts::capacity(problem);
+  if (lights * WALK_ROUNDS <= rounds) return;
+  const std::uint64_t idle = lights / WORD_LIGHTS + 1;
+  const std::uint64_t steps = std::min(std::bit_ceil((lights + idle) / rounds + 1), MOST_STEPS);
+  lookup.name += "_stepped";
+  lookup.constants.push_back(static_cast<std::uint32_t>(steps));
+  lookup.most_walked = steps * rounds - idle;
+}
+
 Plan plan_lamplight(const Problem& problem) {
   if (gathers(problem)) return lamplight::plan_at_once(problem);
   const Sizes sizes = lamplight::sizes_of(problem);
@@ -294,6 +311,7 @@ Plan plan_lamplight(const Problem& problem) {
                  .bindings = {{INPUT_FRAME}, {buffers.cells}, {buffers.rows}, {buffers.piece_lists}}};
   plan.lookup.constants.push_back(sizes.cell_bits ? 1U : 0U);
   if (!sizes.bits) plan.lookup.bindings.push_back({buffers.lists});
+  walk_in_steps(plan.lookup, problem);
   return plan;
 }
 

@@ -22,7 +22,6 @@ constexpr std::uint32_t SPARSE_LIGHTS = 1U << 17;
 constexpr std::uint32_t WANTED_BLOCKS = 256;         // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;        // lights
 constexpr std::uint32_t SMALLEST_BLOCK = 32;         // lights
-constexpr std::uint32_t WORD_LIGHTS = 32;            // bits
 constexpr std::uint64_t CELL_PIECES = 2;             // for each cell, besides those of mean_cells
 constexpr std::uint64_t FEW_PIECES = 1024;           // as many instead, unless all lights in all cells take fewer
 constexpr std::uint64_t FEW_BITS_PIECES = 4096;      // likewise, of cells with bits: pieces take less memory there

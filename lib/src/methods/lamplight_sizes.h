@@ -12,6 +12,8 @@ namespace lamp::lamplight {
 
 constexpr std::uint32_t THREADS = 256;  ///< of a work group, where the device takes as many
 
+constexpr std::uint32_t WORD_LIGHTS = 32;  ///< bits
+
 constexpr std::uint32_t THREAD_PAIRS = 4;  ///< of light and row for each thread that tests them, in shared memory
 
 /// What a row keeps of a piece: a span of the lists, or bits.

@@ -4,11 +4,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/nth_bit.glsl"
 
+// Of the word, which has some.
+uint lookup_lowest(inout Walk walk) {
+  const uint light = lookup_light_of(walk, uint(findLSB(walk.bits)));
+  walk.bits &= walk.bits - 1u;
+  return light;
+}
+
 bool walk_next(inout Walk walk, out uint light) {
   light = 0u;
   if (!walk_word(walk)) return false;
-  light = lookup_light_of(walk, uint(findLSB(walk.bits)));
-  walk.bits &= walk.bits - 1u;
+  light = lookup_lowest(walk);
   return true;
 }
 
