@@ -48,18 +48,22 @@ std::uint32_t checked_frame(const Group& group) {
   return best;
 }
 
-json spread_json(const FrameTimes& times, const auto& value) {
-  std::vector<double> samples;
-  for (const FrameTime& frame : times.frames()) samples.push_back(value(frame));
-  return to_json(spread_of(samples));
+std::vector<double> values_of(const FrameTimes& times, const auto& value) {
+  std::vector<double> values;
+  for (const FrameTime& frame : times.frames()) values.push_back(value(frame));
+  return values;
 }
+
+json spread_json(const FrameTimes& times, const auto& value) { return to_json(spread_of(values_of(times, value))); }
+
+double cull_and_shade(const FrameTime& frame) { return frame.cull_ms + frame.shade_ms; }
 
 json times_json(const Candidate& candidate) {
   if (!candidate.timed()) return nullptr;
   const FrameTimes& t = candidate.times;
   return {{"cull", spread_json(t, [](const FrameTime& f) { return f.cull_ms; })},
           {"shade", spread_json(t, [](const FrameTime& f) { return f.shade_ms; })},
-          {"cull+shade", spread_json(t, [](const FrameTime& f) { return f.cull_ms + f.shade_ms; })},
+          {"cull+shade", spread_json(t, cull_and_shade)},
           {"frame", spread_json(t, [](const FrameTime& f) { return f.frame_ms; })}};
 }
 
@@ -119,6 +123,8 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
   return made;
 }
 
+bool has_auto(const Group& group) { return std::ranges::any_of(group.entries, is_auto, &GroupEntry::method); }
+
 json result_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame& frame) {
   json result{{"series", info.group.series},
               {"key", key_of(info.group, *candidate.entry)},
@@ -130,14 +136,13 @@ json result_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame
               {"times", times_json(candidate)},
               {"stats", stats_json(info, candidate, frame)}};
   if (info.group.flight && candidate.timed()) result["samples"] = samples_json(candidate);
+  if (has_auto(info.group) && candidate.timed()) result["rounds"] = values_of(candidate.times, cull_and_shade);
   return result;
 }
 
-bool asks_for_auto(const GroupEntry& entry) { return is_auto(entry.method); }
-
 /// What `auto` takes for the checked frame, if somebody wants to know.
 MethodChoice choose_for(const MeasureInfo& info, const BenchScene& scene, Renderer& renderer, const BenchFrame& frame) {
-  if (!info.explain && std::ranges::none_of(info.group.entries, asks_for_auto)) return {};
+  if (!info.explain && !has_auto(info.group)) return {};
   const MethodChoice chosen =
       info.device.chooser().choose(renderer, {.scene = scene.scene,
                                               .view = frame.view,
@@ -149,7 +154,7 @@ MethodChoice choose_for(const MeasureInfo& info, const BenchScene& scene, Render
 
 /// The entry with the method and options that were chosen in place of `auto`, if anything was.
 GroupEntry resolved(GroupEntry entry, const MethodChoice& chosen) {
-  if (!asks_for_auto(entry)) return entry;
+  if (!is_auto(entry.method)) return entry;
   if (chosen.method == nullptr) throw Error("auto looks at a frame's depth, and nothing is rendered here");
   entry.method = chosen.method->name;
   entry.options = chosen.options;

@@ -159,7 +159,8 @@ TEST(LoopLimits, LamplightWalksInAsManyStepsARoundAsItTakes) {
     return make_plan(method, problem_of(method, 640, 360, lights, traits)).value();
   };
   EXPECT_EQ(plan(21845).lookup.name, "cell_lists");
-  for (const auto& [lights, steps] : {std::pair{21846U, 1U}, {63000U, 1U}, {65536U, 2U}, {262144U, 8U}, {1U << 19, 16U}}) {
+  for (const auto& [lights, steps] :
+       {std::pair{21846U, 1U}, {63000U, 1U}, {65536U, 2U}, {262144U, 8U}, {1U << 19, 16U}}) {
     const Plan stepped = plan(lights);
     EXPECT_EQ(stepped.lookup.name, "cell_lists_stepped");
     EXPECT_EQ(stepped.lookup.constants.back(), steps) << lights;

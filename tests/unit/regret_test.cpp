@@ -46,6 +46,19 @@ TEST(Regret, IsAgainstTheBestForTheSameFrames) {
             "configurations), at worst 2 times: atrium 64x36 8 lights: tight instead of tiled.");
 }
 
+// Half of the rounds at a third of the clock: medians would fall on either side.
+TEST(Regret, ComparesWithinARound) {
+  json results{{"run", json::object()}, {"results", {result("auto", 3.3, 8), result("tiled", 1.0, 8)}}};
+  results["results"][0]["rounds"] = {1.1, 3.3, 3.3, 1.1, 3.3};
+  results["results"][1]["rounds"] = {1.0, 3.0, 3.0, 1.0, 1.0};
+  add_regret(results);
+  EXPECT_NEAR(results["results"][0]["regret"]["factor"].get<double>(), 1.1, 1e-9);
+  EXPECT_EQ(results["results"][0]["regret"]["best"], "tiled");
+  results["results"][1]["rounds"] = {1.0, 3.0};  // not the same rounds
+  add_regret(results);
+  EXPECT_NEAR(results["results"][0]["regret"]["factor"].get<double>(), 3.3, 1e-9);
+}
+
 TEST(Regret, NothingWithoutAuto) {
   json results{{"run", json::object()}, {"results", {result("tiled", 1.0, 8)}}};
   add_regret(results);

@@ -44,7 +44,7 @@ constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups
 constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread; llvmpipe ends them after twice as many
 constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
-constexpr std::uint64_t MOST_STEPS = 16;            // of a walk in each round of its loop: shading is in the code as often
+constexpr std::uint64_t MOST_STEPS = 16;  // of a walk in each round of its loop: shading is in the code as often
 
 /// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
 /// 65535 groups, all that some have, are one short of 16 million lights.
