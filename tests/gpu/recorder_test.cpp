@@ -1,6 +1,10 @@
 // The recorder around plans: times of passes in order, labels, errors of what cannot be built, buffers that go away.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <thread>
+#include <vector>
 
 #include "gpu/plan_harness.h"
 #include "render/pass_uses.h"
@@ -113,6 +117,31 @@ TEST_F(RecorderTest, PipelinesThatAreAlikeAreMadeOnce) {
   device.pipelines = nullptr;
   EXPECT_NE(write(1, 1).handle(), first.handle());
   EXPECT_EQ(store.size(), 3);
+}
+
+TEST_F(RecorderTest, APipelineThatManyAskForAtOnceIsMadeOnce) {
+  vulkan::PipelineStore store;
+  std::atomic<int> made = 0;
+  std::array<VkPipeline, 8> handles{};
+  const auto make = [&] {
+    ++made;
+    return vulkan::Pipeline::compute(test_context().device(), {.name = "write", .bindings = {{0}, {1}}},
+                                     test_shader("plan_write"));
+  };
+  std::vector<std::jthread> threads;
+  for (VkPipeline& handle : handles)
+    threads.emplace_back([&] { handle = take(store.find_or_make("one", make)).handle(); });
+  threads.clear();  // waits for them
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(std::ranges::count(handles, handles.front()), handles.size());
+}
+
+TEST_F(RecorderTest, APipelineThatCannotBeMadeIsTriedAgain) {
+  vulkan::PipelineStore store;
+  const auto fail = [] { return Result<vulkan::Pipeline>(lamp::Error{"pipeline one", "for a test"}); };
+  EXPECT_FALSE(store.find_or_make("one", fail).ok());
+  EXPECT_EQ(store.size(), 0);
+  EXPECT_FALSE(store.find_or_make("one", fail).ok());
 }
 
 TEST_F(RecorderTest, HostPassesAndEmptyPlansTakeNoTime) {

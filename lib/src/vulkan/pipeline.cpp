@@ -241,15 +241,17 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
 
 Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& info,
                                    std::span<const std::uint32_t> spirv) {
-  const std::string description = (Description() << info << spirv).bytes();
-  return stored_or_made(device, description, [&] { return make_compute(device, info, spirv); });
+  const auto make = [&] { return make_compute(device, info, spirv); };
+  if (device.pipelines == nullptr) return make();
+  return device.pipelines->find_or_make((Description() << info << spirv).bytes(), make);
 }
 
 Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& info,
                                     std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
                                     const GraphicsState& state) {
-  const std::string description = (Description() << info << vertex << fragment << state).bytes();
-  return stored_or_made(device, description, [&] { return make_graphics(device, info, vertex, fragment, state); });
+  const auto make = [&] { return make_graphics(device, info, vertex, fragment, state); };
+  if (device.pipelines == nullptr) return make();
+  return device.pipelines->find_or_make((Description() << info << vertex << fragment << state).bytes(), make);
 }
 
 }  // namespace lamp::vulkan

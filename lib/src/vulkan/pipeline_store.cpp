@@ -2,22 +2,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline_store.h"
 
+#include <algorithm>
+
 namespace lamp::vulkan {
 
-std::optional<Pipeline> PipelineStore::find(const std::string& description) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = pipelines_.find(description);
-  return found == pipelines_.end() ? std::nullopt : std::optional(found->second);
-}
-
-void PipelineStore::add(const std::string& description, const Pipeline& pipeline) {
-  const std::lock_guard lock(mutex_);
-  pipelines_.try_emplace(description, pipeline);
+Result<Pipeline> PipelineStore::find_or_make(const std::string& description,
+                                             const std::function<Result<Pipeline>()>& make) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    const auto [found, is_new] = pipelines_.try_emplace(description);
+    if (is_new) break;
+    if (found->second) return *found->second;
+    done_.wait(lock);
+  }
+  lock.unlock();
+  Result<Pipeline> made = make();
+  lock.lock();
+  if (made)
+    pipelines_[description] = made.value();
+  else
+    pipelines_.erase(description);
+  done_.notify_all();
+  return made;
 }
 
 std::size_t PipelineStore::size() const {
   const std::lock_guard lock(mutex_);
-  return pipelines_.size();
+  return static_cast<std::size_t>(
+      std::ranges::count_if(pipelines_, [](const auto& one) { return one.second.has_value(); }));
 }
 
 void Description::add(std::uint64_t value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value)); }

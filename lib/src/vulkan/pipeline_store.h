@@ -18,14 +18,4 @@ class Description {
   std::string bytes_;
 };
 
-/// The stored pipeline of that description, or the one that `make` makes, stored.
-template <class Make>
-Result<Pipeline> stored_or_made(const Device& device, const std::string& description, const Make& make) {
-  if (device.pipelines == nullptr) return make();
-  if (auto found = device.pipelines->find(description)) return std::move(*found);
-  Result<Pipeline> made = make();
-  if (made) device.pipelines->add(description, made.value());
-  return made;
-}
-
 }  // namespace lamp::vulkan

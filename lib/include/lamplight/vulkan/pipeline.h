@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -95,14 +98,17 @@ class Pipeline {
 /// Destroy it before the device. Safe to use from several threads.
 class PipelineStore {
  public:
-  /// The pipeline of that description, if it was made before.
-  [[nodiscard]] std::optional<Pipeline> find(const std::string& description) const;
-  void add(const std::string& description, const Pipeline& pipeline);
+  /// The pipeline of that description, made if there is none. Who asks for one that is being made waits for it. An
+  /// error is not kept.
+  [[nodiscard]] Result<Pipeline> find_or_make(const std::string& description,
+                                              const std::function<Result<Pipeline>()>& make);
+  /// How many there are.
   [[nodiscard]] std::size_t size() const;
 
  private:
   mutable std::mutex mutex_;
-  std::map<std::string, Pipeline, std::less<>> pipelines_;
+  std::condition_variable done_;
+  std::map<std::string, std::optional<Pipeline>, std::less<>> pipelines_;  ///< nothing: being made
 };
 
 }  // namespace lamp::vulkan
