@@ -64,6 +64,27 @@ TEST(Growth, EndsWhereTheOptionEnds) {
   EXPECT_FALSE(grow_plan(most.method, most.problem, most.plan, std::vector<std::uint32_t>{4000}));
 }
 
+/// A swarm between two pixels of a small picture: four tiles hold every light, and the others nothing.
+TEST(Growth, SharedListsTakeEveryLightInAFewCells) {
+  for (const std::string_view name : {"lamplight", "clustered"}) {
+    SCOPED_TRACE(name);
+    const Method& method = *find_method(name).value();
+    Problem problem{
+        .width = 32, .height = 32, .light_capacity = MAX_LIGHTS, .options = resolve_options(method, {}).value()};
+    problem.traits.max_storage_buffer_bytes = ~0U;
+    problem.traits.max_groups[0] = ~0U;
+    const Result<Plan> made = make_plan(method, problem);
+    ASSERT_TRUE(made.ok()) << made.error().text();
+    const Plan& plan = made.value();
+    std::vector<std::uint32_t> needed(plan.capacities.size(), 0);
+    needed.back() = 4 * MAX_LIGHTS;
+    ASSERT_LT(plan.capacities.back().entries, needed.back());
+    const auto grown = grow_plan(method, problem, plan, needed);
+    ASSERT_TRUE(grown);
+    EXPECT_GE(grown->plan.capacities.back().entries, needed.back());
+  }
+}
+
 TEST(Growth, EndsWhereTheDeviceEnds) {
   Planned p = planned("clustered", {"mean_capacity=64"});
   const std::uint64_t entries = p.plan.capacities[0].entries;

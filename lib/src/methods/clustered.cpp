@@ -125,7 +125,7 @@ std::vector<OptionSpec> clustered_options(
        .help = "container=list: lights a cluster, on average, that the shared list has room for",
        .fallback = "512",
        .min = 1,
-       .max = 65536}};
+       .max = MAX_LIGHTS}};
   for (const auto& [key, value] : fallbacks) {
     const auto spec = std::ranges::find(specs, key, &OptionSpec::key);
     assert(spec != specs.end() && "presets set options that exist");

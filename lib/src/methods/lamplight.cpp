@@ -358,7 +358,7 @@ std::vector<OptionSpec> lamplight_options() {
            .help = "container=list: lights a tile, on average, that the lists have room for",
            .fallback = "32",
            .min = 1,
-           .max = 65536}};
+           .max = MAX_LIGHTS}};
 }
 
 }  // namespace
