@@ -1,7 +1,6 @@
 // Measures what the cost model is fitted to: each candidate on a few sizes and counts of lights.
 // Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -90,63 +89,37 @@ bool takes(const AutoCandidate& candidate, const MeasuredPoint& point, bool soft
   return point.lights <= candidate.most_capacity && (candidate.walk != nullptr || can_walk_all);
 }
 
+/// Of each point each candidate that takes it, or none yet.
+struct Compiled {
+  std::vector<std::vector<std::optional<Lighting>>> points;
+  bool all_wait = true;  ///< there is room for all of them
+};
+
 // Of the device's memory, for buffers of plans that wait for their turn.
 constexpr std::uint64_t WAITING_SHARE = 8;
 
-/// Everything of every point, compiled by all threads in the points' order: drivers take long, and one point can be
-/// timed while the next are compiled. What has no room to wait is made again when its turn comes; the device keeps the
-/// pipelines.
-class Compilation {
- public:
-  Compilation(Context& context, const ShaderLibrary& shaders)
-      : context_(context),
-        shaders_(shaders),
-        room_(context.device().traits.memory_bytes / WAITING_SHARE),
-        points_(points_of(context).size()),
-        missing_(points_.size()) {
-    for (auto& of_point : points_) of_point.resize(auto_candidates().size());
-    for (auto& count : missing_) count = auto_candidates().size();
-  }
-
-  /// Throws Error.
-  void run() {
-    std::atomic<std::size_t> next = 0;
-    const std::size_t count = points_.size() * auto_candidates().size();
-    tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
-      for (std::size_t i = next++; i < count; i = next++)
-        compile(i / auto_candidates().size(), i % auto_candidates().size());
-    });
-  }
-
-  /// Whether all of a point is compiled, from any thread.
-  bool has(std::size_t point) const { return missing_[point] == 0; }
-
-  /// Of a point that is compiled: each candidate that takes it and had room.
-  std::vector<std::optional<Lighting>>& of_point(std::size_t point) { return points_[point]; }
-
-  /// Whether there is room for all so far.
-  bool all_wait() const { return taken_ <= room_; }
-
- private:
-  void compile(std::size_t point, std::size_t candidate) {
-    const AutoCandidate& of_auto = auto_candidates()[candidate];
-    const MeasuredPoint& measured = points_of(context_)[point];
-    const bool software = is_software(context_);
-    if (takes(of_auto, measured, software)) {
-      Lighting lighting(context_.device(), shaders_, lighting_info(of_auto, measured, software));
-      const std::uint64_t bytes = lighting.runner().plan().bytes();
-      if (taken_.fetch_add(bytes) + bytes <= room_) points_[point][candidate] = std::move(lighting);
-    }
-    --missing_[point];
-  }
-
-  Context& context_;
-  const ShaderLibrary& shaders_;
-  std::uint64_t room_;                    ///< bytes
-  std::atomic<std::uint64_t> taken_ = 0;  ///< bytes, with those of plans that had no room
-  std::vector<std::vector<std::optional<Lighting>>> points_;
-  std::vector<std::atomic<std::size_t>> missing_;  ///< candidates of each point
-};
+/// Drivers take long to compile, so everything of every point is made beforehand, by all threads. What has no room to
+/// wait is made again when its turn comes; the device keeps the pipelines.
+Compiled compile_all(Context& context, const ShaderLibrary& shaders) {
+  const std::span<const AutoCandidate> candidates = auto_candidates();
+  const std::span<const MeasuredPoint> points = points_of(context);
+  const bool software = is_software(context);
+  const std::uint64_t room = context.device().traits.memory_bytes / WAITING_SHARE;
+  std::atomic<std::uint64_t> taken = 0;
+  Compiled compiled{.points = std::vector<std::vector<std::optional<Lighting>>>(points.size())};
+  for (auto& of_point : compiled.points) of_point.resize(candidates.size());
+  tbb::parallel_for(std::size_t{0}, points.size() * candidates.size(), [&](std::size_t i) {
+    const AutoCandidate& candidate = candidates[i % candidates.size()];
+    const MeasuredPoint& point = points[i / candidates.size()];
+    if (!takes(candidate, point, software)) return;
+    Lighting lighting(context.device(), shaders, lighting_info(candidate, point, software));
+    const std::uint64_t bytes = lighting.runner().plan().bytes();
+    if (taken.fetch_add(bytes) + bytes <= room)
+      compiled.points[i / candidates.size()][i % candidates.size()] = std::move(lighting);
+  });
+  compiled.all_wait = taken <= room;
+  return compiled;
+}
 
 // A GPU that has slept for long is awake after that much work at the latest.
 constexpr std::chrono::milliseconds WAKE_TIME(400);
@@ -203,9 +176,15 @@ std::vector<LightLoad> make_loads(Context& context, const Scene& scene,
   return loads;
 }
 
-/// Renders until that is there: a GPU that waits falls asleep, and takes as long to wake as it slept.
-void keep_awake(Renderer& renderer, Lighting& lighting, const std::function<bool()>& is_there) {
-  while (!is_there()) static_cast<void>(renderer.time(lighting, Timing::parts));
+/// Renders until that is there, and for WAKE_TIME at least: a GPU that waits falls asleep, and takes as long to wake as
+/// it slept.
+void keep_awake(Context& context, const ShaderLibrary& shaders, Renderer& renderer,
+                const std::function<bool()>& is_there) {
+  const LightingInfo info = lighting_info(auto_candidates().front(), points_of(context).front(), false);
+  Lighting lighting(context.device(), shaders, info);
+  const auto begin = std::chrono::steady_clock::now();
+  while (!is_there() || std::chrono::steady_clock::now() - begin < WAKE_TIME)
+    static_cast<void>(renderer.time(lighting, Timing::parts));
 }
 
 template <class Result>
@@ -246,37 +225,30 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   const bool software = is_software(context);
   const Scene scene = calibration_scene();
   const GpuScene gpu_scene(context, scene);
-  Compilation compilation(context, shaders);
-  auto compiling = std::async(std::launch::async, [&] { compilation.run(); });
+  auto compiling = std::async(std::launch::async, [&] { return compile_all(context, shaders); });
   const auto pictures = make_pictures(context, shaders, scene, gpu_scene);
   auto loading = std::async(std::launch::async, [&] { return make_loads(context, scene, pictures); });
-  if (software) compiling.wait();  // it would take the time of what is timed
-  Renderer& first = *pictures.front()->renderer;
-  Lighting any(context.device(), shaders,
-               lighting_info(auto_candidates().front(), points_of(context).front(), software));
-  const auto begin = std::chrono::steady_clock::now();
-  const auto is_awake = [&] { return software || std::chrono::steady_clock::now() - begin >= WAKE_TIME; };
-  keep_awake(first, any, [&] { return is_ready(loading) && is_awake(); });
+  const auto is_there = [&] { return is_ready(compiling) && is_ready(loading); };
+  if (!software) keep_awake(context, shaders, *pictures.front()->renderer, is_there);
+  Compiled compiled = compiling.get();
   const std::vector<LightLoad> loads = loading.get();
+  auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
   // Kept where there is room: to free memory takes time, in which the GPU falls asleep.
   std::list<std::list<Timed>> timed_all;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    keep_awake(first, any, [&] { return compilation.has(i) || is_ready(compiling); });
-    if (!compilation.has(i)) compiling.get();  // throws what went wrong
-    const auto before = std::chrono::steady_clock::now();
     Renderer& renderer = *pictures[i]->renderer;
     renderer.set_frame(pictures[i]->view, loads[i].lights);
     std::list<Timed>& timed =
-        timed_all.emplace_back(candidates_for(context, shaders, points_of(context)[i], compilation.of_point(i)));
+        timed_all.emplace_back(candidates_for(context, shaders, points_of(context)[i], compiled.points[i]));
     const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
     if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work
     time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
     for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, loads[i].workload));
-    if (!compilation.all_wait()) timed_all.clear();
+    if (!compiled.all_wait) timed_all.clear();
+    before = std::chrono::steady_clock::now();
   }
-  compiling.get();
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};
   for (std::size_t i = 0; i < candidates.size(); ++i) calibration.costs.push_back(fit_cost(candidates[i], samples[i]));
   return calibration;
