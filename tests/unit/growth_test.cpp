@@ -97,6 +97,11 @@ TEST(Growth, EndsWhereTheDeviceEnds) {
   EXPECT_FALSE(grow_plan(p.method, p.problem, p.plan, std::vector<std::uint32_t>{~0U}));
 }
 
+TEST(Growth, ListsHaveNoMoreRoomThanEveryLightInEveryCluster) {
+  EXPECT_EQ(planned("clustered", {"mean_capacity=16777216"}, 100).plan.capacities[0].entries,
+            planned("clustered", {"mean_capacity=100"}, 100).plan.capacities[0].entries);
+}
+
 TEST(Growth, CapacitiesMustSayWhereNeedsAreCounted) {
   Planned p = planned("clustered", {});
   p.plan.capacities[0].needed_offset = 16;

@@ -4,6 +4,7 @@
 // for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
 // Promise: right for any depth of a pixel; count, scan, fill, so lists are compact and ascend.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cassert>
 #include <initializer_list>
 
@@ -63,9 +64,14 @@ std::uint32_t words_of_a_tile(const Problem& problem, const parts::TileGrid& til
   return bytes <= std::min(MOST_BIT_BYTES, problem.traits.max_storage_buffer_bytes) ? words : 0;
 }
 
+/// Of the shared list: no cluster can list more than every light.
+std::uint64_t list_entries(const Problem& problem, std::uint64_t clusters) {
+  return clusters * std::min<std::uint64_t>(problem.options.integer("mean_capacity"), parts::capacity(problem));
+}
+
 /// Each cluster a range of one shared list.
 void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId bounds) {
-  const std::uint64_t wanted = c.count * problem.options.integer("mean_capacity");
+  const std::uint64_t wanted = list_entries(problem, c.count);
   const auto entries = static_cast<std::uint32_t>(wanted);  // beyond 32 bits, plan_check refuses the buffer
   const ResourceId counters = parts::add_counters(plan);
   plan.capacities = {parts::shared_list(plan, "mean_capacity", wanted, c.count)};
