@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "lamplight/choose.h"
+#include "oracle/choose.h"
 
 namespace lamp::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "lamplight/choose.h"
+#include "oracle/choose.h"
 #include "render/renderer.h"
 
 namespace lamp::app {

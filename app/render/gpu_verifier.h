@@ -1,5 +1,5 @@
 // The oracle's place where it is too slow: the truth of every pixel on the GPU, and look-ups held against it.
-// Based on: the contract of lamplight/reference.h, which it repeats in double precision; tests hold it against that.
+// Based on: the contract of oracle/reference.h, which it repeats in double precision; tests hold it against that.
 // Promise: shares no bounds and no cells with any method. Counts what the oracle counts.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "image/image.h"
-#include "lamplight/reference.h"
 #include "lamplight/shared/counters.h"
+#include "oracle/reference.h"
 #include "render/frame_times.h"
 #include "render/lighting.h"
 

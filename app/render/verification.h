@@ -12,7 +12,7 @@
 
 #include "image/image.h"
 #include "lamplight/plan.h"
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 #include "render/shaders/scene_data.h"
 
 namespace lamp::app {

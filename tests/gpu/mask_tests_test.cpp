@@ -7,7 +7,7 @@
 #include "gpu/dispatch.h"
 #include "gpu/random_volumes.h"
 #include "gpu/shaders/mask_case.h"
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 namespace lamp::app {
 namespace {

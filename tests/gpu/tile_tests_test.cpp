@@ -6,8 +6,8 @@
 
 #include "gpu/dispatch.h"
 #include "gpu/random_volumes.h"
-#include "lamplight/reference.h"
 #include "lamplight/shared/tile.h"
+#include "oracle/reference.h"
 
 namespace lamp::app {
 namespace {

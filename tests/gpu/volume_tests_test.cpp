@@ -9,7 +9,7 @@
 
 #include "gpu/dispatch.h"
 #include "gpu/random_volumes.h"
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 namespace lamp::app {
 namespace {

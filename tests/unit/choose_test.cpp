@@ -1,6 +1,6 @@
 // `auto`: the estimate of a workload against the oracle, the fit against known costs, the choice against its rules.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/choose.h"
+#include "oracle/choose.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 namespace lamp {
 namespace {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The oracle: known answers by hand, and the fast truth against the slow one on random pictures.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 #include <gtest/gtest.h>
 

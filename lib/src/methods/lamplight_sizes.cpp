@@ -11,21 +11,15 @@ namespace {
 using shared::PIECE;
 // Tuned on an H100 and an H200, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was
 // tried.
-constexpr std::uint32_t GROUP_SUBGROUPS = 8;   // more of them than of their lights cost a software device its time
-constexpr std::uint32_t GROUP_ROWS = 64;       // of a cell that a work group looks at
-constexpr std::uint32_t CELL_SLICES = 4;       // without depth buffer
-constexpr std::uint32_t LEAST_CELL_TILES = 4;  // a side; fewer leave the last pass with groups of few lights
-constexpr std::uint32_t MOST_CELL_TILES = 32;  // a side
-constexpr std::uint32_t GOOD_CELLS = 2304;     // not more where cells can be larger; 4K has 2040
-constexpr std::uint32_t FEW_CELLS = 576;       // likewise, for at most SPARSE_LIGHTS, but of GROUP_ROWS tiles at most
-constexpr std::uint32_t SPARSE_LIGHTS = 1U << 17;
-constexpr std::uint32_t WANTED_BLOCKS = 256;         // rows of the matrix
-constexpr std::uint32_t LARGEST_BLOCK = 8192;        // lights
-constexpr std::uint32_t SMALLEST_BLOCK = 32;         // lights
-constexpr std::uint64_t CELL_PIECES = 2;             // for each cell, besides those of mean_cells
-constexpr std::uint64_t FEW_PIECES = 1024;           // as many instead, unless all lights in all cells take fewer
-constexpr std::uint64_t FEW_BITS_PIECES = 4096;      // likewise, of cells with bits: pieces take less memory there
-constexpr std::uint64_t CELL_BITS_BYTES = 5U << 20;  // of all cells, at most, for cells=auto
+constexpr std::uint32_t GROUP_SUBGROUPS = 8;     // more of them than of their lights cost a software device its time
+constexpr std::uint32_t CELL_SLICES = 4;         // without depth buffer
+constexpr std::uint32_t WANTED_BLOCKS = 256;     // rows of the matrix
+constexpr std::uint32_t LARGEST_BLOCK = 8192;    // lights
+constexpr std::uint32_t SMALLEST_BLOCK = 32;     // lights
+constexpr std::uint64_t CELL_PIECES = 2;         // for each cell, besides those of mean_cells
+constexpr std::uint64_t FEW_PIECES = 1024;       // as many instead, unless all lights in all cells take fewer
+constexpr std::uint64_t FEW_BITS_PIECES = 4096;  // likewise, of cells with bits: pieces take less memory there
+constexpr std::uint64_t CELL_BITS_BYTES = 5U << 20;          // of all cells, at most, for cells=auto
 constexpr std::uint64_t SPARSE_CELL_BITS_BYTES = 17U << 20;  // likewise, with depth buffer and at most SPARSE_LIGHTS
 constexpr std::uint64_t MEAN_CAPACITY = 32;                  // default of the option
 constexpr std::uint64_t LIST_LIGHTS = 4;          // entries for each light that are room as well, within LIST_BUDGET
@@ -83,18 +77,6 @@ bool wants_cell_bits(const Problem& problem, const Sizes& s) {
 }
 
 }  // namespace
-
-std::uint32_t cell_tiles(std::uint32_t width, std::uint32_t height, std::uint32_t tile_px, std::uint32_t lights) {
-  const auto is_good = [&](std::uint32_t tiles) {
-    const bool may_be_fewer = lights <= SPARSE_LIGHTS && tiles * tiles < GROUP_ROWS;
-    const std::uint64_t across = parts::divide_up(width, tile_px * tiles);
-    const std::uint64_t down = parts::divide_up(height, tile_px * tiles);
-    return across * down <= (may_be_fewer ? FEW_CELLS : GOOD_CELLS);
-  };
-  std::uint32_t tiles = LEAST_CELL_TILES;
-  while (!is_good(tiles) && tiles < MOST_CELL_TILES) tiles *= 2;
-  return tiles;
-}
 
 std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lamplight/shared/lamplight.h"
+#include "lamplight_cells.h"
 #include "parts.h"
 
 namespace lamp::lamplight {
@@ -41,10 +42,6 @@ struct Sizes {
   /// What a row keeps of a piece: a span of the lists, or bits.
   [[nodiscard]] std::uint64_t row_bytes() const { return lamplight::row_bytes(bits); }
 };
-
-/// Tiles along a side of a cell, a power of two. `lights`: that there is room for.
-[[nodiscard]] std::uint32_t cell_tiles(std::uint32_t width, std::uint32_t height, std::uint32_t tile_px,
-                                       std::uint32_t lights);
 
 /// A power of two that the device takes.
 [[nodiscard]] std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted);

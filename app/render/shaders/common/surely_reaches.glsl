@@ -1,6 +1,6 @@
 // Whether a light surely reaches a pixel, in double precision: the oracle's answer, on the GPU.
-// Based on: reach() of lib/src/reference.cpp; the angle is compared by the squares of its sine and cosine instead of by
-// an arc tangent. Positions are those of View::world_position.
+// Based on: reach() of oracle/reference/reference.cpp; the angle is compared by the squares of its sine and cosine
+// instead of by an arc tangent. Positions are those of View::world_position.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SURELY_REACHES
 #define LAMP_COMMON_SURELY_REACHES

@@ -1,7 +1,7 @@
 // The candidates of `auto`, the terms of their costs, and the choice.
 // Based on: docs/auto.md.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/choose.h"
+#include "oracle/choose.h"
 
 #include <algorithm>
 #include <cassert>

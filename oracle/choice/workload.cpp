@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "lamplight/choose.h"
-#include "lamplight/reference.h"
-#include "methods/lamplight_sizes.h"
+#include "methods/lamplight_cells.h"
+#include "oracle/choose.h"
+#include "oracle/reference.h"
 
 namespace lamp {
 namespace {

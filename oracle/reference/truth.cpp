@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 namespace lamp {
 namespace {

@@ -2,7 +2,7 @@
 // Based on: the contract in reference.h; Kahan's atan2 form of the angle, which stays exact near 0 and 90 degrees.
 // Promise: double precision throughout; no bounds, no cells, no code of any method.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/reference.h"
+#include "oracle/reference.h"
 
 #include <array>
 #include <cassert>

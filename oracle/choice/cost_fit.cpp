@@ -4,7 +4,7 @@
 // Promise: deterministic; a term that is 0 in every sample gets the coefficient 0. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "lamplight/choose.h"
+#include "oracle/choose.h"
 
 namespace lamp {
 namespace {
