@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lamplight/error.h"
+#include "lamplight/export.h"
 #include "lamplight/shared/entity.h"
 #include "lamplight/shared/light.h"
 
@@ -29,18 +30,18 @@ struct EntityRanges {
   EntityRange lights;
   EntityRange boxes;
 };
-[[nodiscard]] EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t box_count);
+[[nodiscard]] LAMPLIGHT_API EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t box_count);
 
 /// The first box with a number that is not finite, a half extent that is not > 0, or axes that are not unit and at
 /// right angles within 1e-4, as an error that names it ("box 3: ..."); or nothing.
-[[nodiscard]] std::optional<Error> check_boxes(std::span<const shared::OrientedBox> boxes);
+[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_boxes(std::span<const shared::OrientedBox> boxes);
 
 /// The record that stands for a checked box in the light buffer: a point light of no intensity, whose range is the
 /// radius of a sphere that encloses the box and what rounding may add to it.
-[[nodiscard]] shared::Light bounding_light(const shared::OrientedBox& box);
+[[nodiscard]] LAMPLIGHT_API shared::Light bounding_light(const shared::OrientedBox& box);
 
 /// A frame's light buffer: the lights, then a record for each box.
-[[nodiscard]] std::vector<shared::Light> entity_records(std::span<const shared::Light> lights,
-                                                        std::span<const shared::OrientedBox> boxes);
+[[nodiscard]] LAMPLIGHT_API std::vector<shared::Light> entity_records(std::span<const shared::Light> lights,
+                                                                      std::span<const shared::OrientedBox> boxes);
 
 }  // namespace lamp

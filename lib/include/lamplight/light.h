@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lamplight/error.h"
+#include "lamplight/export.h"
 #include "lamplight/shared/light.h"
 
 namespace lamp {
@@ -28,19 +29,19 @@ struct Light {
 };
 
 /// The first light that breaks the ranges above, as an error that names it ("light 3: range must be ..."); or nothing.
-[[nodiscard]] std::optional<Error> check_lights(std::span<const Light> lights);
+[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_lights(std::span<const Light> lights);
 
 /// The 64-byte GPU record of a checked light.
-[[nodiscard]] shared::Light pack(const Light& light);
+[[nodiscard]] LAMPLIGHT_API shared::Light pack(const Light& light);
 
 /// `pack` for many.
-[[nodiscard]] std::vector<shared::Light> pack(std::span<const Light> lights);
+[[nodiscard]] LAMPLIGHT_API std::vector<shared::Light> pack(std::span<const Light> lights);
 
 /// The 16-byte sphere around all that a light reaches, in world space. Source: for spots, Primal engine, Light Culling
 /// with Approximate Sphere-Cone Intersection, listing 6.
-[[nodiscard]] shared::LightSphere bounding_sphere(const shared::Light& light);
+[[nodiscard]] LAMPLIGHT_API shared::LightSphere bounding_sphere(const shared::Light& light);
 
 /// `bounding_sphere` for many.
-[[nodiscard]] std::vector<shared::LightSphere> bounding_spheres(std::span<const shared::Light> lights);
+[[nodiscard]] LAMPLIGHT_API std::vector<shared::LightSphere> bounding_spheres(std::span<const shared::Light> lights);
 
 }  // namespace lamp

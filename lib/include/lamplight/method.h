@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lamplight/error.h"
+#include "lamplight/export.h"
 #include "lamplight/plan.h"
 
 namespace lamp {
@@ -25,7 +26,7 @@ struct OptionSpec {
 };
 
 /// Options that have been checked against a method and completed with its defaults.
-class Options {
+class LAMPLIGHT_API Options {
  public:
   [[nodiscard]] std::uint32_t integer(std::string_view key) const;
   [[nodiscard]] const std::string& word(std::string_view key) const;
@@ -67,17 +68,18 @@ struct Method {
 };
 
 /// Every method, in the order of the docs.
-[[nodiscard]] std::span<const Method> methods();
+[[nodiscard]] LAMPLIGHT_API std::span<const Method> methods();
 
 /// The method of that name, or an error with the nearest names.
-[[nodiscard]] Result<const Method*> find_method(std::string_view name);
+[[nodiscard]] LAMPLIGHT_API Result<const Method*> find_method(std::string_view name);
 
 /// Checks "key=value" settings against the method's options and completes them.
 /// Errors name the option, what was given and what was expected.
-[[nodiscard]] Result<Options> resolve_options(const Method& method, const std::vector<std::string>& settings);
+[[nodiscard]] LAMPLIGHT_API Result<Options> resolve_options(const Method& method,
+                                                            const std::vector<std::string>& settings);
 
 /// Checks sizes and capacity, makes the plan and checks it (`plan_check`).
-[[nodiscard]] Result<Plan> make_plan(const Method& method, const Problem& problem);
+[[nodiscard]] LAMPLIGHT_API Result<Plan> make_plan(const Method& method, const Problem& problem);
 
 /// A plan with more room, and the options that made it.
 struct GrownPlan {
@@ -87,11 +89,12 @@ struct GrownPlan {
 
 /// A plan with room for what a frame needed, and for a quarter more. `needed`: what the counts of `plan.capacities`
 /// said, in their order. Nothing if everything fitted, or where the method's options or the device allow no more.
-[[nodiscard]] std::optional<GrownPlan> grow_plan(const Method& method, const Problem& problem, const Plan& plan,
-                                                 std::span<const std::uint32_t> needed);
+[[nodiscard]] LAMPLIGHT_API std::optional<GrownPlan> grow_plan(const Method& method, const Problem& problem,
+                                                               const Plan& plan, std::span<const std::uint32_t> needed);
 
 /// The names nearest to `wanted`, nearest first, at most `count`, for error messages.
-[[nodiscard]] std::vector<std::string> nearest_names(std::string_view wanted, std::span<const std::string_view> names,
-                                                     std::size_t count = 3);
+[[nodiscard]] LAMPLIGHT_API std::vector<std::string> nearest_names(std::string_view wanted,
+                                                                   std::span<const std::string_view> names,
+                                                                   std::size_t count = 3);
 
 }  // namespace lamp

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lamplight/error.h"
+#include "lamplight/export.h"
 #include "lamplight/shared/frame.h"
 #include "lamplight/shared/light.h"
 
@@ -136,7 +137,7 @@ struct Capacity {
   std::uint32_t entries_per_count = 1;  ///< that one of the count stands for
 };
 
-struct Plan {
+struct LAMPLIGHT_API Plan {
   std::vector<BufferDesc> buffers;
   std::vector<Pass> passes;
   LookUp lookup;
@@ -178,6 +179,6 @@ struct DeviceTraits {
 /// the limit (the light buffer that the plan reads included), all of them beyond the memory, a binding to nothing, a
 /// read of what nothing wrote, too many groups or storage buffers, a host pass after a GPU pass, a shader that does not
 /// exist. The first such problem, or nothing.
-[[nodiscard]] std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
+[[nodiscard]] LAMPLIGHT_API std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
 
 }  // namespace lamp

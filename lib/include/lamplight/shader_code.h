@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include "lamplight/export.h"
+
 namespace lamp {
 
 /// One compiled shader. A name is the path below the shader root without its extension, and "@look-up" for a variant.
@@ -17,9 +19,9 @@ struct ShaderCode {
 };
 
 /// The shaders of the library.
-[[nodiscard]] std::span<const ShaderCode> library_shaders();
+[[nodiscard]] LAMPLIGHT_API std::span<const ShaderCode> library_shaders();
 
 /// The shader of that name in a table, or nullptr.
-[[nodiscard]] const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_view name);
+[[nodiscard]] LAMPLIGHT_API const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_view name);
 
 }  // namespace lamp

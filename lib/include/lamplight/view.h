@@ -8,13 +8,14 @@
 #include <limits>
 
 #include "lamplight/error.h"
+#include "lamplight/export.h"
 #include "lamplight/shared/frame.h"
 
 namespace lamp {
 
 /// A camera and a picture size. All numbers are 32-bit values (what the GPU sees) held in double precision,
 /// so that the oracle and the GPU speak of the same camera.
-class View {
+class LAMPLIGHT_API View {
  public:
   /// `clip_from_view` may be any perspective or orthographic projection, off-centre too, whose x and y do not mix:
   /// only the entries [0][0], [1][1], the z column, the w column's x, y, z and [3][3] may differ from 0.
@@ -60,12 +61,12 @@ struct Window {
 inline constexpr double INFINITE_FAR = std::numeric_limits<double>::infinity();
 
 /// Reversed-depth perspective through `window` (tangents), `near_m` > 0, `far_m` > `near_m` or INFINITE_FAR.
-[[nodiscard]] glm::dmat4 perspective(const Window& window, double near_m, double far_m);
+[[nodiscard]] LAMPLIGHT_API glm::dmat4 perspective(const Window& window, double near_m, double far_m);
 
 /// Reversed-depth orthographic projection, `near_m` < `far_m`, both finite.
-[[nodiscard]] glm::dmat4 orthographic(const Window& window, double near_m, double far_m);
+[[nodiscard]] LAMPLIGHT_API glm::dmat4 orthographic(const Window& window, double near_m, double far_m);
 
 /// The symmetric window of a vertical field of view (radians) and an aspect ratio (width over height).
-[[nodiscard]] Window symmetric_window(double fov_y, double aspect);
+[[nodiscard]] LAMPLIGHT_API Window symmetric_window(double fov_y, double aspect);
 
 }  // namespace lamp

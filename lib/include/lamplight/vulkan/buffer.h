@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "lamplight/export.h"
 #include "lamplight/vulkan/device.h"
 #include "lamplight/vulkan/owned.h"
 
@@ -25,7 +26,7 @@ struct BufferInfo {
   MemoryUse memory = MemoryUse::device;
 };
 
-class Buffer {
+class LAMPLIGHT_API Buffer {
  public:
   Buffer() = default;
   /// Errors name the buffer and its size.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lamplight/export.h"
 #include "lamplight/method.h"
 #include "lamplight/shared/counters.h"
 #include "lamplight/view.h"
@@ -43,7 +44,7 @@ enum class Growth : std::uint8_t {
 
 /// Owns the buffers and pipelines of one method at one size. Frames run on the GPU one after the other, as on one queue
 /// they do; up to FRAMES_IN_FLIGHT may be recorded ahead.
-class Culler {
+class LAMPLIGHT_API Culler {
  public:
   static constexpr std::uint32_t FRAMES_IN_FLIGHT = 4;
 

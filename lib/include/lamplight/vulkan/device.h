@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "lamplight/error.h"
+#include "lamplight/export.h"
 #include "lamplight/plan.h"
 
 namespace lamp::vulkan {
 
 /// The features to enable, chained for VkDeviceCreateInfo::pNext or to merge into an engine's own chain.
 /// Vulkan 1.3: scalar block layout, synchronization2, dynamic rendering, maintenance4.
-struct RequiredFeatures {
+struct LAMPLIGHT_API RequiredFeatures {
   RequiredFeatures();
   RequiredFeatures(const RequiredFeatures&) = delete;
   RequiredFeatures& operator=(const RequiredFeatures&) = delete;
@@ -27,26 +28,26 @@ struct RequiredFeatures {
 };
 
 /// The device extensions to enable: VK_KHR_push_descriptor.
-[[nodiscard]] std::span<const char* const> required_extensions();
+[[nodiscard]] LAMPLIGHT_API std::span<const char* const> required_extensions();
 
 /// Device extensions that methods use where they are enabled: VK_EXT_conservative_rasterization. Those that the device
 /// has. Who enables one says so in Device::traits (`conservative_raster`).
-[[nodiscard]] std::vector<const char*> useful_extensions(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API std::vector<const char*> useful_extensions(VkPhysicalDevice physical);
 
 /// Whether the device has VK_EXT_pipeline_robustness and its feature. Who enables both says so in
 /// Device::pipeline_robustness.
-[[nodiscard]] bool has_pipeline_robustness(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API bool has_pipeline_robustness(VkPhysicalDevice physical);
 
 /// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
-[[nodiscard]] std::optional<Error> check_device(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(VkPhysicalDevice physical);
 
 /// Limits for planning.
-[[nodiscard]] DeviceTraits traits_of(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API DeviceTraits traits_of(VkPhysicalDevice physical);
 
 class PipelineStore;
 
 /// An engine's device, with what recording needs at hand. Plain handles; destroys nothing.
-struct Device {
+struct LAMPLIGHT_API Device {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice handle = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory{};
@@ -67,13 +68,14 @@ struct Device {
 };
 
 /// Errors: `check_device`'s, or a device on which the extension was not enabled.
-[[nodiscard]] Result<Device> make_device(VkPhysicalDevice physical, VkDevice device);
+[[nodiscard]] LAMPLIGHT_API Result<Device> make_device(VkPhysicalDevice physical, VkDevice device);
 
 /// The index of a memory type with all of `wanted`, preferring one that also has `preferred`.
-[[nodiscard]] Result<std::uint32_t> find_memory_type(const Device& device, std::uint32_t type_bits,
-                                                     VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred = 0);
+[[nodiscard]] LAMPLIGHT_API Result<std::uint32_t> find_memory_type(const Device& device, std::uint32_t type_bits,
+                                                                   VkMemoryPropertyFlags wanted,
+                                                                   VkMemoryPropertyFlags preferred = 0);
 
 /// The name of a result for error lines ("VK_ERROR_OUT_OF_DEVICE_MEMORY").
-[[nodiscard]] std::string result_text(VkResult result);
+[[nodiscard]] LAMPLIGHT_API std::string result_text(VkResult result);
 
 }  // namespace lamp::vulkan

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "lamplight/export.h"
 #include "lamplight/vulkan/device.h"
 #include "lamplight/vulkan/owned.h"
 #include "lamplight/vulkan/pipeline_statistics.h"
@@ -54,7 +55,7 @@ struct GraphicsState {
 };
 
 /// Copies share one pipeline, which lives as long as the last of them.
-class Pipeline {
+class LAMPLIGHT_API Pipeline {
  public:
   Pipeline() = default;
   [[nodiscard]] static Result<Pipeline> compute(const Device& device, const PipelineInfo& info,
@@ -96,7 +97,7 @@ class Pipeline {
 /// Keeps the pipelines of a device (`Device::pipelines`), so that the same code with the same constants and state is
 /// compiled once, whoever asks: other methods with the same passes, a plan that is made anew for more lights.
 /// Destroy it before the device. Safe to use from several threads.
-class PipelineStore {
+class LAMPLIGHT_API PipelineStore {
  public:
   /// The pipeline of that description, made if there is none. Who asks for one that is being made waits for it. An
   /// error is not kept.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lamplight/export.h"
 #include "lamplight/vulkan/device.h"
 
 namespace lamp::vulkan {
@@ -18,6 +19,6 @@ struct PipelineStatistic {
 
 /// Of a pipeline that was made with VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR, on a device with
 /// `pipeline_statistics`; empty where the driver has none.
-[[nodiscard]] std::vector<PipelineStatistic> read_statistics(const Device& device, VkPipeline pipeline);
+[[nodiscard]] LAMPLIGHT_API std::vector<PipelineStatistic> read_statistics(const Device& device, VkPipeline pipeline);
 
 }  // namespace lamp::vulkan

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "lamplight/export.h"
 #include "lamplight/plan.h"
 #include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
@@ -14,7 +15,7 @@ namespace lamp::vulkan {
 
 /// SPIR-V by shader name; the library's embedded shaders by default (`embedded_shaders`).
 using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::string_view name)>;
-[[nodiscard]] Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name);
+[[nodiscard]] LAMPLIGHT_API Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name);
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
@@ -47,10 +48,10 @@ struct FrameCounts {
   std::vector<std::uint32_t> needed;  ///< of the plan's capacities, in their order
 };
 /// Bytes of those in a read-back buffer, and from there.
-[[nodiscard]] std::uint64_t count_bytes(const Plan& plan);
-[[nodiscard]] FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes);
+[[nodiscard]] LAMPLIGHT_API std::uint64_t count_bytes(const Plan& plan);
+[[nodiscard]] LAMPLIGHT_API FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes);
 
-class PlanRunner {
+class LAMPLIGHT_API PlanRunner {
  public:
   enum class Passes : std::uint8_t { separate, fused };
 
@@ -115,6 +116,6 @@ class PlanRunner {
 };
 
 /// The descriptor type of a plan's resource.
-[[nodiscard]] VkDescriptorType descriptor_type(ResourceId id);
+[[nodiscard]] LAMPLIGHT_API VkDescriptorType descriptor_type(ResourceId id);
 
 }  // namespace lamp::vulkan

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "lamplight/export.h"
 #include "lamplight/vulkan/buffer.h"
 #include "lamplight/vulkan/pipeline.h"
 
@@ -46,7 +47,7 @@ struct Bound {
 };
 
 /// Remembers, over any number of command buffers of one queue, who last touched what.
-class AccessTracker {
+class LAMPLIGHT_API AccessTracker {
  public:
   /// Puts a barrier for these uses into the command buffer, if one is needed, and remembers them.
   void barrier(VkCommandBuffer commands, std::span<const Use> uses);
@@ -68,7 +69,7 @@ class AccessTracker {
 };
 
 /// Begin and end times of named passes, or of runs of passes that belong together.
-class Timestamps {
+class LAMPLIGHT_API Timestamps {
  public:
   /// Which part of the frame a pass belongs to, by any number.
   using PartOf = std::function<int(std::string_view)>;
@@ -101,7 +102,7 @@ class Timestamps {
   bool open_ = false;  ///< the last time has no end yet
 };
 
-class Recorder {
+class LAMPLIGHT_API Recorder {
  public:
   /// `timestamps` may be null.
   Recorder(const Device& device, VkCommandBuffer commands, AccessTracker& tracker, Timestamps* timestamps = nullptr)
