@@ -37,8 +37,14 @@ glm::dmat4 RandomVolumes::projection(double aspect) {
   if (chance(0.25)) {
     const double half = log_uniform(0.1, 1000.0);
     const double shift = chance(0.5) ? 0.0 : uniform(-half, half);
-    return orthographic({-half * aspect + shift, half * aspect + shift, -half + shift, half + shift}, near_m,
-                        log_uniform(100.0, 10000.0));
+    const double nearest = chance(0.5) ? near_m : -log_uniform(1.0, WORLD_M);
+    glm::dmat4 clip_from_view =
+        orthographic({-half * aspect + shift, half * aspect + shift, -half + shift, half + shift}, nearest,
+                     log_uniform(100.0, 10000.0));
+    const double lean = chance(0.5) ? 0.0 : uniform(-1.0, 1.0);  // metres beside for each metre ahead
+    clip_from_view[2][0] = lean * clip_from_view[0][0];
+    clip_from_view[2][1] = lean * clip_from_view[1][1];
+    return clip_from_view;
   }
   Window window = symmetric_window(uniform(0.2, 2.4), aspect);
   if (chance(0.5)) {
@@ -67,7 +73,8 @@ RandomTile RandomVolumes::tile(const View& view) {
   const glm::uvec2 corner = pixel / tile_px * tile_px;
   const double z_nearest = view.z_view(1.0);
   const double z_farthest = std::min(WORLD_M, view.orthographic() ? view.z_view(1e-6) : view.z_view(1e-30));
-  const double z = log_uniform(z_nearest, std::max(z_farthest, 1.01 * z_nearest));
+  const double z =
+      z_nearest > 0.0 ? log_uniform(z_nearest, std::max(z_farthest, 1.01 * z_nearest)) : uniform(z_nearest, z_farthest);
   const float depth = std::clamp(static_cast<float>(device_depth(view, z)), 1e-20F, 1.0F);
   const auto thickness = static_cast<float>(chance(0.5) ? 0.0 : uniform(0.0, 0.5));
   return {.volume = {.min_px = corner,

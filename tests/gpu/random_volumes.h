@@ -22,10 +22,11 @@ class RandomVolumes {
  public:
   explicit RandomVolumes(std::uint32_t seed) : random_(seed) {}
 
-  /// Any projection (finite, infinite, off-centre, orthographic), any rotation, eyes up to 5 km from the origin.
+  /// Any projection (finite, infinite, off-centre, orthographic, leaning, with the near plane behind the eye), any
+  /// rotation, eyes up to 5 km from the origin.
   [[nodiscard]] View view();
 
-  /// Pixels up to 5 km ahead of the eye; often the slab has no thickness.
+  /// Pixels up to 5 km ahead of the eye, or behind it; often the slab has no thickness.
   [[nodiscard]] RandomTile tile(const View& view);
 
   /// A light that nearly always reaches the position, often only just: a point light, or a spot with a half-angle of

@@ -140,9 +140,9 @@ TEST_P(VolumeTests, WhatIsClearlyOutsideIsAlwaysRejected) {
       ASSERT_EQ(batch.answers[i].touches & shared::TOUCHES_SIDES, 0) << describe(batch, i);
     }
     const double z = -bounds.center.z;
-    const double z_near = view.z_view(tile.nearest) * (1.0 - 1e-5);
-    const double z_far = view.z_view(tile.farthest) * (1.0 + 1e-5);
-    if (z + clearly < z_near || z - clearly > z_far) {
+    const double z_near = view.z_view(tile.nearest);
+    const double z_far = view.z_view(tile.farthest);
+    if (z + clearly < z_near - 1e-5 * std::abs(z_near) || z - clearly > z_far + 1e-5 * std::abs(z_far)) {
       ++before_or_behind;
       ASSERT_EQ(batch.answers[i].touches & (shared::TOUCHES_DEPTHS | shared::TOUCHES_BOX), 0) << describe(batch, i);
     }

@@ -10,17 +10,27 @@
 #include "common/tile_volume.glsl"
 #include "common/volume_tests.glsl"
 
+// An orthographic tile: a circle around its middle at each depth. Where lines of sight lean, the middle moves with the
+// depth.
+bool sphere_touches_cylinder(LightBounds sphere, TileSides sides) {
+  const vec2 lean = vec2(sides.x_edges.y, sides.y_edges.y);  // metres for each metre ahead
+  const vec2 middle = sides.cone.axis.xy - lean * sphere.center.z;
+  return distance(sphere.center.xy, middle) <= sphere.radius * sides.cone.axis.z - sides.cone.slope;
+}
+
 // Listing 5 as printed: the cone's radius at the sphere's depth against the distance to the axis.
-bool sphere_touches_cone_as_printed(LightBounds sphere, TileCone cone) {
-  if (cone.slope < 0.0) return distance(sphere.center.xy, cone.axis.xy) <= sphere.radius - cone.slope;
+bool sphere_touches_cone_as_printed(LightBounds sphere, TileSides sides) {
+  const TileCone cone = sides.cone;
+  if (cone.slope < 0.0) return sphere_touches_cylinder(sphere, sides);
   const vec3 rejection = sphere.center - dot(sphere.center, cone.axis) * cone.axis;
   const float radius = -sphere.center.z * cone.slope + sphere.radius;
   return dot(rejection, rejection) <= radius * radius;
 }
 
 // The signed distance to the cone's surface is that of its nearest generatrix; beyond the apex it is a lower bound.
-bool sphere_touches_cone(LightBounds sphere, TileCone cone) {
-  if (cone.slope < 0.0) return distance(sphere.center.xy, cone.axis.xy) <= sphere.radius - cone.slope;
+bool sphere_touches_cone(LightBounds sphere, TileSides sides) {
+  const TileCone cone = sides.cone;
+  if (cone.slope < 0.0) return sphere_touches_cylinder(sphere, sides);
   if (cone.slope >= NO_CONE) return true;
   const float along = dot(sphere.center, cone.axis);
   const vec3 rejection = sphere.center - along * cone.axis;
@@ -32,8 +42,8 @@ const bool TESTS_BOX = TEST == TEST_AABB || TEST == TEST_PLANES_AABB;
 
 // What does not depend on the depths: once a light, however many ranges the tile has.
 bool sphere_touches_tile_sides(LightBounds sphere, TileSides sides) {
-  if (TEST == TEST_CONE_APPROXIMATE) return sphere_touches_cone_as_printed(sphere, sides.cone);
-  if (TEST == TEST_CONE) return sphere_touches_cone(sphere, sides.cone);
+  if (TEST == TEST_CONE_APPROXIMATE) return sphere_touches_cone_as_printed(sphere, sides);
+  if (TEST == TEST_CONE) return sphere_touches_cone(sphere, sides);
   if (TEST == TEST_PLANES || TEST == TEST_PLANES_AABB) return sphere_touches_sides(sphere, sides.planes.planes);
   return true;
 }

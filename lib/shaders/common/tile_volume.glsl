@@ -80,14 +80,16 @@ TilePlanes tile_planes(Frame frame, vec2 min_px, vec2 max_px) {
 const float NO_CONE = 1e6;  // the slope of a tile that is wider than any cone: a large one in a tiny, wide picture
 
 TileCone tile_cone(Frame frame, vec2 min_px, vec2 max_px, bool as_printed) {
-  const vec3 middle = view_position(frame, 0.5 * (min_px + max_px), 1.0);
-  const vec3 corners[4] = vec3[](view_position(frame, min_px, 1.0), view_position(frame, max_px, 1.0),
-                                 view_position(frame, vec2(min_px.x, max_px.y), 1.0),
-                                 view_position(frame, vec2(max_px.x, min_px.y), 1.0));
+  const float z_view = is_perspective(frame) ? 1.0 : 0.0;
+  const vec3 middle = view_position(frame, 0.5 * (min_px + max_px), z_view);
+  const vec3 corners[4] = vec3[](view_position(frame, min_px, z_view), view_position(frame, max_px, z_view),
+                                 view_position(frame, vec2(min_px.x, max_px.y), z_view),
+                                 view_position(frame, vec2(max_px.x, min_px.y), z_view));
   if (!is_perspective(frame)) {
     float radius = 0.0;
     for (int i = 0; i < 4; ++i) radius = max(radius, distance(corners[i].xy, middle.xy));
-    return TileCone(vec3(middle.xy, 0.0), -radius);
+    const vec2 lean = frame.clip_from_view[2].xy / vec2(frame.clip_from_view[0][0], frame.clip_from_view[1][1]);
+    return TileCone(vec3(middle.xy, sqrt(1.0 + dot(lean, lean))), -radius);
   }
   const vec3 axis = normalize(middle);
   if (as_printed) return TileCone(axis, distance(middle, corners[0]));

@@ -51,7 +51,8 @@ struct TilePlanes {
   vec4 planes[4];  // left, right, top, bottom; view space, unit normals, positive inside
 };
 struct TileCone {
-  vec3 axis;    // perspective: unit direction through the tile's middle; orthographic: (x, y, unused) of its middle
+  vec3 axis;    // perspective: unit direction through the tile's middle; orthographic: x and y of its middle where z is
+                // 0, then how long a line of sight is for each metre ahead
   float slope;  // >= 0: radius per metre, along z (approximate test) or along the axis (exact); < 0: minus the radius
 };
 
