@@ -77,11 +77,15 @@ TileDepths depths_of_tile(uvec2 tile) {
   return TileDepths(z_near, z_far, scale, subgroupOr(mask));
 }
 
-// Depths that a half float holds no nearer, and no farther, however it is rounded: it has eleven bits.
+// Depths that a half float holds no nearer, and no farther, however it is rounded: it has eleven bits, and a device may
+// make zero of what is nearer to it than HALF_ZERO. Depths of an orthographic view may be negative, behind the eye.
 float infinity() { return uintBitsToFloat(0x7f800000u); }
 const float LARGEST_HALF = 65504.0;
-float half_below(float z) { return min(0.999 * z, LARGEST_HALF); }
-float half_above(float z) { return z > 0.99 * LARGEST_HALF ? infinity() : 1.001 * z + 1e-6; }
+const float HALF_ZERO = 6.2e-5;
+float half_below(float z) {
+  return z < -0.99 * LARGEST_HALF ? -infinity() : min((z > 0.0 ? 0.999 : 1.001) * z, LARGEST_HALF) - HALF_ZERO;
+}
+float half_above(float z) { return -half_below(-z); }
 
 // Of the cell, once all of its tiles are known.
 vec2 depths_of_cell() {

@@ -1,0 +1,95 @@
+// Makes odd frames.
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/odd_frames.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gpu/check.h"
+#include "gpu/random_volumes.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr double ASPECT = static_cast<double>(ODD_SIZE.x) / ODD_SIZE.y;
+constexpr double NEAREST_M = -40.0;  // surfaces of views that look behind the eye
+constexpr double FARTHEST_M = 60.0;
+constexpr std::uint32_t FLAT_PX = 32;  // the largest tile
+
+glm::dmat4 looks_behind_the_eye() { return orthographic(symmetric_window(1.4, ASPECT), NEAREST_M - 2.0, 90.0); }
+
+/// Lines of sight that lean: x and y move with the depth.
+glm::dmat4 leaning(glm::dmat4 clip_from_view) {
+  clip_from_view[2][0] += 0.05;
+  clip_from_view[2][1] -= 0.03;
+  return clip_from_view;
+}
+
+glm::dmat4 pose() {
+  const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, -0.5)));
+  return glm::translate(turn, glm::dvec3(3.0, -20.0, 7.5));
+}
+
+float device_depth(const View& view, double z_view) {
+  const glm::dmat4& p = view.clip_from_view();
+  return static_cast<float>((p[3][2] - p[2][2] * z_view) / (p[3][3] - p[2][3] * z_view));
+}
+
+/// Squares of 32 pixels at one depth each, a slope across one of them, sky beside.
+std::vector<float> steps(const View& view, double nearest, double farthest) {
+  constexpr double SHARES[] = {0.0, 0.35, 1.0, 0.4, 0.7, 0.1};
+  std::vector<float> depth;
+  for (std::uint32_t y = 0; y < ODD_SIZE.y; ++y)
+    for (std::uint32_t x = 0; x < ODD_SIZE.x; ++x) {
+      const std::uint32_t square = x / FLAT_PX + 3 * (y / FLAT_PX);
+      const double share = square == 4 ? static_cast<double>(x - FLAT_PX) / FLAT_PX : SHARES[square];
+      const bool sky = square == 2 && x % 3 == 0;
+      depth.push_back(sky ? 0.0F : device_depth(view, nearest + (farthest - nearest) * share));
+    }
+  return depth;
+}
+
+/// Half of them straight ahead or behind of a surface and only just within reach of it, the others around surfaces.
+std::vector<Light> reaching_lights(const View& view, const std::vector<float>& depth) {
+  RandomVolumes random(5);
+  const glm::dvec3 ahead = -glm::normalize(glm::dvec3(view.world_from_view()[2]));
+  std::vector<Light> lights;
+  for (std::uint32_t i = 0; lights.size() < ODD_LIGHTS; ++i) {
+    const glm::uvec2 pixel(i * 7 % ODD_SIZE.x, i * 5 % ODD_SIZE.y);
+    const float d = depth[std::size_t{pixel.y} * ODD_SIZE.x + pixel.x];
+    if (d == 0.0F) continue;
+    const glm::dvec3 surface = view.world_position(pixel.x, pixel.y, d);
+    if (i % 2 == 0) {
+      lights.push_back(random.light_reaching(view, surface));
+      continue;
+    }
+    Light light;
+    light.range = static_cast<float>(1.5 * std::pow(1.04, i));
+    const glm::dvec3 away = i % 4 == 1 ? ahead : -ahead;
+    light.position = glm::vec3(surface + away * (light.range * (1.0 - 2e-5)));
+    if (i % 8 > 4) {
+      light.type = LightType::spot;
+      light.direction = glm::vec3(-away);
+      light.outer_angle = i % 16 > 8 ? 0.1F : 1.2F;
+    }
+    lights.push_back(light);
+  }
+  return lights;
+}
+
+OddFrame frame_of(std::string name, const glm::dmat4& clip_from_view, const glm::dmat4& view_from_world) {
+  const View view = take(View::create(ODD_SIZE.x, ODD_SIZE.y, clip_from_view, view_from_world));
+  const double nearest = view.orthographic() ? NEAREST_M : 0.5;
+  std::vector<float> depth = steps(view, nearest, FARTHEST_M);
+  std::vector<Light> lights = reaching_lights(view, depth);
+  return {std::move(name), view, std::move(depth), std::move(lights)};
+}
+
+}  // namespace
+
+std::vector<OddFrame> odd_frames() {
+  return {frame_of("behind the eye", looks_behind_the_eye(), pose()),
+          frame_of("leaning, behind the eye", leaning(looks_behind_the_eye()), pose())};
+}
+
+}  // namespace lamp::app
