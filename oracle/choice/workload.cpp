@@ -61,7 +61,8 @@ std::vector<Sphere> sampled(const View& view, std::span<const shared::Light> lig
     spheres.push_back(sphere_of(view, lights[order[exact + i * rest / taken]]));
     spheres.back().weight = static_cast<double>(rest) / static_cast<double>(taken);
   }
-  std::erase_if(spheres, [](const Sphere& s) { return !(s.radius > 0.0) || s.center.z + s.radius <= 0.0; });
+  const double eye = view.orthographic() ? -std::numeric_limits<double>::infinity() : 0.0;  // nothing is seen behind it
+  std::erase_if(spheres, [&](const Sphere& s) { return !(s.radius > 0.0) || s.center.z + s.radius <= eye; });
   return spheres;
 }
 
@@ -82,7 +83,7 @@ struct Tile {
   std::vector<Pixel> pixels;           // without sky
   std::size_t sampled = 0;             // with it
   double near_z = std::numeric_limits<double>::infinity();
-  double far_z = 0.0;
+  double far_z = -std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool column_touches(const Sphere& s) const {
     return std::ranges::all_of(

@@ -81,6 +81,26 @@ TEST(Workload, MeetsTheOracle) {
   }
 }
 
+// An orthographic view sees behind its eye.
+TEST(Workload, MeetsTheOracleBehindTheEye) {
+  glm::dmat4 view_from_world(1.0);
+  view_from_world[3].z = 20.0;  // the wall is 10 m behind
+  const Window window{.left = -8.5, .right = 8.5, .bottom = -5.0, .top = 5.0};
+  const View view = View::create(WIDTH, HEIGHT, orthographic(window, -30.0, 10.0), view_from_world).value();
+  const std::vector<float> depth(std::size_t{WIDTH} * HEIGHT, 0.5F);
+  ASSERT_NEAR(view.z_view(0.5), -10.0, 1e-5);
+  std::vector<shared::Light> lights = random_lights(600, 1.5F, false);
+  const Truth exact = truth({.view = view, .depth = depth, .lights = lights, .rows = HEIGHT});
+  const Workload w = estimate_workload(view, depth, lights);
+  EXPECT_GT(exact.lights.size(), 0U);
+  EXPECT_NEAR(w.reached * WIDTH * HEIGHT / static_cast<double>(exact.lights.size()), 1.0, 0.15);
+  EXPECT_GT(w.tile16.interval, w.reached);
+  for (shared::Light& light : lights) light.position.z += 10.0F;  // behind the wall, by far more than they reach
+  EXPECT_EQ(estimate_workload(view, depth, lights).tile16.interval, 0.0);
+  for (shared::Light& light : lights) light.position.z -= 20.0F;  // between the wall and the eye
+  EXPECT_EQ(estimate_workload(view, depth, lights).tile16.interval, 0.0);
+}
+
 TEST(Workload, CloserTestsKeepFewerLights) {
   const Workload w = estimate_workload(test_view(), wall_depth(), random_lights(2000, 0.8F, true));
   for (const TileLoad& load : {w.tile8, w.tile16}) {
