@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "lamplight/plan.h"
 #include "lamplight/shader_code.h"
@@ -57,12 +58,35 @@ std::optional<Error> check_storage_buffers(const std::string& source, const std:
                            std::to_string(traits.max_storage_buffers)};
 }
 
+std::optional<Error> check_subgroups(const std::string& source, const SubgroupOperations& asks,
+                                     const SubgroupOperations& has) {
+  const std::tuple<bool, bool, const char*> operations[] = {
+      {asks.vote, has.vote, "votes"},
+      {asks.ballot, has.ballot, "ballot"},
+      {asks.arithmetic, has.arithmetic, "arithmetic"},
+      {asks.shuffle, has.shuffle, "shuffle"},
+      {asks.shuffle_relative, has.shuffle_relative, "relative shuffle"}};
+  for (const auto& [asked, there, name] : operations)
+    if (asked && !there)
+      return Error{source, std::string("its shader needs the subgroup operation ") + name + ", which the device lacks"};
+  return std::nullopt;
+}
+
 /// The stage is the extension of the file that the shader was built from.
-std::optional<Error> check_shader(const std::string& source, const std::string& name, std::string_view extension) {
+std::optional<Error> check_shader(const std::string& source, const std::string& name, std::string_view extension,
+                                  const SubgroupOperations& has) {
   const ShaderCode* code = find_shader(library_shaders(), name);
   if (code == nullptr) return Error{source, "there is no shader named '" + name + "'"};
-  if (code->source.ends_with(extension)) return std::nullopt;
+  if (code->source.ends_with(extension)) return check_subgroups(source, subgroup_operations(code->spirv), has);
   return Error{source, "the shader '" + name + "' is not a " + std::string(extension) + " shader"};
+}
+
+std::optional<Error> check_full_subgroups(const std::string& source, std::uint32_t threads,
+                                          const DeviceTraits& traits) {
+  if (threads % traits.max_subgroup_size == 0 && threads <= traits.max_group_invocations) return std::nullopt;
+  return Error{source, "its work groups of " + std::to_string(threads) + " threads must be full subgroups of up to " +
+                           std::to_string(traits.max_subgroup_size) + ", and at most " +
+                           std::to_string(traits.max_group_invocations) + " threads"};
 }
 
 std::optional<Error> check_raster(const std::string& source, const RasterState& raster, const DeviceTraits& traits) {
@@ -165,10 +189,11 @@ class PassChecker {
     if (!raster && pass.shared_bytes > traits_.shared_memory_bytes)
       return Error{source, "needs " + std::to_string(pass.shared_bytes) + " bytes of shared memory, the device has " +
                                std::to_string(traits_.shared_memory_bytes)};
-    if (!raster) return check_shader(source, pass.shader, ".comp");
+    if (auto error = check_full_subgroups(source, pass.full_subgroups, traits_)) return error;
+    if (!raster) return check_shader(source, pass.shader, ".comp", traits_.compute_subgroups);
     if (auto error = check_raster(source, pass.raster, traits_)) return error;
-    if (auto error = check_shader(source, pass.raster.vertex_shader, ".vert")) return error;
-    return check_shader(source, pass.shader, ".frag");
+    if (auto error = check_shader(source, pass.raster.vertex_shader, ".vert", {})) return error;
+    return check_shader(source, pass.shader, ".frag", traits_.fragment_subgroups);
   }
 
   [[nodiscard]] std::optional<Error> check_extent(const std::string& source, const Pass& pass) const {

@@ -211,9 +211,7 @@ DeviceTraits large_device() {
           .max_groups = {1U << 31, 65535, 65535},
           .max_group_invocations = 1024,
           .shared_memory_bytes = 49152,
-          .max_image_size = 32768,
-          .subgroup_ballot = true,
-          .subgroup_arithmetic = true};
+          .max_image_size = 32768};
 }
 
 TEST(Choose, TakesTheLeast) {

@@ -7,14 +7,14 @@
 namespace lamp::test {
 
 /// The least that Vulkan 1.3 guarantees.
-inline const DeviceTraits LEAST_DEVICE{};
+inline const DeviceTraits LEAST_DEVICE{.compute_subgroups = {}, .fragment_subgroups = {}};
 
 /// Mesa's llvmpipe.
 inline const DeviceTraits SOFTWARE_DEVICE{.max_group_invocations = 1024,
                                           .shared_memory_bytes = 32768,
                                           .max_image_size = 16384,
-                                          .subgroup_ballot = true,
-                                          .subgroup_arithmetic = true};
+                                          .subgroup_size = 8,
+                                          .max_subgroup_size = 8};
 
 /// A large GPU: storage buffers of 4 GiB less a byte, as 32 bits can say.
 inline const DeviceTraits LARGE_DEVICE{.max_storage_buffer_bytes = 0xffffffffU,
@@ -24,14 +24,12 @@ inline const DeviceTraits LARGE_DEVICE{.max_storage_buffer_bytes = 0xffffffffU,
                                        .shared_memory_bytes = 49152,
                                        .max_image_size = 32768,
                                        .max_storage_buffers = 1024,
-                                       .subgroup_ballot = true,
-                                       .subgroup_arithmetic = true,
                                        .conservative_raster = true};
 
 /// The same without subgroup operations.
 inline const DeviceTraits LARGE_PLAIN_DEVICE = [] {
   DeviceTraits traits = LARGE_DEVICE;
-  traits.subgroup_ballot = traits.subgroup_arithmetic = false;
+  traits.compute_subgroups = traits.fragment_subgroups = {};
   return traits;
 }();
 

@@ -97,6 +97,7 @@ struct Pass {
   HostFunction host = nullptr;        ///< host passes; they run while recording, before every GPU pass
   bool on_projection_change = false;  ///< only in frames whose projection is not the last frame's; its output is kept
   std::uint32_t shared_bytes = 0;     ///< shared memory of a work group, for plan_check
+  std::uint32_t full_subgroups = 0;   ///< not 0: threads of a work group, all in x, whose subgroups must all be full
 };
 
 /// How a shader reads the result: the file lookup/NAME.glsl, its constants and its buffers.
@@ -159,7 +160,21 @@ struct LAMPLIGHT_API Plan {
   [[nodiscard]] bool binds(ResourceId id) const;
 };
 
-/// What plans and checks ask of a device. The defaults are, but for one, the least that Vulkan 1.3 guarantees.
+/// What the threads of a subgroup can do together, besides electing one of them, which all devices know.
+struct SubgroupOperations {
+  bool vote = false;
+  bool ballot = false;
+  bool arithmetic = false;
+  bool shuffle = false;
+  bool shuffle_relative = false;
+
+  friend bool operator==(const SubgroupOperations&, const SubgroupOperations&) = default;
+};
+inline constexpr SubgroupOperations ALL_SUBGROUP_OPERATIONS{
+    .vote = true, .ballot = true, .arithmetic = true, .shuffle = true, .shuffle_relative = true};
+
+/// What plans and checks ask of a device. The defaults are the least that Vulkan 1.3 guarantees, but for storage
+/// buffers and subgroups, which nearly all devices have more of.
 struct DeviceTraits {
   std::uint64_t max_storage_buffer_bytes = 1ULL << 27;
   std::uint64_t memory_bytes = ~0ULL;  ///< of the largest heap of the device's own
@@ -168,17 +183,19 @@ struct DeviceTraits {
   std::uint32_t shared_memory_bytes = 16384;
   std::uint32_t max_image_size = 4096;     ///< pixels a side
   std::uint32_t max_storage_buffers = 16;  ///< that a shader stage sees; Vulkan guarantees 4, too few for most methods
-  std::uint32_t subgroup_size = 32;
-  std::uint32_t max_loop_rounds = ~0U;  ///< of all loops of a thread together; llvmpipe ends them after 65 535
-  bool subgroup_ballot = false;         ///< in compute and fragment shaders
-  bool subgroup_arithmetic = false;     ///< in compute and fragment shaders
-  bool conservative_raster = false;     ///< VK_EXT_conservative_rasterization is enabled
+  std::uint32_t subgroup_size = 32;        ///< threads, of most pipelines
+  std::uint32_t max_subgroup_size = 32;    ///< of any pipeline: some drivers choose for each; at least `subgroup_size`
+  std::uint32_t max_loop_rounds = ~0U;     ///< of all loops of a thread together; llvmpipe ends them after 65 535
+  SubgroupOperations compute_subgroups = ALL_SUBGROUP_OPERATIONS;   ///< in compute shaders; none are guaranteed
+  SubgroupOperations fragment_subgroups = ALL_SUBGROUP_OPERATIONS;  ///< in fragment shaders; likewise
+  bool conservative_raster = false;                                 ///< VK_EXT_conservative_rasterization is enabled
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond
 /// the limit (the light buffer that the plan reads included), all of them beyond the memory, a binding to nothing, a
 /// read of what nothing wrote, too many groups or storage buffers, a host pass after a GPU pass, a shader that does not
-/// exist. The first such problem, or nothing.
+/// exist or asks for subgroup operations that the device lacks, work groups that subgroups cannot fill. The first such
+/// problem, or nothing.
 [[nodiscard]] LAMPLIGHT_API std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
 
 }  // namespace lamp

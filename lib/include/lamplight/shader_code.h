@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lamplight/export.h"
+#include "lamplight/plan.h"
 
 namespace lamp {
 
@@ -20,6 +21,10 @@ struct ShaderCode {
 
 /// The shaders of the library.
 [[nodiscard]] LAMPLIGHT_API std::span<const ShaderCode> library_shaders();
+
+/// The subgroup operations that a module declares. Clustered and quad operations, which the library's shaders leave
+/// alone, are not among them.
+[[nodiscard]] LAMPLIGHT_API SubgroupOperations subgroup_operations(std::span<const std::uint32_t> spirv);
 
 /// The shader of that name in a table, or nullptr.
 [[nodiscard]] LAMPLIGHT_API const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_view name);

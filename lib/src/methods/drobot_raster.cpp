@@ -86,7 +86,8 @@ Pass draw_pass(const Problem& problem, const Raster& raster, const Buffers& b, c
 /// Whether atomics are merged: as asked, if the device can.
 bool compacts(Plan& plan, const Problem& problem) {
   if (problem.options.word("compact") == "off") return false;
-  if (problem.traits.subgroup_ballot && problem.traits.subgroup_arithmetic) return true;
+  const SubgroupOperations& has = problem.traits.fragment_subgroups;
+  if (has.ballot && has.arithmetic) return true;
   plan.notes.emplace_back("compact=off instead of on: the device has no subgroup ballot and arithmetic in fragments");
   return false;
 }

@@ -53,7 +53,7 @@ std::uint32_t find_threads(const Problem& problem) {
     return parts::divide_up(parts::capacity(problem), threads) <= problem.traits.max_groups[0];
   };
   if (const std::uint32_t threads = light_threads(problem); fits(threads)) return threads;
-  return group_threads(problem, fits(THREADS) ? THREADS : 2 * THREADS);
+  return lamplight::full_threads(problem, fits(THREADS) ? THREADS : 2 * THREADS);
 }
 
 /// Lights in view of a work group that finds cells, while there are few.
@@ -123,7 +123,8 @@ std::string shader_of(std::string_view name, const Sizes& s) {
 Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t cell_px = s.tile_px * s.cell_tiles;
   const std::uint32_t busy = s.cell_tiles * s.cell_tiles * problem.traits.subgroup_size;  // a tile is a subgroup's
-  const std::uint32_t threads = group_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
+  const std::uint32_t threads =
+      lamplight::full_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
   Pass pass{.name = "tile depth",
             .shader = shader_of("depth", s),
             .constants = {threads, s.tile_px, s.cell_tiles, lamplight::squares_held(problem), s.block},
@@ -134,7 +135,8 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                          {b.matrix, Access::write},
                          {b.cell_depths, Access::write}},
             .extent = {.x = s.cells.width, .y = s.cells.height},
-            .shared_bytes = 32};
+            .shared_bytes = 32,
+            .full_subgroups = threads};
   if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
   return pass;
 }
@@ -145,7 +147,8 @@ Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) 
           .constants = {threads, few_lights(problem, threads)},
           .bindings = {{INPUT_FRAME}, {INPUT_SPHERES}, {b.totals, Access::read_write}, {b.seen, Access::write}},
           .extent = {.lights_per_group = threads},
-          .shared_bytes = 8};
+          .shared_bytes = 8,
+          .full_subgroups = threads};
 }
 
 Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::uint32_t threads) {
@@ -154,7 +157,8 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
             .shader = shader_of(s.sliced() ? "find_sliced" : "find", s),
             .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, share}, problem, s),
             .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.matrix, Access::read_write}},
-            .shared_bytes = QUEUE_BYTES + 8};
+            .shared_bytes = QUEUE_BYTES + 8,
+            .full_subgroups = threads};
   if (s.cell_bits) {
     pass.bindings.push_back({b.cells, Access::read_write});
     pass.extent = {.lights_per_group = share};
@@ -245,8 +249,9 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                    {b.piece_lists, Access::write},
                    {b.lists, Access::write}},
       .extent = lists_extent(problem, s, b),
-      .shared_bytes = (7 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 +
-                      s.cell_tiles * 32 + 132};
+      .shared_bytes =
+          (7 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 + s.cell_tiles * 32 + 132,
+      .full_subgroups = threads};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});

@@ -30,7 +30,7 @@ Grid grid_of(const Problem& problem) {
   // A software device takes longer for more groups.
   if (grid.tiles.count() <= FEW_TILES && !has_small_subgroups(problem)) {
     grid.cell_tiles = 1;
-    grid.threads = FEW_TILES_THREADS;
+    grid.threads = full_threads(problem, FEW_TILES_THREADS);
   }
   grid.cells = parts::tile_grid(problem, grid.tile_px * grid.cell_tiles);
   return grid;
@@ -75,7 +75,8 @@ Plan plan_at_once(const Problem& problem) {
                     {rows, Access::write},
                     {lists, Access::write}},
        .extent = {.x = grid.cells.width, .y = grid.cells.height},
-       .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32}};
+       .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
+       .full_subgroups = grid.threads}};
   if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});
   plan.lookup = {.name = bits ? "cell_bits" : "cell_lists",
                  .constants = with_slices({grid.tile_px, grid.cell_tiles}, problem, 1, 1),

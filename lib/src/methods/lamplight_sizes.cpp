@@ -82,8 +82,12 @@ std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted) {
   return std::min(wanted, std::bit_floor(problem.traits.max_group_invocations));
 }
 
+std::uint32_t full_threads(const Problem& problem, std::uint32_t wanted) {
+  return group_threads(problem, std::max(wanted, problem.traits.max_subgroup_size));
+}
+
 std::uint32_t light_threads(const Problem& problem) {
-  return group_threads(problem, std::clamp(GROUP_SUBGROUPS * problem.traits.subgroup_size, GROUP_ROWS, THREADS));
+  return full_threads(problem, std::clamp(GROUP_SUBGROUPS * problem.traits.subgroup_size, GROUP_ROWS, THREADS));
 }
 
 bool has_small_subgroups(const Problem& problem) { return problem.traits.subgroup_size < 32; }

@@ -46,6 +46,9 @@ struct Sizes {
 /// A power of two that the device takes.
 [[nodiscard]] std::uint32_t group_threads(const Problem& problem, std::uint32_t wanted);
 
+/// Likewise, and full subgroups, however large the device makes them (Pass::full_subgroups).
+[[nodiscard]] std::uint32_t full_threads(const Problem& problem, std::uint32_t wanted);
+
 /// Of a pass whose subgroups take lights of their own: not more than eight subgroups, where these are small, but a
 /// thread for each row of a group.
 [[nodiscard]] std::uint32_t light_threads(const Problem& problem);

@@ -61,7 +61,8 @@ std::string walk_lookup(Plan& plan, const Problem& problem, std::string_view pla
   std::string name(plain);
   if (walk == "plain") return name;
   const bool by_cell = walk == "scalar-cell";
-  if (problem.traits.subgroup_ballot && (by_cell || problem.traits.subgroup_arithmetic)) return name += "_scalar";
+  const auto walks = [&](const SubgroupOperations& has) { return has.ballot && (by_cell || has.arithmetic); };
+  if (walks(problem.traits.compute_subgroups) && walks(problem.traits.fragment_subgroups)) return name += "_scalar";
   plan.notes.push_back("walk=plain instead of " + walk + ": the device has no subgroup " +
                        (by_cell ? "ballot" : "ballot and arithmetic") + " in compute and fragment shaders");
   return name;

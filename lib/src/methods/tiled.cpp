@@ -119,12 +119,22 @@ LookUp look_up(Plan& plan, const Problem& problem, const TiledAxes& axes, const 
   return typed;
 }
 
+/// As asked, as far as the device can.
+TiledAxes possible_axes(Plan& plan, const Problem& problem) {
+  TiledAxes axes = tiled_axes(problem.options);
+  if (axes.reduce == TiledAxes::Reduce::subgroup && !problem.traits.compute_subgroups.arithmetic) {
+    axes.reduce = TiledAxes::Reduce::atomic;
+    plan.notes.emplace_back("reduce=atomic instead of subgroup: the device has no subgroup arithmetic");
+  }
+  return axes;
+}
+
 }  // namespace
 
 Plan plan_tiled(const Problem& problem) {
-  const TiledAxes axes = tiled_axes(problem.options);
-  const parts::TileGrid tiles = parts::tile_grid(problem, axes.tile_px);
   Plan plan;
+  const TiledAxes axes = possible_axes(plan, problem);
+  const parts::TileGrid tiles = parts::tile_grid(problem, axes.tile_px);
   plan.cells = tiles.count() * axes.ranges();
   plan.ordered = axes.order == shared::ORDER_INDEX;
   plan.approximate = axes.test == shared::TEST_CONE_APPROXIMATE;

@@ -29,6 +29,8 @@ void load(VkDevice device, const char* name, Function& out) {
 
 RequiredFeatures::RequiredFeatures() {
   vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  vulkan13.subgroupSizeControl = VK_TRUE;
+  vulkan13.computeFullSubgroups = VK_TRUE;
   vulkan13.synchronization2 = VK_TRUE;
   vulkan13.dynamicRendering = VK_TRUE;
   vulkan13.maintenance4 = VK_TRUE;
@@ -69,6 +71,8 @@ std::optional<Error> check_device(VkPhysicalDevice physical) {
   vkGetPhysicalDeviceFeatures2(physical, &has.base);
   const std::pair<VkBool32, const char*> needed[] = {
       {has.vulkan12.scalarBlockLayout, "scalarBlockLayout"},
+      {has.vulkan13.subgroupSizeControl, "subgroupSizeControl"},
+      {has.vulkan13.computeFullSubgroups, "computeFullSubgroups"},
       {has.vulkan13.synchronization2, "synchronization2"},
       {has.vulkan13.dynamicRendering, "dynamicRendering"},
       {has.vulkan13.maintenance4, "maintenance4"},
@@ -89,19 +93,28 @@ std::uint64_t largest_heap(VkPhysicalDevice physical) {
   return bytes;
 }
 
+SubgroupOperations operations_of(const VkPhysicalDeviceVulkan11Properties& properties, VkShaderStageFlagBits stage) {
+  if ((properties.subgroupSupportedStages & stage) == 0) return {};
+  const auto has = [&](VkSubgroupFeatureFlagBits bit) { return (properties.subgroupSupportedOperations & bit) != 0; };
+  return {.vote = has(VK_SUBGROUP_FEATURE_VOTE_BIT),
+          .ballot = has(VK_SUBGROUP_FEATURE_BALLOT_BIT),
+          .arithmetic = has(VK_SUBGROUP_FEATURE_ARITHMETIC_BIT),
+          .shuffle = has(VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
+          .shuffle_relative = has(VK_SUBGROUP_FEATURE_SHUFFLE_RELATIVE_BIT)};
+}
+
 }  // namespace
 
 DeviceTraits traits_of(VkPhysicalDevice physical) {
   constexpr std::uint32_t LLVMPIPE_LOOP_ROUNDS = 65535;  // LP_MAX_TGSI_LOOP_ITERATIONS of Mesa
-  VkPhysicalDeviceVulkan12Properties v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+  VkPhysicalDeviceVulkan13Properties v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES};
+  VkPhysicalDeviceVulkan12Properties v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
+                                         .pNext = &v13};
   VkPhysicalDeviceVulkan11Properties v11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
                                          .pNext = &v12};
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v11};
   vkGetPhysicalDeviceProperties2(physical, &properties);
   const VkPhysicalDeviceLimits& limits = properties.properties.limits;
-  constexpr VkShaderStageFlags STAGES = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-  const bool everywhere = (v11.subgroupSupportedStages & STAGES) == STAGES;
-  const VkSubgroupFeatureFlags operations = everywhere ? v11.subgroupSupportedOperations : 0;
   return {.max_storage_buffer_bytes = limits.maxStorageBufferRange,
           .memory_bytes = largest_heap(physical),
           .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
@@ -111,9 +124,10 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
           .max_image_size = limits.maxImageDimension2D,
           .max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers,
           .subgroup_size = v11.subgroupSize,
+          .max_subgroup_size = std::max(v11.subgroupSize, v13.maxSubgroupSize),
           .max_loop_rounds = v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? LLVMPIPE_LOOP_ROUNDS : ~0U,
-          .subgroup_ballot = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0,
-          .subgroup_arithmetic = (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0};
+          .compute_subgroups = operations_of(v11, VK_SHADER_STAGE_COMPUTE_BIT),
+          .fragment_subgroups = operations_of(v11, VK_SHADER_STAGE_FRAGMENT_BIT)};
 }
 
 void Device::name(VkObjectType type, std::uint64_t object, std::string_view text) const {

@@ -188,12 +188,13 @@ Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo
   if (!module) return module.error();
   const Specialization specialization(info.constants);
   const Robustness robustness(device, nullptr);
-  const VkComputePipelineCreateInfo create{
-      .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-      .pNext = robustness.chain(),
-      .flags = creation_flags(device),
-      .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module.value(), specialization),
-      .layout = objects.layout.get()};
+  VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module.value(), specialization);
+  if (info.full_subgroups) stage.flags |= VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  const VkComputePipelineCreateInfo create{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                           .pNext = robustness.chain(),
+                                           .flags = creation_flags(device),
+                                           .stage = stage,
+                                           .layout = objects.layout.get()};
   VkPipeline handle = VK_NULL_HANDLE;
   if (const VkResult r = vkCreateComputePipelines(device.handle, VK_NULL_HANDLE, 1, &create, nullptr, &handle);
       r != VK_SUCCESS)

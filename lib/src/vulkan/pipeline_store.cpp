@@ -36,6 +36,7 @@ void Description::add(std::uint64_t value) { bytes_.append(reinterpret_cast<cons
 
 Description& Description::operator<<(const PipelineInfo& info) {
   add(info.push_constant_bytes);
+  add(info.full_subgroups ? 1 : 0);
   add(info.constants.size());
   for (const Constant& constant : info.constants) {
     add(constant.id);

@@ -44,7 +44,7 @@ VkDescriptorType type_in_pass(const Pass& pass, ResourceId id) {
 }
 
 PipelineInfo pipeline_info(const Pass& pass) {
-  PipelineInfo info{.name = pass.name};
+  PipelineInfo info{.name = pass.name, .full_subgroups = pass.full_subgroups != 0};
   for (std::uint32_t i = 0; i < pass.constants.size(); ++i) info.constants.push_back({i, pass.constants[i]});
   for (std::uint32_t i = 0; i < pass.bindings.size(); ++i)
     info.bindings.push_back({i, type_in_pass(pass, pass.bindings[i].resource)});

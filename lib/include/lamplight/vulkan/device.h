@@ -16,7 +16,8 @@
 namespace lamp::vulkan {
 
 /// The features to enable, chained for VkDeviceCreateInfo::pNext or to merge into an engine's own chain.
-/// Vulkan 1.3: scalar block layout, synchronization2, dynamic rendering, maintenance4.
+/// Vulkan 1.3: scalar block layout, subgroup size control, full subgroups, synchronization2, dynamic rendering,
+/// maintenance4.
 struct LAMPLIGHT_API RequiredFeatures {
   RequiredFeatures();
   RequiredFeatures(const RequiredFeatures&) = delete;

@@ -36,6 +36,7 @@ struct PipelineInfo {
   std::vector<Constant> constants;
   std::vector<DescriptorBinding> bindings;  ///< of set 0, all stages
   std::uint32_t push_constant_bytes = 0;    ///< all stages
+  bool full_subgroups = false;              ///< compute: required; threads in x are a multiple of the largest subgroup
 };
 
 /// The fixed state that Lamplight's graphics passes differ in.
