@@ -28,12 +28,10 @@ std::string read_file(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// "methods/tiled" of ".../lib/shaders/methods/tiled.comp" becomes TREE/lib/shaders/methods/tiled.comp.
+/// "methods/tiled.comp" becomes TREE/lib/shaders/methods/tiled.comp.
 fs::path source_in(const fs::path& tree, const ShaderCode& code) {
-  const fs::path built(code.source);
-  const std::string name(code.name.substr(0, code.name.find('@')));
   for (const char* root : {"lib/shaders", "app/render/shaders"}) {
-    fs::path candidate = tree / root / (name + built.extension().string());
+    fs::path candidate = tree / root / code.source;
     if (fs::exists(candidate)) return candidate;
   }
   throw Error(fmt::format("--shader-dir {}: has no source for the shader {}; expected a checkout of Lamplight",

@@ -15,7 +15,7 @@ namespace lamp {
 struct ShaderCode {
   std::string_view name;
   std::span<const std::uint32_t> spirv;
-  std::string_view source;  ///< file it was built from, for live recompilation
+  std::string_view source;  ///< file it was built from, below the shader root, for live recompilation
   std::string_view lookup;  ///< look-up it was built with, or empty
 };
 
