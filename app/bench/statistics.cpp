@@ -22,6 +22,11 @@ Spread spread_of(const std::vector<double>& samples) {
   return spread;
 }
 
+bool clock_moved(std::span<const Spread> group) {
+  constexpr double FAR = 1.2;
+  return !group.empty() && std::ranges::all_of(group, [](const Spread& s) { return s.median > FAR * s.p5; });
+}
+
 std::vector<Point> moving_average(std::vector<Point> points, std::size_t window) {
   assert(window % 2 == 1 && "take an odd number of points, so that the average stands above its middle");
   std::ranges::sort(points, [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });

@@ -20,6 +20,10 @@ struct Spread {
 };
 [[nodiscard]] Spread spread_of(const std::vector<double>& samples);
 
+/// Whether the device changed its clock under a group of measurements: the median of every one lies more than a fifth
+/// above its 5th percentile. Nothing that one method does slows all of them.
+[[nodiscard]] bool clock_moved(std::span<const Spread> group);
+
 struct Point {
   double x = 0.0;
   double y = 0.0;

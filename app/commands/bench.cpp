@@ -139,11 +139,11 @@ bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gr
   return !stopped;
 }
 
-/// One line for each result that is not right; how many there are.
+/// One line for each result that is not right or has no times; how many are wrong.
 std::size_t print_wrong(const json& results) {
   std::size_t wrong = 0;
   for (const json& entry : results["results"]) {
-    if (entry["verdict"] != "wrong" && entry["verdict"] != "impossible") continue;
+    if (entry["verdict"] != "wrong" && entry["verdict"] != "impossible" && !entry.value("clock_moved", false)) continue;
     fmt::print("{}: {}: {}\n", entry["key"].get<std::string>(), entry["verdict"].get<std::string>(),
                entry["reason"].get<std::string>());
     wrong += entry["verdict"] == "wrong" ? 1 : 0;

@@ -31,7 +31,7 @@ class BenchDevice {
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
   [[nodiscard]] AutoMethod& chooser() { return chooser_; }
-  [[nodiscard]] bool software() const { return context_->row().kind == "CPU"; }
+  [[nodiscard]] bool software() const { return context_->software(); }
 
  private:
   ShaderLibrary shaders_;

@@ -16,7 +16,6 @@
 #include "commands/request.h"
 #include "gpu/check.h"
 #include "render/frame_times.h"
-#include "render/wake.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
 
@@ -66,10 +65,8 @@ struct Timed {
   FrameTimes times;
 };
 
-bool is_software(Context& context) { return context.row().kind == "CPU"; }
-
 std::span<const MeasuredPoint> points_of(Context& context) {
-  return is_software(context) ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
+  return context.software() ? std::span<const MeasuredPoint>(SOFTWARE_POINTS) : GPU_POINTS;
 }
 
 LightingInfo lighting_info(const AutoCandidate& candidate, const MeasuredPoint& point, bool software) {
@@ -103,7 +100,7 @@ constexpr std::uint64_t WAITING_SHARE = 8;
 Compiled compile_all(Context& context, const ShaderLibrary& shaders) {
   const std::span<const AutoCandidate> candidates = auto_candidates();
   const std::span<const MeasuredPoint> points = points_of(context);
-  const bool software = is_software(context);
+  const bool software = context.software();
   const std::uint64_t room = context.device().traits.memory_bytes / WAITING_SHARE;
   std::atomic<std::uint64_t> taken = 0;
   Compiled compiled{.points = std::vector<std::vector<std::optional<Lighting>>>(points.size())};
@@ -171,7 +168,7 @@ std::vector<LightLoad> make_loads(Context& context, const Scene& scene,
     const float range = points[i].range;
     loads[i].lights = pack(place_lights(air, {.count = points[i].lights, .min_range = range, .max_range = range}));
     loads[i].workload = estimate_workload(pictures[i]->view, pictures[i]->depth, loads[i].lights);
-    if (is_software(context)) loads[i].workload.capacity = SOFTWARE_CAPACITY;
+    if (context.software()) loads[i].workload.capacity = SOFTWARE_CAPACITY;
   });
   return loads;
 }
@@ -195,7 +192,7 @@ bool is_ready(const std::future<Result>& result) {
 std::list<Timed> candidates_for(Context& context, const ShaderLibrary& shaders, const MeasuredPoint& point,
                                 std::vector<std::optional<Lighting>>& compiled) {
   const std::span<const AutoCandidate> all = auto_candidates();
-  const bool software = is_software(context);
+  const bool software = context.software();
   std::list<Timed> timed;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!takes(all[i], point, software)) continue;
@@ -222,7 +219,7 @@ CostSample sample_of(const Timed& timed, const Workload& workload) {
 }  // namespace
 
 Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) {
-  const bool software = is_software(context);
+  const bool software = context.software();
   const Scene scene = calibration_scene();
   const GpuScene gpu_scene(context, scene);
   auto compiling = std::async(std::launch::async, [&] { return compile_all(context, shaders); });
@@ -232,7 +229,6 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   if (!software) keep_awake(context, shaders, *pictures.front()->renderer, is_there);
   Compiled compiled = compiling.get();
   const std::vector<LightLoad> loads = loading.get();
-  auto before = std::chrono::steady_clock::now();
   const std::span<const AutoCandidate> candidates = auto_candidates();
   std::vector<std::vector<CostSample>> samples(candidates.size());
   // Kept where there is room: to free memory takes time, in which the GPU falls asleep.
@@ -242,12 +238,9 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
     renderer.set_frame(pictures[i]->view, loads[i].lights);
     std::list<Timed>& timed =
         timed_all.emplace_back(candidates_for(context, shaders, points_of(context)[i], compiled.points[i]));
-    const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - before;
-    if (!software) wake(renderer, timed.front().lighting, waited.count());  // the host had work
     time_rounds(renderer, timed, software ? SOFTWARE_FRAMES : GPU_FRAMES);
     for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, loads[i].workload));
     if (!compiled.all_wait) timed_all.clear();
-    before = std::chrono::steady_clock::now();
   }
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};
   for (std::size_t i = 0; i < candidates.size(); ++i) calibration.costs.push_back(fit_cost(candidates[i], samples[i]));

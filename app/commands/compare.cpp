@@ -35,6 +35,7 @@ struct Side {
 
 Side measure(const CompareOptions& o, Session& session, const Setup& setup, const MethodChoice& chosen) {
   Lighting lighting = session.lighting(*chosen.method, chosen.options, parse_path(o.request.path));
+  session.renderer().wake(lighting);
   Rendered rendered = session.renderer().render(lighting);
   const std::vector<gpu::Visit> visits = visit_all(session, lighting);
   HdrImage image = rendered.image;

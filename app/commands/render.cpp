@@ -115,10 +115,11 @@ Exit render(const RenderOptions& o) {
   Session session(o.request, setup);
   const MethodChoice chosen = chosen_methods(session, setup, o.request, {&o.request.method, 1}, o.json).front();
   Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
-  const bool software = session.context().row().kind == "CPU";
+  const bool software = session.context().software();
   const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
   // A device's first frame is slow: its driver is still translating shaders.
   const std::uint32_t warm_up = !software ? 3 : samples > 1 ? 0 : 1;
+  session.renderer().wake(lighting);
   Rendered rendered = render_samples(session.renderer(), lighting, setup.lights, setup.decals,
                                      {.samples = samples, .frames = frames, .warm_up = warm_up});
   const std::vector<gpu::Visit> visits = visit_all(session, lighting);

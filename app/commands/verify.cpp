@@ -189,6 +189,7 @@ Row make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candi
              const std::optional<HdrImage>& reference) {
   if (o.runs > 1) candidate.findings.changed_runs = changed_runs(session, candidate, o.runs);
   progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
+  session.renderer().wake(candidate.lighting);
   Rendered rendered = session.renderer().render(candidate.lighting);
   const Plan& plan = candidate.lighting.runner().plan();
   PictureDifference difference;

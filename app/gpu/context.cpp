@@ -246,6 +246,11 @@ void Context::submit(const std::function<void(VkCommandBuffer)>& record) {
   check(vkResetFences(handle_, 1, &fence_), "resetting a fence");
   check(vkResetCommandPool(handle_, pool_, 0), "resetting the command pool");
   vkFreeCommandBuffers(handle_, pool_, 1, &commands);
+  last_done_ = std::chrono::steady_clock::now();
+}
+
+double Context::idle_ms() const {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - last_done_).count();
 }
 
 std::vector<std::string> Context::take_messages() {

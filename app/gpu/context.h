@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -40,9 +41,14 @@ class Context {
   [[nodiscard]] const DeviceRow& row() const { return row_; }
   /// Whether shaders may compute in double precision.
   [[nodiscard]] bool has_doubles() const { return doubles_; }
+  /// A device that is the processor under another name, as Mesa's llvmpipe.
+  [[nodiscard]] bool software() const { return row_.kind == "CPU"; }
 
   /// Records, submits and waits.
   void submit(const std::function<void(VkCommandBuffer)>& record);
+
+  /// Milliseconds since the last submission was done, or since the device was made.
+  [[nodiscard]] double idle_ms() const;
 
   /// Validation messages since the last call (warnings and errors).
   [[nodiscard]] std::vector<std::string> take_messages();
@@ -65,6 +71,7 @@ class Context {
   vulkan::Device device_;
   DeviceRow row_;
   bool doubles_ = false;
+  std::chrono::steady_clock::time_point last_done_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace lamp::app

@@ -73,7 +73,11 @@ class Renderer {
   /// is needed of the plan's capacities; nothing of a plan that does not count.
   [[nodiscard]] vulkan::FrameCounts cull(Lighting& lighting);
 
-  /// Records and submits one frame, reads nothing back but its times.
+  /// A GPU that waits for the host lowers its clocks, and what is timed then says nothing. Renders untimed frames for
+  /// about as long as it waited; nothing after a wait of less than 5 ms, and of a software device.
+  void wake(Lighting& lighting);
+
+  /// Records and submits one frame, reads nothing back but its times. Wakes the GPU first.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 
   /// Culls and shades one frame and reads nothing back: for what a first use alone takes. Surfaces that an earlier
@@ -118,6 +122,7 @@ class Renderer {
 
  private:
   void draw_surfaces(Lighting* decals = nullptr);
+  [[nodiscard]] std::vector<vulkan::Timestamps::Time> time_frame(Lighting& lighting, Timing timing);
   [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
   void record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights);
   [[nodiscard]] LightingFrame lighting_frame() const;

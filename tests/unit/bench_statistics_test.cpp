@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "render/frame_times.h"
@@ -28,6 +29,17 @@ TEST(BenchStatistics, FewSamples) {
   EXPECT_EQ(one.p5, 7.0);
   EXPECT_EQ(one.p95, 7.0);
   EXPECT_EQ(one.deviation, 0.0);
+}
+
+// A GPU that sleeps at first and wakes in the course of the frames is slow in most, whatever it runs.
+TEST(BenchStatistics, AClockMovedIfAllAreSlowerThanTheirBest) {
+  const Spread moved = spread_of({0.031, 0.05, 0.099, 0.099, 0.1});
+  const Spread steady = spread_of({0.031, 0.031, 0.032, 0.032, 0.1});
+  EXPECT_TRUE(clock_moved(std::array{moved}));
+  EXPECT_TRUE(clock_moved(std::array{moved, moved}));
+  EXPECT_FALSE(clock_moved(std::array{moved, steady})) << "one method alone varies by itself";
+  EXPECT_FALSE(clock_moved(std::array{steady}));
+  EXPECT_FALSE(clock_moved({}));
 }
 
 TEST(BenchStatistics, MovingAverageIsOverNeighbours) {
