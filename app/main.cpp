@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cerrno>
-#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -13,11 +12,14 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "system/print.h"
 
 namespace {
 
 using lamp::app::Exit;
+using lamp::app::print_error;
 using lamp::app::Run;
+using lamp::app::write_out;
 
 constexpr const char* WELCOME =
     "Lamplight: scenes with very many moving lights. Try:\n"
@@ -30,7 +32,7 @@ constexpr const char* WELCOME =
     "  lamp list methods                            what there is\n"
     "`lamp COMMAND --help` explains each; `lamp --version` says which release this is.\n";
 
-int run(int argc, char** argv) {
+Exit run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", "lamp " LAMP_VERSION, "Print the version and exit");
@@ -50,33 +52,49 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    throw lamp::app::parse_error(app, error);
+    if (error.get_exit_code() != 0) throw lamp::app::parse_error(app, error);
+    write_out(error.get_name() == "CallForVersion" ? app.version() + "\n" : app.help());
+    return Exit::done;
   }
   for (const auto& [name, command] : commands)
-    if (app.got_subcommand(name)) return static_cast<int>(command());
-  fmt::print("{}", WELCOME);
-  return static_cast<int>(Exit::done);
+    if (app.got_subcommand(name)) return command();
+  write_out(WELCOME);
+  return Exit::done;
 }
 
 /// Says why on one line, and gives the exit code.
-int complain(std::string_view why, Exit exit) {
-  fmt::print(stderr, "lamp: {}\n", lamp::app::escaped_line(why));
-  return static_cast<int>(exit);
+Exit complain(std::string_view why, Exit exit) {
+  print_error("lamp: {}\n", lamp::app::escaped_line(why));
+  return exit;
+}
+
+/// Runs the command; whatever goes wrong is one line on stderr.
+Exit run_or_complain(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const lamp::app::Error& error) {
+    return complain(error.what(), error.exit());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory: try fewer lights or a smaller picture", Exit::bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.path1().string() + ": " + error.code().message(), Exit::bad_input);
+  } catch (const std::exception& error) {
+    return complain(error.what(), Exit::bad_input);
+  }
+}
+
+/// The exit code, once it is known whether everything that was printed has arrived.
+Exit checked(Exit exit) {
+  const int problem = lamp::app::output_problem();
+  if (problem != 0)
+    exit = complain("standard output: cannot be written: " + std::generic_category().message(problem), Exit::bad_input);
+  const bool all_was_said = lamp::app::error_output_problem() == 0;
+  return exit == Exit::done && !all_was_said ? Exit::bad_input : exit;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    const int code = run(argc, argv);
-    if (std::fflush(stdout) == 0) return code;
-    return complain("standard output: cannot be written: " + std::generic_category().message(errno), Exit::bad_input);
-  } catch (const lamp::app::Error& error) {
-    return complain(error.what(), error.exit());
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory: try fewer lights or a smaller picture", Exit::bad_input);
-  } catch (const std::exception& error) {
-    return complain(error.what(), Exit::bad_input);
-  }
+  lamp::app::open_standard_streams();
+  return static_cast<int>(checked(run_or_complain(argc, argv)));
 }

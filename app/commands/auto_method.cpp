@@ -1,6 +1,7 @@
 // Chooses and explains.
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/auto_method.h"
+#include "system/print.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +51,7 @@ std::vector<MethodChoice> chosen_methods(Session& session, const Setup& setup, c
                                                     .view = setup.view,
                                                     .lights = setup.lights,
                                                     .light_capacity = static_cast<std::uint32_t>(setup.lights.size())});
-    if (request.explain) fmt::print(json ? stderr : stdout, "{}", chooser.explanation());
+    if (request.explain) (json ? write_error : write_out)(chooser.explanation());
   }
   std::vector<MethodChoice> chosen;
   for (const std::string& name : names)

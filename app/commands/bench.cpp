@@ -20,6 +20,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "scene/builtin.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -116,7 +117,7 @@ bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gr
     const std::string where = fmt::format("{}: {} {} {} lights: ", group.series, group.scene, group.size, group.lights);
     const auto say = [&](const std::string& words) {
       progress.clear();
-      fmt::print("{}\n{}", where, words);
+      print_out("{}\n{}", where, words);
     };
     try {
       add_group(results, measure({.device = device,
@@ -144,8 +145,8 @@ std::size_t print_wrong(const json& results) {
   std::size_t wrong = 0;
   for (const json& entry : results["results"]) {
     if (entry["verdict"] != "wrong" && entry["verdict"] != "impossible" && !entry.value("clock_moved", false)) continue;
-    fmt::print("{}: {}: {}\n", entry["key"].get<std::string>(), entry["verdict"].get<std::string>(),
-               entry["reason"].get<std::string>());
+    print_out("{}: {}: {}\n", entry["key"].get<std::string>(), entry["verdict"].get<std::string>(),
+              entry["reason"].get<std::string>());
     wrong += entry["verdict"] == "wrong" ? 1 : 0;
   }
   return wrong;
@@ -200,10 +201,10 @@ Exit bench(const BenchOptions& o) {
   const ReportRun run{.results = results, .file = folder / "results.json"};
   write_text(folder / "report.html", report_html({&run, 1}));
   const std::size_t wrong = print_wrong(results);
-  if (const std::string words = regret_words(results); !words.empty()) fmt::print("{}\n", words);
-  fmt::print("{} configurations measured, {} wrong, {} beyond the limits: {}\n", results["results"].size(), wrong,
-             expansion.left_out, (folder / "report.html").string());
-  if (!complete) fmt::print("stopped before its end; the same command goes on\n");
+  if (const std::string words = regret_words(results); !words.empty()) print_out("{}\n", words);
+  print_out("{} configurations measured, {} wrong, {} beyond the limits: {}\n", results["results"].size(), wrong,
+            expansion.left_out, (folder / "report.html").string());
+  if (!complete) print_out("stopped before its end; the same command goes on\n");
   return complete && wrong == 0 ? Exit::done : Exit::check_failed;
 }
 

@@ -1,6 +1,7 @@
 // Draws progress, listens for signals.
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/bench_progress.h"
+#include "system/print.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -45,12 +46,12 @@ void Progress::show(const std::string& text, double done) {
   drawn_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const std::string left = done > 0.02 ? about(elapsed * (1.0 - done) / done) + " left" : "";
-  fmt::print(stderr, "\r\033[K{:3.0f} %  {}  {}", 100.0 * done, text, left);
+  print_error("\r\033[K{:3.0f} %  {}  {}", 100.0 * done, text, left);
   std::fflush(stderr);
 }
 
 void Progress::clear() const {
-  if (terminal_) fmt::print(stderr, "\r\033[K");
+  if (terminal_) print_error("\r\033[K");
 }
 
 std::string about(double seconds) {

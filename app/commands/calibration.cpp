@@ -10,6 +10,7 @@
 #include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
 #include "error.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -42,17 +43,17 @@ KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders
     if (row.kind == "CPU") return built_in_calibration();
   }
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) fmt::print(stderr, "auto: measures {} once ...", row.name);
+  if (terminal) print_error("auto: measures {} once ...", row.name);
   const auto begin = std::chrono::steady_clock::now();
   KnownCalibration known{.calibration = measure_calibration(context, shaders), .origin = {}};
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (terminal) fmt::print(stderr, "\r\033[K");
+  if (terminal) print_error("\r\033[K");
   known.origin = fmt::format("measured just now in {:.1f} s", seconds);
   const std::string problem = keep_calibration(file, known.calibration);
   if (problem.empty())
     known.origin += ", kept in " + file;
   else
-    fmt::print(stderr, "auto: the calibration could not be kept, and is measured again next time: {}\n", problem);
+    print_error("auto: the calibration could not be kept, and is measured again next time: {}\n", problem);
   return known;
 }
 

@@ -11,6 +11,7 @@
 
 #include "commands/commands.h"
 #include "commands/request.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -47,17 +48,17 @@ Exit capture(const CaptureOptions& o) {
   check_request(o.request, o.request.method);
   check_capture_folder(o.out);
   const Setup setup = make_setup(o.request);
-  for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
   Session session(o.request, setup);
   std::optional<Lighting> painter;  // every decal at every pixel: what a capture shows depends on no method
   if (!setup.decals.empty()) painter = session.lighting(parse_method("all"), {}, ShadingPath::deferred);
   const Scene frame = frame_of(setup, session.renderer().capture(painter ? &*painter : nullptr));
   write_capture(o.out, frame, lights);
-  fmt::print("capture   {}, {}x{}\nlights    {}: {}\n", o.out, setup.view.width(), setup.view.height(),
-             setup.lights.size(), setup.lights_note);
+  print_out("capture   {}, {}x{}\nlights    {}: {}\n", o.out, setup.view.width(), setup.view.height(),
+            setup.lights.size(), setup.lights_note);
   if (!setup.decals.empty())
-    fmt::print("decals    {}: {}; kept in albedo and normals\n", setup.decals.size(), setup.decals_note);
-  if (has_glass(setup.scene)) fmt::print("left out  transparent surfaces\n");
+    print_out("decals    {}: {}; kept in albedo and normals\n", setup.decals.size(), setup.decals_note);
+  if (has_glass(setup.scene)) print_out("left out  transparent surfaces\n");
   return Exit::done;
 }
 

@@ -14,6 +14,7 @@
 #include "commands/pictures.h"
 #include "commands/stats.h"
 #include "render/heatmap.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -59,9 +60,9 @@ std::vector<std::uint32_t> differences(const Side& a, const Side& b) {
 
 void print_side(const Side& side) {
   const Findings& f = *side.stats.findings;
-  fmt::print("{:<24} {:>14} {:>9.1f} {:>9} {:>10} {:>10.3f} {:>10.3f}\n", side.stats.method, f.evaluations,
-             f.list_mean(), f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
-             side.stats.rendered.shade_ms);
+  print_out("{:<24} {:>14} {:>9.1f} {:>9} {:>10} {:>10.3f} {:>10.3f}\n", side.stats.method, f.evaluations,
+            f.list_mean(), f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
+            side.stats.rendered.shade_ms);
 }
 
 Exit compare_panels(const CompareOptions& o) {
@@ -96,14 +97,14 @@ Exit compare(const CompareOptions& o) {
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
     const nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};
-    fmt::print("{}\n", json.dump(2));
+    print_out("{}\n", json.dump(2));
     return Exit::done;
   }
-  fmt::print("{:<24} {:>14} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "method", "evaluations", "mean", "longest",
-             "overflowed", "cull ms", "shade ms");
+  print_out("{:<24} {:>14} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "method", "evaluations", "mean", "longest",
+            "overflowed", "cull ms", "shade ms");
   print_side(a);
   print_side(b);
-  fmt::print("largest difference of the pictures: {:.3g}\npicture: {}\n", difference, o.out);
+  print_out("largest difference of the pictures: {:.3g}\npicture: {}\n", difference, o.out);
   return Exit::done;
 }
 

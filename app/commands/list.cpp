@@ -12,6 +12,7 @@
 #include "gpu/context.h"
 #include "lamplight/method.h"
 #include "scene/builtin.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -47,16 +48,16 @@ nlohmann::json methods_json() {
 void print_option(const OptionSpec& spec) {
   const std::string values = spec.choices.empty() ? fmt::format("{} .. {}", spec.min, spec.max)
                                                   : fmt::format("{}", fmt::join(spec.choices, " | "));
-  fmt::print("    {:<16} {} (default {}): {}\n", spec.key, values, spec.fallback, spec.help);
+  print_out("    {:<16} {} (default {}): {}\n", spec.key, values, spec.fallback, spec.help);
 }
 
 void print_methods() {
   for (const Method& m : methods()) {
-    fmt::print("{:<14} {}{}{}\n  {}\n  {}\n", m.name, m.title, m.ordered ? "" : " [unordered]",
-               m.approximate ? " [approximate]" : "", m.summary, m.source);
+    print_out("{:<14} {}{}{}\n  {}\n  {}\n", m.name, m.title, m.ordered ? "" : " [unordered]",
+              m.approximate ? " [approximate]" : "", m.summary, m.source);
     for (const OptionSpec& spec : m.options) print_option(spec);
   }
-  fmt::print("--method auto, the default, takes whichever is predicted to take least time (docs/auto.md).\n");
+  print_out("--method auto, the default, takes whichever is predicted to take least time (docs/auto.md).\n");
 }
 
 nlohmann::json scenes_json() {
@@ -67,8 +68,8 @@ nlohmann::json scenes_json() {
 }
 
 void print_scenes() {
-  for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<14} {}\n", scene.name, scene.summary);
-  fmt::print("Any .gltf or .glb file is a scene too, and any capture (docs/capture.md).\n");
+  for (const BuiltinScene& scene : builtin_scenes()) print_out("{:<14} {}\n", scene.name, scene.summary);
+  print_out("Any .gltf or .glb file is a scene too, and any capture (docs/capture.md).\n");
 }
 
 nlohmann::json devices_json(std::span<const DeviceRow> rows) {
@@ -84,7 +85,7 @@ nlohmann::json devices_json(std::span<const DeviceRow> rows) {
 
 void print_devices(std::span<const DeviceRow> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i)
-    fmt::print("{} {} [{}] {} {}\n", i, rows[i].name, rows[i].kind, rows[i].driver, rows[i].problem);
+    print_out("{} {} [{}] {} {}\n", i, rows[i].name, rows[i].kind, rows[i].driver, rows[i].problem);
 }
 
 nlohmann::json suites_json() {
@@ -99,8 +100,8 @@ nlohmann::json suites_json() {
 void print_suites() {
   for (const std::string& name : suite_names()) {
     const Suite suite = load_suite(name);
-    fmt::print("{:<21}{}\n", name, suite.title);
-    if (!suite.source.empty()) fmt::print("{:<21}{}\n", "", suite.source);
+    print_out("{:<21}{}\n", name, suite.title);
+    if (!suite.source.empty()) print_out("{:<21}{}\n", "", suite.source);
   }
 }
 
@@ -113,7 +114,7 @@ Exit list(const std::string& what, bool json) {
   if (what == "devices") {
     const std::vector<DeviceRow> rows = list_devices();
     if (json)
-      fmt::print("{}\n", devices_json(rows).dump(2));
+      print_out("{}\n", devices_json(rows).dump(2));
     else
       print_devices(rows);
     return rows.empty() ? Exit::no_device : Exit::done;
@@ -122,7 +123,7 @@ Exit list(const std::string& what, bool json) {
                                 : what == "suites" ? std::pair(&suites_json, &print_suites)
                                                    : std::pair(&scenes_json, &print_scenes);
   if (json)
-    fmt::print("{}\n", as_json().dump(2));
+    print_out("{}\n", as_json().dump(2));
   else
     print();
   return Exit::done;

@@ -13,6 +13,7 @@
 #include "commands/pictures.h"
 #include "commands/stats.h"
 #include "render/heatmap.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -92,7 +93,7 @@ std::vector<Row> measure(Session& session, const Setup& setup) {
 
 void print_rows(std::span<const Row> rows, bool json) {
   nlohmann::json array = nlohmann::json::array();
-  if (!json) fmt::print("{:<62} {:>8} {:>8} {:>8} {:>8}\n", "test", "excess", "waste", "mean", "missed");
+  if (!json) print_out("{:<62} {:>8} {:>8} {:>8} {:>8}\n", "test", "excess", "waste", "mean", "missed");
   for (const Row& row : rows) {
     const Findings f = row.verification.findings();
     if (json)
@@ -102,10 +103,10 @@ void print_rows(std::span<const Row> rows, bool json) {
                        {"list_mean", f.list_mean()},
                        {"missed", f.missed}});
     else
-      fmt::print("{:<62} {:>8.2f} {:>8.2f} {:>8.1f} {:>8}\n", row.options, f.excess().value(), f.waste(), f.list_mean(),
-                 f.missed);
+      print_out("{:<62} {:>8.2f} {:>8.2f} {:>8.1f} {:>8}\n", row.options, f.excess().value(), f.waste(), f.list_mean(),
+                f.missed);
   }
-  if (json) fmt::print("{}\n", array.dump(2));
+  if (json) print_out("{}\n", array.dump(2));
 }
 
 LdrImage stacked(const LdrImage& above, const LdrImage& below) {
@@ -145,7 +146,7 @@ Exit draw_panels(const Request& request, const std::filesystem::path& out, bool 
   std::vector<Row> rows = measure(session, setup);
   print_rows(rows, json);
   write_png(out, panels_of(session));
-  if (!json) fmt::print("panels: {}\n", out.string());
+  if (!json) print_out("panels: {}\n", out.string());
   const bool missed = std::ranges::any_of(
       rows, [](Row& r) { return r.verification.findings().missed != 0 && !r.lighting.runner().plan().approximate; });
   return missed ? Exit::check_failed : Exit::done;

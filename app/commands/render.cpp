@@ -14,6 +14,7 @@
 #include "commands/pictures.h"
 #include "commands/stats.h"
 #include "render/antialias.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -66,7 +67,7 @@ std::string method_words(const MethodChoice& chosen) {
 }
 
 void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup, const MethodChoice& chosen) {
-  const auto line = [](const char* label, const std::string& text) { fmt::print("{:<10}{}\n", label, text); };
+  const auto line = [](const char* label, const std::string& text) { print_out("{:<10}{}\n", label, text); };
   line("device", fmt::format("{} ({})", stats.device, stats.driver));
   line("scene", fmt::format("{}, {}x{}", stats.scene, stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
@@ -111,7 +112,7 @@ Exit render(const RenderOptions& o) {
   const std::optional<float> exposure = parse_exposure(o.exposure);
   const Setup setup = make_setup(o.request);
   const std::uint32_t samples = sample_count(o, setup.scene);
-  for (const std::string& note : setup.scene.notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
   Session session(o.request, setup);
   const MethodChoice chosen = chosen_methods(session, setup, o.request, {&o.request.method, 1}, o.json).front();
   Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
@@ -137,7 +138,7 @@ Exit render(const RenderOptions& o) {
   const nlohmann::json json = to_json(stats);
   if (!o.stats.empty()) write_text(with_folder(o.stats), json.dump(2) + "\n");
   if (o.json)
-    fmt::print("{}\n", json.dump(2));
+    print_out("{}\n", json.dump(2));
   else
     print_summary(o, stats, setup, chosen);
   return Exit::done;

@@ -12,6 +12,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "image/write_file.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -29,7 +30,7 @@ Exit report(const ReportOptions& o) {
   const std::string page = report_html(runs);
   make_folder_of(o.out);
   write_file(o.out, page);
-  fmt::print("report: {}\n", o.out);
+  print_out("report: {}\n", o.out);
   return Exit::done;
 }
 

@@ -12,6 +12,7 @@
 #include "commands/commands.h"
 #include "commands/stats.h"
 #include "render/gpu_verifier.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -43,7 +44,7 @@ struct Candidate {
 };
 
 void progress(std::string_view text) {
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", text);
+  if (isatty(STDERR_FILENO) != 0) print_error("\r\033[K{}", text);
 }
 
 std::vector<std::string> wanted_methods(const VerifyOptions& o) {
@@ -147,30 +148,30 @@ std::string number_or_dash(const char* format, const std::optional<Number>& numb
 
 void print_decals(const Stats& s) {
   const Findings& f = *s.decal_findings;
-  fmt::print("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
-  if (!f.first_miss.empty()) fmt::print("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
+  print_out("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
+  if (!f.first_miss.empty()) print_out("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
 }
 
 void print_table(std::span<const Row> rows) {
-  fmt::print("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed",
-             "evaluations", "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
+  print_out("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed", "evaluations",
+            "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
   for (const auto& [s, good] : rows) {
     const Findings& f = *s.findings;
     const std::uint64_t missed = f.missed + (s.decal_findings ? s.decal_findings->missed : 0);
     const char* verdict = !good ? "FAILED" : s.approximate && missed != 0 ? "approximate" : "ok";
-    fmt::print("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
-               f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
-               s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
-               verdict);
-    for (const std::string& note : s.notes) fmt::print("  note: {}\n", note);
-    if (s.rendered.counters.overflowed_cells != 0) fmt::print("  {}\n", overflow_words(s));
-    if (!f.first_miss.empty()) fmt::print("  first miss: {}\n", f.first_miss);
-    if (f.repeated != 0) fmt::print("  {} reaching lights walked again\n", f.repeated);
-    if (f.changed_runs.value_or(0) != 0) fmt::print("  {} of the repeated runs had other lists\n", *f.changed_runs);
+    print_out("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
+              f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
+              s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
+              verdict);
+    for (const std::string& note : s.notes) print_out("  note: {}\n", note);
+    if (s.rendered.counters.overflowed_cells != 0) print_out("  {}\n", overflow_words(s));
+    if (!f.first_miss.empty()) print_out("  first miss: {}\n", f.first_miss);
+    if (f.repeated != 0) print_out("  {} reaching lights walked again\n", f.repeated);
+    if (f.changed_runs.value_or(0) != 0) print_out("  {} of the repeated runs had other lists\n", *f.changed_runs);
     if (s.decal_findings) print_decals(s);
-    if (s.ordered && f.unordered) fmt::print("  a list does not ascend\n");
+    if (s.ordered && f.unordered) print_out("  a list does not ascend\n");
     if (s.image_max_abs_diff && !s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
-      fmt::print("  the picture may differ by {:.3g}\n", *s.image_tolerance);
+      print_out("  the picture may differ by {:.3g}\n", *s.image_tolerance);
   }
 }
 
@@ -214,15 +215,15 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
   if (o.json) {
     nlohmann::json array = nlohmann::json::array();
     for (const Row& row : rows) array.push_back(to_json(row.stats));
-    fmt::print("{}\n", array.dump(2));
+    print_out("{}\n", array.dump(2));
     return;
   }
   const DeviceRow& device = session.context().row();
-  fmt::print("{} ({}), {} {}x{}, {} lights: {}\n", device.name, device.driver, o.request.scene, setup.view.width(),
-             setup.view.height(), setup.lights.size(), setup.lights_note);
-  if (!rows.empty() && rows.front().stats.verifier == Verifier::gpu) fmt::print("truth by the GPU verifier\n");
+  print_out("{} ({}), {} {}x{}, {} lights: {}\n", device.name, device.driver, o.request.scene, setup.view.width(),
+            setup.view.height(), setup.lights.size(), setup.lights_note);
+  if (!rows.empty() && rows.front().stats.verifier == Verifier::gpu) print_out("truth by the GPU verifier\n");
   if (!rows.empty() && !rows.front().stats.image_max_abs_diff)
-    fmt::print("pictures not compared: too many lights for brute force\n");
+    print_out("pictures not compared: too many lights for brute force\n");
   print_table(rows);
 }
 

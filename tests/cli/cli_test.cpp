@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -76,34 +77,59 @@ CliTest::CliTest() {
   setenv("LAMPLIGHT_CALIBRATION", LAMPLIGHT_SOURCE_DIR "/tests/calibration.json", /* overwrite= */ 1);
 }
 
-Outcome CliTest::lamp(const Arguments& arguments, const Environment& environment) const {
-  std::vector<std::string> words{LAMP_EXECUTABLE};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> variables = environment_with(environment);
+struct Running::Pipes {
   Pipe out;
   Pipe err;
+};
+
+Running::Running(std::unique_ptr<Pipes> pipes, int process) : pipes_(std::move(pipes)), process_(process) {}
+
+Running::~Running() = default;
+
+void Running::send(int signal) const { EXPECT_EQ(kill(process_, signal), 0); }
+
+Outcome Running::finish() {
+  if (process_ == 0) return {};
+  // What `lamp` writes to stderr fits a pipe's buffer (64 KiB), so that reading one after the other cannot block it.
+  Outcome outcome;
+  outcome.out = pipes_->out.drain();
+  outcome.err = pipes_->err.drain();
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+  return outcome;
+}
+
+Running CliTest::start_program(Arguments words, const Environment& environment) const {
+  std::vector<std::string> variables = environment_with(environment);
+  auto pipes = std::make_unique<Running::Pipes>();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder_.path().c_str());
-  posix_spawn_file_actions_adddup2(&actions, out.ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err.ends[1], STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, pipes->out.ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, pipes->err.ends[1], STDERR_FILENO);
   pid_t child = 0;
   const int failed =
-      posix_spawn(&child, LAMP_EXECUTABLE, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+      posix_spawn(&child, words.front().c_str(), &actions, nullptr, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) {
-    ADD_FAILURE() << LAMP_EXECUTABLE << " cannot be started";
-    return {};
-  }
-  // What `lamp` writes to stderr fits a pipe's buffer (64 KiB), so that reading one after the other cannot block it.
-  Outcome outcome;
-  outcome.out = out.drain();
-  outcome.err = err.drain();
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  return outcome;
+  if (failed != 0) ADD_FAILURE() << words.front() << " cannot be started";
+  return Running(std::move(pipes), failed == 0 ? child : 0);
+}
+
+Running CliTest::start(const Arguments& arguments, const Environment& environment) const {
+  Arguments words{LAMP_EXECUTABLE};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return start_program(std::move(words), environment);
+}
+
+Outcome CliTest::lamp(const Arguments& arguments, const Environment& environment) const {
+  return start(arguments, environment).finish();
+}
+
+Outcome CliTest::shell(const std::string& script) const {
+  return start_program({"/bin/sh", "-c", script}, {{"LAMP", LAMP_EXECUTABLE}}).finish();
 }
 
 std::string CliTest::output_of(const Arguments& arguments) const {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -20,8 +21,27 @@ inline constexpr int BAD_INPUT = 2;  ///< the exit code
 /// What a run of `lamp` left.
 struct Outcome {
   int exit_code = -1;  ///< -1: it was ended by a signal
+  int signal = 0;      ///< which; 0: it ended by itself
   std::string out;     ///< stdout
   std::string err;     ///< stderr
+};
+
+/// A program that was started, its output in pipes.
+class Running {
+ public:
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running();
+  void send(int signal) const;
+  /// Reads its output until it ends.
+  [[nodiscard]] Outcome finish();
+
+ private:
+  friend class CliTest;
+  struct Pipes;
+  explicit Running(std::unique_ptr<Pipes> pipes, int process);
+  std::unique_ptr<Pipes> pipes_;
+  int process_;
 };
 
 using Arguments = std::vector<std::string>;
@@ -32,8 +52,13 @@ class CliTest : public ::testing::Test {
  protected:
   CliTest();
 
-  /// Runs `lamp` in the test's folder, its output in pipes.
+  /// Starts `lamp` in the test's folder.
+  [[nodiscard]] Running start(const Arguments& arguments, const Environment& environment = {}) const;
+  /// Runs it there.
   [[nodiscard]] Outcome lamp(const Arguments& arguments, const Environment& environment = {}) const;
+
+  /// Runs a script of `sh` there, in which $LAMP is the executable.
+  [[nodiscard]] Outcome shell(const std::string& script) const;
 
   /// Runs it and expects exit code 0 and nothing on stderr.
   [[nodiscard]] std::string output_of(const Arguments& arguments) const;
@@ -51,6 +76,8 @@ class CliTest : public ::testing::Test {
   [[nodiscard]] std::vector<std::string> files() const;
 
  private:
+  [[nodiscard]] Running start_program(Arguments words, const Environment& environment) const;
+
   app::TemporaryFolder folder_;
 };
 

@@ -1,0 +1,56 @@
+// Writes to the standard streams, and remembers the first failure of each.
+// Based on: GNU gnulib, stdopen and closeout, for closed streams and for errors that only a flush shows.
+// SPDX-License-Identifier: Apache-2.0
+#include "system/print.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+
+namespace lamp::app {
+namespace {
+
+std::atomic<int> out_errno = 0;
+std::atomic<int> error_errno = 0;
+
+void remember(std::atomic<int>& first, bool written) {
+  int none = 0;
+  if (!written) first.compare_exchange_strong(none, errno != 0 ? errno : EIO);
+}
+
+void write_to(std::FILE* stream, std::string_view text, std::atomic<int>& first) {
+  errno = 0;
+  remember(first, std::fwrite(text.data(), 1, text.size(), stream) == text.size());
+}
+
+}  // namespace
+
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    // For the wrong direction: reading stdin and writing the others fail with EBADF, as they do while closed. The
+    // lowest free number is this stream's, since those below are open.
+    static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
+
+void write_out(std::string_view text) { write_to(stdout, text, out_errno); }
+
+void write_error(std::string_view text) { write_to(stderr, text, error_errno); }
+
+int output_problem() {
+  errno = 0;
+  remember(out_errno, std::fflush(stdout) == 0);
+  return out_errno;
+}
+
+int error_output_problem() {
+  errno = 0;
+  remember(error_errno, std::fflush(stderr) == 0);
+  return error_errno;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,83 @@
+// Whatever stdout and stderr are: closed, full, a pipe that nobody reads. `lamp` ends with an exit code that says what
+// happened, never by an abort, and what it prints never gets into a file.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli_test.h"
+
+namespace lamp::cli {
+namespace {
+
+using Streams = CliTest;
+
+constexpr const char* UNWRITABLE[] = {">&-", ">/dev/full"};
+
+/// Every command, as quick as it can be; and every way in which the command line ends early.
+constexpr const char* COMMANDS[] = {
+    "render plane --size 16x9 --lights 2 --method tiled",
+    "render plane --size 16x9 --lights 2 --method tiled --json",
+    "render plane --size 16x9 --lights 2 --explain",
+    "verify plane --size 16x9 --lights 2 --method tiled",
+    "verify plane --size 16x9 --lights 2 --method tiled --json",
+    "compare tiled all plane --size 16x9 --lights 2",
+    "compare tiled all plane --size 16x9 --lights 2 --json",
+    "capture plane --size 16x9 --lights 2 --out frame",
+    "bench plane --size 16x9 --lights 2 --method tiled --frames 1 --out bench",
+    "report bench/results.json",
+    "list methods",
+    "list methods --json",
+    "list scenes",
+    "list suites",
+    "list devices",
+    "",
+    "--help",
+    "render --help",
+    "--version",
+};
+
+TEST_F(Streams, ResultsThatCannotBePrintedAreAnError) {
+  (void)output_of(
+      {"bench", "plane", "--size", "16x9", "--lights", "2", "--method", "tiled", "--frames", "1", "--out", "bench"});
+  for (const char* command : COMMANDS)
+    for (const char* where : UNWRITABLE) {
+      SCOPED_TRACE(std::string(command) + " " + where);
+      const Outcome outcome = shell(std::string("$LAMP ") + command + " " + where);
+      EXPECT_EQ(outcome.exit_code, BAD_INPUT);
+      EXPECT_TRUE(outcome.err.starts_with("lamp: standard output: cannot be written: ")) << outcome.err;
+    }
+}
+
+TEST_F(Streams, ErrorsThatCannotBePrintedKeepTheirExitCode) {
+  for (const char* where : UNWRITABLE)
+    for (const char* command : {"render nowhere", "rendr", "render --size 0x0", "list nothing", "bench nowhere.json"}) {
+      SCOPED_TRACE(std::string(command) + " 2" + where);
+      const Outcome outcome = shell(std::string("$LAMP ") + command + " 2" + where);
+      EXPECT_EQ(outcome.exit_code, BAD_INPUT);
+      EXPECT_EQ(outcome.out, "");
+    }
+  EXPECT_EQ(shell("$LAMP render nowhere >/dev/full 2>/dev/full").exit_code, BAD_INPUT);
+  EXPECT_EQ(shell("$LAMP list methods >&- 2>&-").exit_code, BAD_INPUT);
+  EXPECT_EQ(shell("$LAMP list methods <&- >&- 2>&-").exit_code, BAD_INPUT);
+  EXPECT_EQ(shell("VK_DRIVER_FILES=/nonexistent $LAMP list devices 2>/dev/full").exit_code, 3);
+}
+
+TEST_F(Streams, AClosedErrorStreamDisturbsNobody) {
+  EXPECT_EQ(shell("$LAMP render plane --size 16x9 --lights 2 --method tiled --out lamp.png 2>&-").exit_code, 0);
+  EXPECT_TRUE(read("lamp.png").starts_with("\x89PNG"));
+  // What was to be said there is lost: that is no success.
+  const std::string explain = "$LAMP render plane --size 16x9 --lights 2 --json --explain --out lamp.png";
+  for (const char* where : UNWRITABLE) {
+    const Outcome outcome = shell(explain + " 2" + where);
+    EXPECT_EQ(outcome.exit_code, BAD_INPUT) << where;
+    EXPECT_TRUE(nlohmann::json::accept(outcome.out)) << outcome.out;
+  }
+}
+
+// The next file to be opened takes the number of a closed stream.
+TEST_F(Streams, NothingThatIsPrintedGetsIntoAFile) {
+  EXPECT_EQ(shell("$LAMP render nowhere.gltf --out a.png 2>&-").exit_code, BAD_INPUT);
+  EXPECT_EQ(shell("$LAMP capture plane --size 16x9 --lights 2 --out frame <&- >&- 2>&-").exit_code, BAD_INPUT);
+  const nlohmann::json again = json_of({"verify", "frame", "--method", "tiled", "--json"});
+  EXPECT_EQ(again.at(0).at("missed"), 0);
+}
+
+}  // namespace
+}  // namespace lamp::cli

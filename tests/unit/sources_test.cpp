@@ -1,0 +1,45 @@
+// What the tool's code does in one place, it does nowhere else.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A call that only one file of app/ may make, and what to use instead.
+struct Reserved {
+  const char* text;
+  const char* file;
+  const char* instead;
+};
+
+// fmt::print and streams throw or stay silent when stdout is closed or full.
+constexpr Reserved RESERVED[] = {
+    {"fmt::print(", "", "system/print.h"},
+    {"std::cout", "", "system/print.h"},
+    {"std::cerr", "", "system/print.h"},
+    {"fwrite(", "print.cpp", "system/print.h"},
+};
+
+TEST(Sources, KeepToTheirOwnMeans) {
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(LAMPLIGHT_SOURCE_DIR) / "app")) {
+    const fs::path& path = entry.path();
+    if (path.extension() != ".cpp" && path.extension() != ".h") continue;
+    ++files;
+    std::ifstream stream(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (const Reserved& reserved : RESERVED)
+      if (path.filename() != reserved.file)
+        EXPECT_EQ(text.find(reserved.text), std::string::npos)
+            << path << " says " << reserved.text << "; use " << reserved.instead;
+  }
+  EXPECT_GT(files, 100);
+}
+
+}  // namespace
