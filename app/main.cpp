@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -13,6 +15,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "system/print.h"
+#include "system/signals.h"
 
 namespace {
 
@@ -86,6 +89,7 @@ Exit run_or_complain(int argc, char** argv) {
 /// The exit code, once it is known whether everything that was printed has arrived.
 Exit checked(Exit exit) {
   const int problem = lamp::app::output_problem();
+  if (problem == EPIPE && lamp::app::dies_of_broken_pipes()) lamp::app::die_of(SIGPIPE);
   if (problem != 0)
     exit = complain("standard output: cannot be written: " + std::generic_category().message(problem), Exit::bad_input);
   const bool all_was_said = lamp::app::error_output_problem() == 0;
@@ -96,5 +100,11 @@ Exit checked(Exit exit) {
 
 int main(int argc, char** argv) {
   lamp::app::open_standard_streams();
-  return static_cast<int>(checked(run_or_complain(argc, argv)));
+  lamp::app::watch_signals();
+  try {
+    return static_cast<int>(checked(run_or_complain(argc, argv)));
+  } catch (const lamp::app::Interrupted& stopped) {
+    static_cast<void>(lamp::app::output_problem());  // flushes
+    lamp::app::die_of(stopped.signal);
+  }
 }

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "error.h"
+#include "system/temporary.h"
 
 namespace lamp::app {
 
@@ -14,21 +17,20 @@ namespace lamp::app {
 class TemporaryFolder {
  public:
   /// Throws an Error if none can be made.
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lamp-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error("no temporary folder can be made in " + name);
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  TemporaryFolder() : folder_(Temporary::Removal::everything, make) {}
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
-  std::filesystem::path path_;
+  static std::filesystem::path make() {
+    const char* named = std::getenv("TMPDIR");
+    std::string name = std::filesystem::path(named != nullptr && *named != '\0' ? named : "/tmp") / "lamp-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr)
+      throw Error(name + ": no temporary folder can be made: " + std::generic_category().message(errno) +
+                  "; expected TMPDIR to name a folder that is writable");
+    return name;
+  }
+
+  Temporary folder_;
 };
 
 }  // namespace lamp::app

@@ -3,7 +3,6 @@
 #include "bench/calibration_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -13,6 +12,8 @@
 #include <iterator>
 
 #include "error.h"
+#include "image/write_file.h"
+#include "system/temporary.h"
 
 namespace lamp::app {
 namespace {
@@ -119,16 +120,16 @@ std::optional<Calibration> read_cached_calibration(const std::string& file, cons
 
 std::string keep_calibration(const std::string& file, const Calibration& calibration) {
   if (file.empty()) return "there is neither XDG_CACHE_HOME nor HOME";
-  std::error_code error;
-  fs::create_directories(fs::path(file).parent_path(), error);
-  if (error) return fmt::format("{}: {}", fs::path(file).parent_path().string(), error.message());
-  const std::string beside = fmt::format("{}.{}", file, getpid());
-  std::ofstream stream(beside, std::ios::binary);
-  stream << to_json(calibration).dump(1) << '\n';
-  stream.close();
-  if (!stream) return fmt::format("{}: cannot be written", beside);
-  fs::rename(beside, file, error);
-  return error ? fmt::format("{}: {}", file, error.message()) : "";
+  try {
+    NewFolders folders(fs::path(file).parent_path());
+    write_file(file, to_json(calibration).dump(1) + "\n");
+    folders.keep();
+  } catch (const fs::filesystem_error& failure) {
+    return fmt::format("{}: its folder cannot be made: {}", file, failure.code().message());
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace lamp::app

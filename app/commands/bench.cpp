@@ -21,6 +21,7 @@
 #include "commands/pictures.h"
 #include "scene/builtin.h"
 #include "system/print.h"
+#include "system/signals.h"
 
 namespace lamp::app {
 namespace {
@@ -102,18 +103,17 @@ double weight_of(const Group& group) {
          static_cast<double>(group.entries.size());
 }
 
-/// Measures what is missing; false when the user stopped it. Writes the results after every group.
-bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Group> groups, json& results,
-                 bool explain) {
-  const StopSignal signal;
+/// Measures what is missing, and writes the results after every group. The signal that wanted it to stop, or 0.
+int measure_all(BenchDevice& device, const fs::path& folder, std::span<const Group> groups, json& results,
+                bool explain) {
+  const StopRequest stop;
   Progress progress;
   double all = 0.0;
   double done = 0.0;
   for (const Group& group : groups)
     if (!has_group(results, group)) all += weight_of(group);
-  bool stopped = false;
   for (const Group& group : groups) {
-    if (stopped || has_group(results, group)) continue;
+    if (has_group(results, group)) continue;
     const std::string where = fmt::format("{}: {} {} {} lights: ", group.series, group.scene, group.size, group.lights);
     const auto say = [&](const std::string& words) {
       progress.clear();
@@ -127,17 +127,16 @@ bool measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gr
                                       [&](const std::string& what, double share) {
                                         progress.show(where + what, (done + share * weight_of(group)) / all);
                                       },
-                                  .stop = StopSignal::raised,
+                                  .stop = StopRequest::signal,
                                   .explain = explain ? say : std::function<void(const std::string&)>{}}));
     } catch (const Interrupted&) {
-      stopped = true;
-      continue;
+      break;
     }
     done += weight_of(group);
     write_text(folder / "results.json", results.dump(1) + "\n");
   }
   progress.clear();
-  return !stopped;
+  return StopRequest::signal();
 }
 
 /// One line for each result that is not right or has no times; how many are wrong.
@@ -192,7 +191,8 @@ Exit bench(const BenchOptions& o) {
                              suite);
   if (fs::exists(folder / "results.json"))
     take_over(results, load_results(folder / "results.json"), (folder / "results.json").string(), expansion.groups);
-  const bool complete = measure_all(device, folder, expansion.groups, results, o.request.explain);
+  const int signal = measure_all(device, folder, expansion.groups, results, o.request.explain);
+  const bool complete = std::ranges::all_of(expansion.groups, [&](const Group& g) { return has_group(results, g); });
   results["run"]["complete"] = complete;
   results["run"]["left_out"] = expansion.left_out;
   add_regret(results);
@@ -205,7 +205,8 @@ Exit bench(const BenchOptions& o) {
   print_out("{} configurations measured, {} wrong, {} beyond the limits: {}\n", results["results"].size(), wrong,
             expansion.left_out, (folder / "report.html").string());
   if (!complete) print_out("stopped before its end; the same command goes on\n");
-  return complete && wrong == 0 ? Exit::done : Exit::check_failed;
+  if (signal != 0) throw Interrupted{signal};
+  return wrong == 0 ? Exit::done : Exit::check_failed;
 }
 
 /// Options that speak of a scene: a suite says its own.
@@ -265,7 +266,8 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
       "  lamp bench atrium --lights 16384 --size 1920x1080 --out out/atrium\n"
       "  lamp bench my_suite.json --out out/mine\n"
       "  lamp bench stewart-1.6 --scale 0.25 --max-lights 1024 --out out/small\n"
-      "Exit code 1: a method's output was wrong, or the run was stopped before its end.");
+      "Exit code 1: a method's output was wrong. After Ctrl-C it writes what it has measured; the same command goes "
+      "on.");
   for (const char* argument : arguments)
     o->command_line += (o->command_line.empty() ? "" : " ") + shell_quoted(argument);
   return [o, command] {

@@ -205,7 +205,7 @@ json pictures_of(const MeasureInfo& info, Renderer& renderer, std::list<Candidat
 }
 
 void say(const MeasureInfo& info, const std::string& what, double share) {
-  if (info.stop()) throw Interrupted{};
+  if (const int signal = info.stop(); signal != 0) throw Interrupted{signal};
   info.progress(what, share);
 }
 

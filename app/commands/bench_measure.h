@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "commands/bench_device.h"
+#include "system/signals.h"
 
 namespace lamp::app {
-
-/// Thrown between two frames when the user wants to stop.
-struct Interrupted {};
 
 /// What a group needs from outside.
 struct MeasureInfo {
@@ -21,8 +19,8 @@ struct MeasureInfo {
   const Group& group;
   std::filesystem::path folder;                                         ///< pictures go into its subfolder `pictures`
   std::function<void(const std::string& what, double share)> progress;  ///< share: of the group, 0 .. 1
-  std::function<bool()> stop;                                           ///< asked between frames
-  std::function<void(const std::string& words)> explain;                ///< told what `auto` predicts; may be empty
+  std::function<int()> stop;  ///< asked between frames: the signal that came and wants it to stop, or 0
+  std::function<void(const std::string& words)> explain;  ///< told what `auto` predicts; may be empty
 };
 
 /// The results of the group's entries, as results.json holds them. Throws Interrupted.

@@ -88,15 +88,17 @@ nlohmann::json write_pictures(const std::filesystem::path& folder, const Group& 
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string base =
         "pictures/" + file_name(fmt::format("{} {} {}", group.series, group.scene, shown[i].label));
-    make_folder_of(folder / base);
-    write_png(folder / (base + ".png"), all[i].picture);
+    const auto write = [&](const std::string& name, const LdrImage& picture) {
+      write_output(folder / name, [&](const auto& file) { write_png(file, picture); });
+    };
+    write(base + ".png", all[i].picture);
     files[shown[i].label] = {{"picture", base + ".png"}};
     if (all[i].counts.empty()) continue;
-    write_png(folder / (base + "-heat.png"), draw_heatmap({.width = all[i].picture.width,
-                                                           .height = all[i].picture.height,
-                                                           .counts = all[i].counts,
-                                                           .scale_max = scale,
-                                                           .title = shown[i].label}));
+    write(base + "-heat.png", draw_heatmap({.width = all[i].picture.width,
+                                            .height = all[i].picture.height,
+                                            .counts = all[i].counts,
+                                            .scale_max = scale,
+                                            .title = shown[i].label}));
     files[shown[i].label]["heatmap"] = base + "-heat.png";
   }
   return files;

@@ -1,4 +1,4 @@
-// Draws progress, listens for signals.
+// Draws progress.
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/bench_progress.h"
 #include "system/print.h"
@@ -6,38 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <csignal>
-#include <cstdio>
-#include <ctime>
-
 namespace lamp::app {
-namespace {
-
-volatile std::sig_atomic_t stop_raised = 0;
-volatile std::sig_atomic_t stop_second = 0;  // when it was raised
-
-void handle(int signal, void (*handler)(int)) {
-  struct sigaction action{};
-  action.sa_handler = handler;
-  sigaction(signal, &action, nullptr);
-}
-
-/// Shells and `timeout` may send one signal twice, to the process and to its group: only a later one is impatience.
-extern "C" void remember_stop(int signal) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  const auto second = static_cast<std::sig_atomic_t>(now.tv_sec);
-  if (stop_raised == 0) {
-    stop_raised = 1;
-    stop_second = second;
-  } else if (second - stop_second > 1) {
-    handle(signal, SIG_DFL);
-    raise(signal);
-  }
-}
-
-}  // namespace
-
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {}
 
 void Progress::show(const std::string& text, double done) {
@@ -47,7 +16,6 @@ void Progress::show(const std::string& text, double done) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const std::string left = done > 0.02 ? about(elapsed * (1.0 - done) / done) + " left" : "";
   print_error("\r\033[K{:3.0f} %  {}  {}", 100.0 * done, text, left);
-  std::fflush(stderr);
 }
 
 void Progress::clear() const {
@@ -59,16 +27,5 @@ std::string about(double seconds) {
   if (seconds < 5400.0) return fmt::format("about {:.0f} min", seconds / 60.0);
   return fmt::format("about {:.0f} h", seconds / 3600.0);
 }
-
-StopSignal::StopSignal() {
-  stop_raised = 0;
-  for (const int signal : {SIGINT, SIGTERM}) handle(signal, remember_stop);
-}
-
-StopSignal::~StopSignal() {
-  for (const int signal : {SIGINT, SIGTERM}) handle(signal, SIG_DFL);
-}
-
-bool StopSignal::raised() { return stop_raised != 0; }
 
 }  // namespace lamp::app

@@ -1,4 +1,4 @@
-// Progress of long work: one line on a terminal, with the time left; nothing in a pipe. And Ctrl-C, asked for politely.
+// Progress of long work: one line on a terminal, with the time left; nothing in a pipe.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,16 +23,5 @@ class Progress {
 
 /// "about 40 s", "about 3 min", "about 2 h".
 [[nodiscard]] std::string about(double seconds);
-
-/// While one exists, the first SIGINT or SIGTERM is remembered instead of ending the program; one a second or two later
-/// ends it.
-class StopSignal {
- public:
-  StopSignal();
-  ~StopSignal();
-  StopSignal(const StopSignal&) = delete;
-  StopSignal& operator=(const StopSignal&) = delete;
-  [[nodiscard]] static bool raised();
-};
 
 }  // namespace lamp::app

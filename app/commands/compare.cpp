@@ -69,7 +69,6 @@ Exit compare_panels(const CompareOptions& o) {
   if (!o.b.empty()) throw Error(fmt::format("compare --panels: takes one scene, got '{}' too", o.b));
   Request request = o.request;
   if (!o.a.empty()) request.scene = o.a;
-  make_folder_of(o.out);
   return draw_panels(request, o.out, o.json);
 }
 
@@ -92,8 +91,8 @@ Exit compare(const CompareOptions& o) {
   };
   const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, o.a), map(b.counts, o.b),
                                map(differences(a, b), fmt::format("{} - {}", o.a, o.b))};
-  make_folder_of(o.out);
-  write_png(o.out, side_by_side(pictures));
+  const LdrImage row = side_by_side(pictures);
+  write_output(o.out, [&](const auto& file) { write_png(file, row); });
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
     const nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};

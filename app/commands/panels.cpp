@@ -145,7 +145,8 @@ Exit draw_panels(const Request& request, const std::filesystem::path& out, bool 
   Session session(request, setup);
   std::vector<Row> rows = measure(session, setup);
   print_rows(rows, json);
-  write_png(out, panels_of(session));
+  const LdrImage panels = panels_of(session);
+  write_output(out, [&](const auto& file) { write_png(file, panels); });
   if (!json) print_out("panels: {}\n", out.string());
   const bool missed = std::ranges::any_of(
       rows, [](Row& r) { return r.verification.findings().missed != 0 && !r.lighting.runner().plan().approximate; });

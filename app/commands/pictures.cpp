@@ -11,6 +11,7 @@
 
 #include "error.h"
 #include "render/heatmap.h"
+#include "system/temporary.h"
 
 namespace lamp::app {
 
@@ -49,19 +50,28 @@ std::optional<float> parse_exposure(const std::string& text) {
 void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions) {
   if (std::ranges::find(extensions, fs::path(file).extension().string()) == extensions.end())
     throw Error(fmt::format("{} '{}': expected a name that ends in {}", option, file, fmt::join(extensions, " or ")));
-  const fs::path path = fs::absolute(file);
-  if (fs::is_directory(path)) throw Error(fmt::format("{} '{}': is a folder, expected a file name", option, file));
-  fs::path folder = path.parent_path();
-  while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
-  if (!fs::is_directory(folder)) throw Error(fmt::format("{} '{}': {} is not a folder", option, file, folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    throw Error(fmt::format("{} '{}': the folder {} is not writable", option, file, folder.string()));
+  try {
+    const fs::path path = fs::absolute(file);
+    if (fs::is_directory(path)) throw Error(fmt::format("{} '{}': is a folder, expected a file name", option, file));
+    fs::path folder = path.parent_path();
+    while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
+    if (!fs::is_directory(folder))
+      throw Error(fmt::format("{} '{}': {} is not a folder", option, file, folder.string()));
+    if (access(folder.c_str(), W_OK) != 0)
+      throw Error(fmt::format("{} '{}': the folder {} is not writable", option, file, folder.string()));
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(fmt::format("{} '{}': {}", option, file, failure.code().message()));
+  }
 }
 
-void make_folder_of(const fs::path& file) {
-  std::error_code error;
-  fs::create_directories(fs::absolute(file).parent_path(), error);
-  if (error) throw Error(fmt::format("{}: its folder cannot be made: {}", file.string(), error.message()));
+void write_output(const fs::path& file, const std::function<void(const fs::path&)>& write) {
+  try {
+    NewFolders folders(file.parent_path());
+    write(file);
+    folders.keep();
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(fmt::format("{}: its folder cannot be made: {}", file.string(), failure.code().message()));
+  }
 }
 
 }  // namespace lamp::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,7 +35,7 @@ struct HeatmapRequest {
 /// Asked before long work begins; makes nothing.
 void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions);
 
-/// Makes the folder of a file that is about to be written, where there is none.
-void make_folder_of(const std::filesystem::path& file);
+/// Calls `write` with the file, in a folder that is made where there is none, and goes again when writing fails.
+void write_output(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
 
 }  // namespace lamp::app

@@ -48,15 +48,9 @@ void check_outputs(const RenderOptions& o) {
   if (!o.overlay.empty()) check_output("--overlay", o.overlay, MAPS);
   if (!o.stats.empty()) check_output("--stats", o.stats, NUMBERS);
   std::set<std::filesystem::path> files;
-  for (const std::string& file : {o.out, o.heatmap, o.overlay})
-    if (!file.empty() && !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
-      throw Error(fmt::format("{}: is asked for twice, expected a name of its own for each picture", file));
-}
-
-/// The file, after its folder was made.
-std::filesystem::path with_folder(std::filesystem::path file) {
-  make_folder_of(file);
-  return file;
+  for (const std::string& file : {o.out, o.heatmap, o.overlay, o.stats})
+    if (!file.empty() && !files.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file))).second)
+      throw Error(fmt::format("{}: is asked for twice, expected a file of its own for each output", file));
 }
 
 /// "lamplight tile=8, chosen by auto", or the method's name.
@@ -127,16 +121,20 @@ Exit render(const RenderOptions& o) {
   const HdrImage image = std::move(rendered.image);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
-  write_picture(with_folder(o.out), image, toned);
+  write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
   Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
   stats.findings = walked(visits, setup.view.width(), setup.view.height());
   const std::vector<std::uint32_t> counts = walked_lights(visits);
   const std::string title = fmt::format("{}, {} lights", chosen.method->name, stats.lights);
-  if (!o.heatmap.empty()) write_png(with_folder(o.heatmap), heatmap_of(session, counts, {.title = title}));
-  if (!o.overlay.empty())
-    write_png(with_folder(o.overlay), heatmap_of(session, counts, {.title = title, .overlay = &toned}));
+  const auto write_map = [&](const std::string& name, const LdrImage* below) {
+    if (name.empty()) return;
+    const LdrImage map = heatmap_of(session, counts, {.title = title, .overlay = below});
+    write_output(name, [&](const auto& file) { write_png(file, map); });
+  };
+  write_map(o.heatmap, nullptr);
+  write_map(o.overlay, &toned);
   const nlohmann::json json = to_json(stats);
-  if (!o.stats.empty()) write_text(with_folder(o.stats), json.dump(2) + "\n");
+  if (!o.stats.empty()) write_output(o.stats, [&](const auto& file) { write_text(file, json.dump(2) + "\n"); });
   if (o.json)
     print_out("{}\n", json.dump(2));
   else

@@ -28,8 +28,7 @@ Exit report(const ReportOptions& o) {
   std::vector<ReportRun> runs;
   for (const std::string& file : o.files) runs.push_back({.results = load_results(file), .file = file});
   const std::string page = report_html(runs);
-  make_folder_of(o.out);
-  write_file(o.out, page);
+  write_output(o.out, [&](const auto& file) { write_file(file, page); });
   print_out("report: {}\n", o.out);
   return Exit::done;
 }

@@ -2,79 +2,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/write_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <cstdint>
-#include <fstream>
-#include <string>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "error.h"
 #include "image/image.h"
+#include "system/temporary.h"
 
 namespace lamp::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string system_says(int error_number) { return std::generic_category().message(error_number); }
+[[noreturn]] void fail(const fs::path& file, int error_number, const char* expected) {
+  throw Error(fmt::format("{}: cannot be written: {}; expected {}", file.string(),
+                          std::generic_category().message(error_number), expected));
+}
 
-/// Removes the temporary file unless it was renamed.
-class Temporary {
+/// An open file. What an Error names is another name, the one that the user knows.
+class Output {
  public:
-  explicit Temporary(const fs::path& file) : path_(file) {
-    static std::atomic<std::uint32_t> number = 0;
-    path_ += fmt::format(".{}-{}.tmp", getpid(), number++);
+  Output(const fs::path& named, const fs::path& path, int flags)
+      : named_(named), descriptor_(open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
+    if (descriptor_ < 0) fail(named_, errno, "a folder that exists and is writable");
   }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    std::error_code ignored;  // it may never have been made
-    if (!path_.empty()) fs::remove(path_, ignored);
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output() {
+    if (descriptor_ >= 0) close(descriptor_);
   }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-  void rename_to(const fs::path& file) {
-    fs::rename(path_, file);
-    path_.clear();
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail(named_, errno, "room for it");
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    if (close(std::exchange(descriptor_, -1)) != 0) fail(named_, errno, "room for it");  // the last bytes arrive now
   }
 
  private:
-  fs::path path_;
+  const fs::path& named_;
+  int descriptor_;
 };
-
-/// `file` is what the message names; `path` is what is written.
-void write_stream(const fs::path& file, const fs::path& path, std::string_view bytes) {
-  errno = 0;
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-  if (!stream) {
-    throw Error(fmt::format("{}: cannot be written: {}; expected a folder that exists and is writable", file.string(),
-                            system_says(errno)));
-  }
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();  // the last bytes reach the disk here, or do not
-  if (!stream) {
-    throw Error(fmt::format("{}: cannot be written: {}; expected room for {} bytes", file.string(), system_says(errno),
-                            bytes.size()));
-  }
-}
 
 }  // namespace
 
 void write_file(const fs::path& file, std::string_view bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
+  const fs::path target = fs::is_regular_file(status) ? fs::canonical(file) : file;  // follows a link
   if (fs::is_directory(status)) {
     throw Error(fmt::format("{}: is a folder; expected the name of a file", file.string()));
   }
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_stream(file, file, bytes);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return Output(file, target, O_TRUNC).write(bytes);
+  std::optional<Output> output;
+  Temporary temporary(Temporary::Removal::everything, [&] {
+    const fs::path name = temporary_name(target);
+    output.emplace(file, name, O_CREAT | O_EXCL);
+    return name;
+  });
+  output->write(bytes);
   try {
-    const fs::path target = fs::is_regular_file(status) ? fs::canonical(file) : file;  // follows a link
-    Temporary temporary(target);
-    write_stream(file, temporary.path(), bytes);
-    temporary.rename_to(target);
+    temporary.move_to(target);
   } catch (const fs::filesystem_error& failure) {
     throw Error(fmt::format("{}: cannot be replaced: {}", file.string(), failure.code().message()));
   }

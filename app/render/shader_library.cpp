@@ -4,29 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "error.h"
+#include "image/write_file.h"
+#include "system/run_program.h"
 #include "temporary_folder.h"
 
 namespace lamp::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string quoted(const fs::path& path) {
-  std::string text = "'";
-  for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// "methods/tiled.comp" becomes TREE/lib/shaders/methods/tiled.comp.
 fs::path source_in(const fs::path& tree, const ShaderCode& code) {
@@ -47,21 +35,16 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
     const fs::path shaders = source_tree_ / "lib/shaders";
     fs::path lookup = fmt::format("lookup/{}.glsl", code.lookup);
     if (!fs::exists(shaders / lookup)) lookup = fmt::format("lookup/fused/{}.glsl", code.lookup);
-    std::ofstream(folder.path() / "lookup.glsl") << fmt::format("#include \"{}\"\n", lookup.string());
+    write_file(folder.path() / "lookup.glsl", fmt::format("#include \"{}\"\n", lookup.string()));
   }
-  const fs::path out = folder.path() / "out.spv";
-  const fs::path log = folder.path() / "log.txt";
-  const std::string command =
-      fmt::format("glslc --target-env=vulkan1.3 -O -I{} -I{} -I{} -I{} {} -o {} 2> {}", quoted(folder.path()),
-                  quoted(source_tree_ / "lib/shaders"), quoted(source_tree_ / "lib/include"),
-                  quoted(source_tree_ / "app/render/shaders"), quoted(source), quoted(out), quoted(log));
-  if (std::system(command.c_str()) != 0) {
-    const std::string text = read_file(log);
-    throw Error(fmt::format("{}: {}", source.string(), text.substr(0, text.find('\n'))));
-  }
-  const std::string bytes = read_file(out);
-  std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
-  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+  const auto from = [](const fs::path& included) { return "-I" + included.string(); };
+  const ProgramResult compiled = run_program({"glslc", "--target-env=vulkan1.3", "-O", from(folder.path()),
+                                              from(source_tree_ / "lib/shaders"), from(source_tree_ / "lib/include"),
+                                              from(source_tree_ / "app/render/shaders"), source.string(), "-o", "-"});
+  if (!compiled.succeeded)
+    throw Error(fmt::format("{}: {}", source.string(), compiled.err.substr(0, compiled.err.find('\n'))));
+  std::vector<std::uint32_t> words(compiled.out.size() / sizeof(std::uint32_t));
+  std::memcpy(words.data(), compiled.out.data(), words.size() * sizeof(std::uint32_t));
   return words;
 }
 

@@ -12,6 +12,7 @@
 #include "image/write_file.h"
 #include "scene/capture.h"
 #include "scene/capture_json.h"
+#include "system/temporary.h"
 
 namespace lamp::app {
 namespace {
@@ -26,45 +27,6 @@ constexpr const char* EMISSION_FILE = "emission.exr";
 constexpr const char* LIGHTS_FILE = "lights.npy";
 constexpr std::array<std::string_view, 7> FILES{CAPTURE_FILE,  DEPTH_FILE,    ALBEDO_FILE, NORMAL_FILE,
                                                 MATERIAL_FILE, EMISSION_FILE, LIGHTS_FILE};
-
-/// A folder beside `place`, gone with its owner unless it was moved there.
-class NewFolder {
- public:
-  explicit NewFolder(const fs::path& place) : place_(place), path_(place) {
-    path_ += fmt::format(".{}.tmp", getpid());
-    for (above_ = place_.parent_path(); !fs::exists(above_); above_ = above_.parent_path()) {
-    }
-    fs::create_directories(path_);
-  }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-  ~NewFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    // Folders that were made on the way, while they are empty.
-    for (fs::path made = place_.parent_path(); made != above_; made = made.parent_path())
-      if (!fs::remove(made, ignored)) break;
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
-  /// An older capture gives way only once the new one is whole.
-  void move_into_place() {
-    fs::path old = path_;
-    old += ".old";
-    const bool replaces = fs::exists(place_);
-    if (replaces) fs::rename(place_, old);
-    std::error_code error;
-    fs::rename(path_, place_, error);
-    if (error && replaces) fs::rename(old, place_);
-    if (error) throw fs::filesystem_error("rename", place_, error);
-    if (replaces) fs::remove_all(old);
-  }
-
- private:
-  fs::path place_;
-  fs::path path_;
-  fs::path above_;  ///< the nearest folder that was there before
-};
 
 void write_plane(const fs::path& file, const View& view, const std::vector<glm::vec3>& values,
                  const std::array<std::string_view, 3>& channels) {
@@ -117,15 +79,13 @@ void write_contents(const fs::path& folder, const Scene& scene, LightsFormat lig
   write_file(folder / CAPTURE_FILE, manifest_text(manifest));
 }
 
-/// Without the slash at its end.
+/// The folder itself: no link, no slash at its end.
 fs::path place_of(const fs::path& folder) {
-  const fs::path place = fs::absolute(folder).lexically_normal();
-  return place.filename().empty() ? place.parent_path() : place;
+  const fs::path place = fs::absolute(folder);
+  return fs::weakly_canonical(place.filename().empty() ? place.parent_path() : place);
 }
 
-}  // namespace
-
-void check_capture_folder(const fs::path& folder) {
+void check_place(const fs::path& folder) {
   const fs::path place = folder.empty() ? folder : place_of(folder);
   if (!place.has_relative_path())
     throw Error(fmt::format("--out '{}': expected the name of a folder", folder.string()));
@@ -145,16 +105,37 @@ void check_capture_folder(const fs::path& folder) {
     throw Error(fmt::format("--out '{}': the folder {} is not writable", folder.string(), above.string()));
 }
 
+}  // namespace
+
+void check_capture_folder(const fs::path& folder) {
+  try {
+    check_place(folder);
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(fmt::format("--out '{}': {}", folder.string(), failure.code().message()));
+  }
+}
+
 void write_capture(const fs::path& folder, const Scene& scene, LightsFormat lights) {
   assert(scene.captured && "a capture is written from a captured frame");
   check_capture_folder(folder);
   check_emission(*scene.captured, folder);
+  const fs::path place = place_of(folder);
+  const fs::path name = temporary_name(place);
   try {
-    NewFolder made(place_of(folder));
-    write_contents(made.path(), scene, lights);
-    made.move_into_place();
+    NewFolders above(place.parent_path());
+    Temporary made(Temporary::Removal::everything, [&] {
+      fs::create_directory(name);
+      return name;
+    });
+    write_contents(name, scene, lights);
+    made.move_to(place);
+    above.keep();
   } catch (const fs::filesystem_error& failure) {
     throw Error(fmt::format("{}: cannot be written: {}", folder.string(), failure.code().message()));
+  } catch (const Error& error) {
+    // Of a file in the folder: the user knows it by the name that it was to have.
+    const std::string line = error.what();
+    throw Error(line.starts_with(name.string()) ? folder.string() + line.substr(name.string().size()) : line);
   }
 }
 

@@ -205,6 +205,33 @@ TEST_F(Outputs, AnOldFileSurvivesAFailureAndIsReplacedBySuccess) {
   EXPECT_EQ(files(), std::vector<std::string>{"lamp.png"});
 }
 
+TEST_F(Outputs, ErrorsNameTheFileAndTheReason) {
+  std::filesystem::create_symlink("/dev/full", path("full.png"));
+  std::filesystem::create_symlink("/dev/full", path("full.json"));
+  std::filesystem::create_symlink("/dev/full", path("full.html"));
+  const char* reason = "No space left on device";
+  expect_error(BAD_INPUT, small({"render", "--out", "full.png"}), {"full.png: cannot be written: ", reason});
+  expect_error(BAD_INPUT, small({"compare", "all", "tiled", "--out", "full.png"}),
+               {"full.png: cannot be written", reason});
+  const Outcome stats = lamp(small({"render", "--stats", "full.json"}));
+  EXPECT_EQ(stats.exit_code, BAD_INPUT);
+  EXPECT_NE(stats.err.find(reason), std::string::npos) << stats.err;
+  const std::string long_name(300, 'x');
+  expect_error(BAD_INPUT, small({"render", "--out", long_name + ".png"}), {long_name, "File name too long"});
+  expect_error(BAD_INPUT, small({"capture", "--out", long_name}), {long_name, "File name too long"});
+  expect_error(BAD_INPUT, small({"bench", "--method", "tiled", "--out", long_name}), {long_name, "File name too long"});
+  (void)output_of(small({"render", "--method", "tiled", "--out", long_name.substr(0, 251) + ".png"}));
+}
+
+TEST_F(Outputs, AFolderForTemporaryFilesThatIsNone) {
+  expect_error(BAD_INPUT, small({"render", "--shader-dir", LAMPLIGHT_SOURCE_DIR}),
+               {"/nonexistent/lamp-", "No such file or directory", "TMPDIR"}, {{"TMPDIR", "/nonexistent"}});
+  expect_error(BAD_INPUT, small({"render", "--shader-dir", LAMPLIGHT_SOURCE_DIR}),
+               {"glslc: cannot be started: No such file or directory"}, {{"PATH", "/nonexistent"}});
+  // Only what compiles shaders needs one.
+  EXPECT_EQ(lamp(small({"render", "--method", "tiled"}), {{"TMPDIR", "/nonexistent"}}).exit_code, 0);
+}
+
 TEST_F(Outputs, ShadersOfACheckoutGiveTheSamePicture) {
   (void)output_of(small({"render", "--out", "embedded.png"}));
   (void)output_of(small({"render", "--out", "anew.png", "--shader-dir", LAMPLIGHT_SOURCE_DIR}));

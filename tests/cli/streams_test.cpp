@@ -1,6 +1,8 @@
 // Whatever stdout and stderr are: closed, full, a pipe that nobody reads. `lamp` ends with an exit code that says what
 // happened, never by an abort, and what it prints never gets into a file.
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+
 #include "cli/cli_test.h"
 
 namespace lamp::cli {
@@ -77,6 +79,30 @@ TEST_F(Streams, NothingThatIsPrintedGetsIntoAFile) {
   EXPECT_EQ(shell("$LAMP capture plane --size 16x9 --lights 2 --out frame <&- >&- 2>&-").exit_code, BAD_INPUT);
   const nlohmann::json again = json_of({"verify", "frame", "--method", "tiled", "--json"});
   EXPECT_EQ(again.at(0).at("missed"), 0);
+}
+
+TEST_F(Streams, APipeThatNobodyReadsEndsItQuietly) {
+  for (const char* command : {"list methods", "list methods --json", "--help", "render --help"}) {
+    SCOPED_TRACE(command);
+    const Outcome outcome = shell(std::string("{ sleep 0.2; $LAMP ") + command +
+                                  "; echo $? >code; } | true; while [ ! -s code ]; do :; done");
+    EXPECT_EQ(read("code"), std::to_string(128 + SIGPIPE) + "\n");
+    EXPECT_EQ(outcome.err, "");
+    std::filesystem::remove(path("code"));
+  }
+}
+
+TEST_F(Streams, APipeThatNobodyReadsIsAnErrorForThoseWhoIgnoreTheSignal) {
+  const Outcome outcome =
+      shell("trap '' PIPE; { sleep 0.2; $LAMP list methods; echo $? >code; } | true; while [ ! -s code ]; do :; done");
+  EXPECT_EQ(read("code"), "2\n");
+  EXPECT_EQ(outcome.err, "lamp: standard output: cannot be written: Broken pipe\n");
+}
+
+TEST_F(Streams, AnErrorIntoAPipeThatNobodyReadsKeepsItsExitCode) {
+  (void)shell(
+      "{ sleep 0.2; $LAMP render nowhere 2>&1 >/dev/null; echo $? >code; } | true; while [ ! -s code ]; do :; done");
+  EXPECT_EQ(read("code"), "2\n");
 }
 
 }  // namespace

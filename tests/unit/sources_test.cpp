@@ -24,6 +24,12 @@ constexpr Reserved RESERVED[] = {
     {"std::cout", "", "system/print.h"},
     {"std::cerr", "", "system/print.h"},
     {"fwrite(", "print.cpp", "system/print.h"},
+    // While it waits, std::system ignores SIGINT.
+    {"std::system(", "", "system/run_program.h"},
+    {"popen(", "", "system/run_program.h"},
+    // What is half-written when a signal ends the program would stay, and a stream does not say why it fails.
+    {"ofstream", "", "image/write_file.h"},
+    {"mkdtemp(", "temporary_folder.h", "temporary_folder.h"},
 };
 
 TEST(Sources, KeepToTheirOwnMeans) {
@@ -35,9 +41,8 @@ TEST(Sources, KeepToTheirOwnMeans) {
     std::ifstream stream(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     for (const Reserved& reserved : RESERVED)
-      if (path.filename() != reserved.file)
-        EXPECT_EQ(text.find(reserved.text), std::string::npos)
-            << path << " says " << reserved.text << "; use " << reserved.instead;
+      EXPECT_TRUE(path.filename() == reserved.file || text.find(reserved.text) == std::string::npos)
+          << path << " says " << reserved.text << "; use " << reserved.instead;
   }
   EXPECT_GT(files, 100);
 }
