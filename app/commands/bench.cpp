@@ -19,6 +19,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
+#include "image/write_file.h"
 #include "scene/builtin.h"
 #include "system/print.h"
 #include "system/signals.h"
@@ -89,7 +90,7 @@ void check_groups(const std::string& source, std::span<const Group> groups) {
 }
 
 void check_folder(const std::string& out) {
-  const fs::path folder = fs::absolute(out);
+  const fs::path folder = fs::absolute(followed(out));
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(fmt::format("--out '{}': the folder cannot be made: {}", out, error.message()));

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "error.h"
+#include "image/write_file.h"
 #include "render/heatmap.h"
 #include "system/temporary.h"
 
@@ -51,7 +52,7 @@ void check_output(std::string_view option, const std::string& file, std::span<co
   if (std::ranges::find(extensions, fs::path(file).extension().string()) == extensions.end())
     throw Error(fmt::format("{} '{}': expected a name that ends in {}", option, file, fmt::join(extensions, " or ")));
   try {
-    const fs::path path = fs::absolute(file);
+    const fs::path path = fs::absolute(followed(file));
     if (fs::is_directory(path)) throw Error(fmt::format("{} '{}': is a folder, expected a file name", option, file));
     fs::path folder = path.parent_path();
     while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
@@ -66,7 +67,7 @@ void check_output(std::string_view option, const std::string& file, std::span<co
 
 void write_output(const fs::path& file, const std::function<void(const fs::path&)>& write) {
   try {
-    NewFolders folders(file.parent_path());
+    NewFolders folders(followed(file).parent_path());
     write(file);
     folders.keep();
   } catch (const fs::filesystem_error& failure) {

@@ -13,6 +13,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
+#include "image/write_file.h"
 #include "render/antialias.h"
 #include "system/print.h"
 
@@ -49,7 +50,8 @@ void check_outputs(const RenderOptions& o) {
   if (!o.stats.empty()) check_output("--stats", o.stats, NUMBERS);
   std::set<std::filesystem::path> files;
   for (const std::string& file : {o.out, o.heatmap, o.overlay, o.stats})
-    if (!file.empty() && !files.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file))).second)
+    if (!file.empty() &&
+        !files.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(followed(file)))).second)
       throw Error(fmt::format("{}: is asked for twice, expected a file of its own for each output", file));
 }
 

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int MOST_LINKS = 40;  // as many as Linux follows
+
 [[noreturn]] void fail(const fs::path& file, int error_number, const char* expected) {
   throw Error(fmt::format("{}: cannot be written: {}; expected {}", file.string(),
                           std::generic_category().message(error_number), expected));
@@ -54,10 +56,21 @@ class Output {
 
 }  // namespace
 
-void write_file(const fs::path& file, std::string_view bytes) {
+fs::path followed(fs::path file) {
   std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  const fs::path target = fs::is_regular_file(status) ? fs::canonical(file) : file;  // follows a link
+  for (int links = 0; fs::is_symlink(fs::symlink_status(file, error)); ++links) {
+    if (links == MOST_LINKS) fail(file, ELOOP, "a link that leads somewhere");
+    const fs::path next = fs::read_symlink(file, error);
+    if (error) fail(file, error.value(), "a link that leads somewhere");
+    file = file.parent_path() / next;
+  }
+  return file;
+}
+
+void write_file(const fs::path& file, std::string_view bytes) {
+  const fs::path target = followed(file);
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
   if (fs::is_directory(status)) {
     throw Error(fmt::format("{}: is a folder; expected the name of a file", file.string()));
   }

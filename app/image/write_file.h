@@ -13,4 +13,8 @@ namespace lamp::app {
 /// what was expected.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// Where a link leads, through all links, whether anything is there or not; what is no link leads to itself. Throws
+/// Error for links that lead in a circle.
+[[nodiscard]] std::filesystem::path followed(std::filesystem::path file);
+
 }  // namespace lamp::app

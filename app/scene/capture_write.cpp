@@ -82,7 +82,7 @@ void write_contents(const fs::path& folder, const Scene& scene, LightsFormat lig
 /// The folder itself: no link, no slash at its end.
 fs::path place_of(const fs::path& folder) {
   const fs::path place = fs::absolute(folder);
-  return fs::weakly_canonical(place.filename().empty() ? place.parent_path() : place);
+  return fs::weakly_canonical(followed(place.filename().empty() ? place.parent_path() : place));
 }
 
 void check_place(const fs::path& folder) {

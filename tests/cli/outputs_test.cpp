@@ -205,6 +205,33 @@ TEST_F(Outputs, AnOldFileSurvivesAFailureAndIsReplacedBySuccess) {
   EXPECT_EQ(files(), std::vector<std::string>{"lamp.png"});
 }
 
+// Also where nothing is there yet, not even the folder.
+TEST_F(Outputs, LinksAreFollowed) {
+  namespace fs = std::filesystem;
+  fs::create_symlink("new/target.png", path("lamp.png"));
+  fs::create_symlink("new/frame", path("frame"));
+  fs::create_symlink("new/bench", path("bench"));
+  fs::create_symlink("new/page.html", path("page.html"));
+  for (int i = 0; i < 2; ++i) {
+    (void)output_of(small({"render", "--method", "tiled", "--heatmap", "heat.png"}));
+    (void)output_of(small({"capture", "--out", "frame"}));
+    (void)output_of(small({"bench", "--method", "tiled", "--frames", "1", "--out", "bench"}));
+    (void)output_of({"report", "bench/results.json", "--out", "page.html"});
+    for (const char* link : {"lamp.png", "frame", "bench", "page.html"})
+      EXPECT_TRUE(fs::is_symlink(path(link))) << link;
+  }
+  EXPECT_TRUE(read("new/target.png").starts_with("\x89PNG"));
+  for (const char* file : {"new/frame/frame.json", "new/bench/results.json", "new/page.html"})
+    EXPECT_TRUE(fs::is_regular_file(path(file))) << file;
+  expect_error(BAD_INPUT, small({"render", "--heatmap", "new/target.png"}), {"new/target.png: is asked for twice"});
+  fs::create_symlink("circle.png", path("circle.png"));
+  const Outcome circle = lamp(small({"render", "--out", "circle.png"}));
+  EXPECT_EQ(circle.exit_code, BAD_INPUT);
+  EXPECT_NE(circle.err.find("circle.png: cannot be written: Too many levels of symbolic links"), std::string::npos);
+  (void)output_of(small({"capture", "--out", "frame/../other"}));  // beside the folder that the link leads to
+  EXPECT_TRUE(fs::is_regular_file(path("new/other/frame.json")));
+}
+
 TEST_F(Outputs, ErrorsNameTheFileAndTheReason) {
   std::filesystem::create_symlink("/dev/full", path("full.png"));
   std::filesystem::create_symlink("/dev/full", path("full.json"));

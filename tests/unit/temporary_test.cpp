@@ -170,6 +170,24 @@ TEST_F(Temporaries, AFolderThatCannotBeMadeIsNamedWithTheReason) {
   before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", kept.c_str(), 1);
 }
 
+TEST_F(Temporaries, FilesAreWrittenThroughLinks) {
+  fs::create_directory(path("folder"));
+  fs::create_symlink("folder/target", path("dangling"));
+  fs::create_symlink("dangling", path("link"));
+  write_file(path("link"), "first");
+  write_file(path("link"), "second");
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_TRUE(fs::is_symlink(path("dangling")));
+  EXPECT_EQ(content(path("folder/target")), "second");
+  fs::create_symlink("circle", path("circle"));
+  try {
+    write_file(path("circle"), "x");
+    ADD_FAILURE() << "a circle of links";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("Too many levels of symbolic links"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Temporaries, FileNamesMayBeAsLongAsTheSystemTakes) {
   const std::string name(255, 'x');
   write_file(path(name), "all of it");
