@@ -20,20 +20,21 @@
 namespace {
 
 using lamp::app::Exit;
+using lamp::app::help_text;
 using lamp::app::print_error;
 using lamp::app::Run;
 using lamp::app::write_out;
 
 constexpr const char* WELCOME =
-    "Lamplight: scenes with very many moving lights. Try:\n"
-    "  lamp render                                  a picture: lamp.png\n"
-    "  lamp render --heatmap heat.png               and how many lights each part of it sees\n"
-    "  lamp verify                                  is any light missed? every method, against the oracle\n"
-    "  lamp compare tiled clustered                 two methods side by side: compare.png\n"
-    "  lamp capture --out frame                     one frame as files, a scene for every command\n"
-    "  lamp bench --out out/quick                   what does each cost? a report: out/quick/report.html\n"
-    "  lamp list methods                            what there is\n"
-    "`lamp COMMAND --help` explains each; `lamp --version` says which release this is.\n";
+    "Lamplight finds which of many lights reach each part of a picture. Try:\n"
+    "  lamp render                            render a scene with 4096 lights to lamp.png\n"
+    "  lamp render --heatmap heat.png         and show how many lights each pixel walks\n"
+    "  lamp verify                            check that no method misses a light\n"
+    "  lamp compare tiled clustered           compare two methods: compare.png\n"
+    "  lamp bench --out out/quick             measure methods; the report is out/quick/report.html\n"
+    "  lamp capture --out frame               write one frame as files, a scene for every command\n"
+    "  lamp list methods                      list the methods; also scenes, suites, devices\n"
+    "`lamp COMMAND --help` explains a command, `lamp --version` names the release.\n";
 
 Exit run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
@@ -43,7 +44,7 @@ Exit run(int argc, char** argv) {
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png\n"
       "  lamp verify blocks --method tiled\n"
-      "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 no usable device");
+      "Exit codes: 0 done, 1 a check failed, 2 bad input or output that cannot be written, 3 no usable device");
   const std::vector<std::pair<const char*, Run>> commands{
       {"render", lamp::app::add_render(app)},
       {"verify", lamp::app::add_verify(app)},
@@ -56,11 +57,18 @@ Exit run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) throw lamp::app::parse_error(app, error);
-    write_out(error.get_name() == "CallForVersion" ? app.version() + "\n" : app.help());
+    const std::vector<CLI::App*> asked = app.get_subcommands();
+    if (error.get_name() == "CallForVersion")
+      write_out(app.version() + "\n");
+    else
+      write_out(help_text(asked.empty() ? app : *asked.front()));
     return Exit::done;
   }
-  for (const auto& [name, command] : commands)
-    if (app.got_subcommand(name)) return command();
+  for (const auto& [name, command] : commands) {
+    if (!app.got_subcommand(name)) continue;
+    lamp::app::check_repeats(*app.get_subcommand(name));
+    return command();
+  }
   write_out(WELCOME);
   return Exit::done;
 }

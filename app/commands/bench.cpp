@@ -66,6 +66,7 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   series.frame = r.frame;
   series.pictures = true;
   series.chart.x = "method";
+  check_once("--method", o.methods);
   std::vector<std::string> names = o.methods;
   if (names.empty())
     for (const Method& method : methods()) names.emplace_back(method.name);
@@ -236,31 +237,31 @@ std::string shell_quoted(const std::string& word) {
 
 Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   CLI::App* command =
-      app.add_subcommand("bench", "Measure methods: a suite, or all methods on a scene; writes a report");
+      app.add_subcommand("bench", "Measure how long methods take, on a suite or a scene; write a report");
   auto o = std::make_shared<BenchOptions>();
   o->request.scene = "quick";
   add_common_options(*command, o->request);
   command->get_option("scene")->description("a suite (lamp list suites), a suite's .json file, or a scene");
-  command
-      ->add_option("--method", o->methods,
-                   "method to measure on a scene, or auto; may be given more than once; default: all")
-      ->allow_extra_args(false);
-  command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  add_method_option(*command, o->methods, "method to measure on a scene");
+  add_option_option(*command, o->request);
   add_auto_options(*command, o->request);
-  command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
-      ->capture_default_str();
-  command->add_option("--out", o->out, "folder; results that are there already are not measured again")
-      ->capture_default_str();
-  command->add_option("--frames", o->frames, "timed frames; default: the suite's, on a software device at most 5")
+  add_path_option(*command, o->request);
+  add_out_option(*command, o->out, "write to this folder; what it has results of is not measured again")
+      .type_name("FOLDER");
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command->add_option(name, value, help)->type_name("N")->group("Measuring");
+  };
+  add("--frames", o->frames, "number of frames to time; default: the suite's, on a software device at most 5")
       ->check(whole_number(1, 100000));
-  command->add_option("--warm-up", o->warm_up, "frames before those")->check(whole_number(0, 100000));
-  command->add_option("--max-lights", o->max_lights, "leave out a suite's configurations with more")
+  add("--warm-up", o->warm_up, "number of frames before those; default: the suite's")->check(whole_number(0, 100000));
+  add("--max-lights", o->max_lights, "leave out the parts of a suite that have more lights")
       ->check(whole_number(0, MAX_LIGHTS));
   add_verifier_option(*command, o->verifier);
-  command->add_option("--max-size", o->max_size, "leave out a suite's configurations with more pixels, WIDTHxHEIGHT");
-  command->add_option("--scale", o->scale, "of all sizes, each side: for devices that a suite's are too large for")
+  add("--max-size", o->max_size, "leave out the parts of a suite that have more pixels")->type_name("WIDTHxHEIGHT");
+  add("--scale", o->scale, "multiply both sides of every size by this, for slow devices; 0.01 to 1")
+      ->type_name("FACTOR")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1.0));
+      ->check(number_between(0.01, 1.0));
   command->footer(
       "Examples:\n"
       "  lamp bench quick --out out/quick\n"

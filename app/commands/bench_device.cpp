@@ -22,8 +22,9 @@ std::uint32_t scene_frame(const Group& group, std::uint32_t number, std::uint32_
 
 Camera camera_of(const Scene& scene, const Group& group, std::uint32_t frame) {
   if (!group.flight && group.frame < 0) return find_camera(scene, group.camera);
+  if (!group.flight) return frame_camera(scene, group.frame);
   if (!scene.flight) throw Error(fmt::format("scene '{}': has no camera flight", group.scene));
-  return flight_camera(*scene.flight, group.flight ? frame : static_cast<std::uint32_t>(group.frame));
+  return flight_camera(*scene.flight, frame);
 }
 
 View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {

@@ -4,10 +4,9 @@
 #include "system/print.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace lamp::app {
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {}
+Progress::Progress() : terminal_(shows_progress()), start_(Clock::now()), drawn_(start_) {}
 
 void Progress::show(const std::string& text, double done) {
   const Clock::time_point now = Clock::now();

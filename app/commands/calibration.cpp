@@ -3,7 +3,6 @@
 #include "commands/calibration.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 
@@ -42,7 +41,7 @@ KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders
       return {.calibration = std::move(*cached), .origin = file};
     if (row.kind == "CPU") return built_in_calibration();
   }
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const bool terminal = shows_progress();
   if (terminal) print_error("auto: measures {} once ...", row.name);
   const auto begin = std::chrono::steady_clock::now();
   KnownCalibration known{.calibration = measure_calibration(context, shaders), .origin = {}};

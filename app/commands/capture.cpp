@@ -6,9 +6,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 
+#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/request.h"
 #include "system/print.h"
@@ -23,9 +25,10 @@ struct CaptureOptions {
 };
 
 LightsFormat parse_lights_as(const std::string& text) {
-  if (text == "npy") return LightsFormat::npy;
-  if (text == "json") return LightsFormat::json;
-  throw Error(fmt::format("--lights-as '{}': expected npy or json", text));
+  constexpr std::array<std::string_view, 2> NAMES{"npy", "json"};
+  if (text == NAMES[0]) return LightsFormat::npy;
+  if (text == NAMES[1]) return LightsFormat::json;
+  throw unknown_name("--lights-as", text, NAMES);
 }
 
 /// What the files hold: surfaces instead of meshes, and all lights.
@@ -65,12 +68,17 @@ Exit capture(const CaptureOptions& o) {
 }  // namespace
 
 Run add_capture(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("capture", "Write one frame as files that every command takes as a scene");
+  CLI::App* command = app.add_subcommand("capture", "Write one frame as files; every command takes them as a scene");
   auto o = std::make_shared<CaptureOptions>();
   add_common_options(*command, o->request);
   add_decal_option(*command, o->request);
-  command->add_option("--out", o->out, "folder: a new one, an empty one, or a capture to replace")->required();
-  command->add_option("--lights-as", o->lights_as, "npy (NumPy, compact) or json (readable)")->capture_default_str();
+  add_out_option(*command, o->out, "write to this folder: a new one, an empty one, or a capture to replace")
+      .required()
+      ->type_name("FOLDER");
+  command->add_option("--lights-as", o->lights_as, "how lights are written: npy (NumPy, compact) or json (readable)")
+      ->type_name("NAME")
+      ->group("Output")
+      ->capture_default_str();
   command->footer(
       "Examples:\n"
       "  lamp capture atrium --frame 40 --out frame\n"

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,27 @@ namespace lamp::app {
 /// Accepts the decimal digits of a whole number from `min` to `max`; no sign, no other base.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t min, std::uint64_t max);
 
+/// Accepts a number from `min` to `max`.
+[[nodiscard]] CLI::Validator number_between(double min, double max);
+
+/// Empty if the text is one of the names; else what was expected, with the nearest names.
+[[nodiscard]] std::string one_of(const std::string& text, std::span<const std::string_view> names);
+
+/// "--path 'defered': there is none of that name; the nearest are deferred, ...".
+[[nodiscard]] Error unknown_name(std::string_view what, std::string_view given,
+                                 std::span<const std::string_view> names);
+
+/// The error for a command that there is not.
+[[nodiscard]] Error unknown_command(const CLI::App& app, const std::string& given);
+
+/// Throws Error for an option or flag of the command that is given twice and does not repeat by design.
+void check_repeats(const CLI::App& command);
+
 /// One line that names the command, option or argument that was not understood and, for a name, the nearest there are.
 [[nodiscard]] Error parse_error(const CLI::App& app, const CLI::ParseError& error);
+
+/// The help of the program or of one of its commands.
+[[nodiscard]] std::string help_text(const CLI::App& command);
 
 /// The text with line breaks and other control characters written as escapes, so that it stays one line.
 [[nodiscard]] std::string escaped_line(std::string_view text);

@@ -110,21 +110,23 @@ Exit compare(const CompareOptions& o) {
 }  // namespace
 
 Run add_compare(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "Two methods side by side: heat maps, difference, numbers");
+  CLI::App* command = app.add_subcommand("compare", "Compare two methods: their heat maps side by side, their numbers");
   auto o = std::make_shared<CompareOptions>();
   o->request.size = "640x360";
-  command->add_option("a", o->a, "a method, or auto; with --panels, the scene");
-  command->add_option("b", o->b, "another");
+  command->add_option("a", o->a, "a method (lamp list methods), or auto; with --panels, the scene")
+      ->type_name("METHOD");
+  command->add_option("b", o->b, "the other method")->type_name("METHOD");
   add_common_options(*command, o->request);
   add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_decal_option(*command, o->request);
-  command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
-      ->capture_default_str();
-  command->add_option("--out", o->out, "picture, .png")->capture_default_str();
-  command->add_flag("--panels", o->panels,
-                    "six panels instead: picture, legend and Stewart's four heat maps; excess of each test");
-  command->add_flag("--json", o->json, "print the numbers as JSON");
+  add_path_option(*command, o->request);
+  add_out_option(*command, o->out, "write picture, heat maps and their difference to this file, .png");
+  add_json_flag(*command, o->json, "print the numbers as JSON");
+  command
+      ->add_flag("--panels", o->panels,
+                 "show one scene with four methods instead, as Stewart's figure 1.5 does, and measure each volume test")
+      ->group("Method");
   command->footer(
       "Examples:\n"
       "  lamp compare tiled clustered posts --lights 16384 --out posts.png\n"

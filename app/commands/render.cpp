@@ -72,8 +72,8 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
   for (const std::string& note : stats.notes) line("note", note);
   if (stats.findings)
-    line("pairs", fmt::format("{} of pixel and light walked, {:.1f} lights a pixel's list, longest {}",
-                              stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
+    line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",
+                               stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
   if (stats.rendered.counters.overflowed_cells != 0) line("overflow", overflow_words(stats));
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
@@ -147,25 +147,43 @@ Exit render(const RenderOptions& o) {
 }  // namespace
 
 Run add_render(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("render", "Render one picture, with heat map and numbers");
+  CLI::App* command = app.add_subcommand("render", "Render a picture, a heat map, and the times of a frame");
   auto o = std::make_shared<RenderOptions>();
   add_common_options(*command, o->request);
-  add_method_options(*command, o->request);
+  command
+      ->add_option("--method", o->request.method,
+                   "culling method (lamp list methods), or auto: the one expected to be fastest")
+      ->type_name("NAME")
+      ->group("Method")
+      ->capture_default_str();
+  add_option_option(*command, o->request);
+  add_path_option(*command, o->request);
   add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_decal_option(*command, o->request);
-  command->add_option("--out", o->out, "picture, .png or .exr")->capture_default_str();
-  command->add_option("--heatmap", o->heatmap, "heat map of lights a cell, .png");
-  command->add_option("--overlay", o->overlay, "heat map over the picture, .png");
-  command->add_option("--stats", o->stats, "numbers, .json");
-  command->add_option("--exposure", o->exposure, "auto or a factor")->capture_default_str();
-  command->add_option("--frames", o->frames, "frames to time; default: 20, on a software device 1")
-      ->check(whole_number(1, 100000));
+  add_out_option(*command, o->out, "write the picture to this file, .png or .exr");
+  const auto add_output = [&](const char* name, std::string& file, const char* help) {
+    command->add_option(name, file, help)->type_name("FILE")->group("Output");
+  };
+  add_output("--heatmap", o->heatmap, "write a heat map, .png: how many lights each pixel walks");
+  add_output("--overlay", o->overlay, "write the heat map blended over the picture, .png");
+  add_output("--stats", o->stats, "write the numbers, .json");
+  add_json_flag(*command, o->json, "print the numbers as JSON");
+  command->add_option("--exposure", o->exposure, "factor of the picture's brightness, or auto: from its surfaces")
+      ->type_name("FACTOR")
+      ->group("View")
+      ->capture_default_str();
   command
       ->add_option("--samples", o->samples,
-                   "of the picture, a pixel; numbers and heat maps are of the first; default: 4, of a captured frame 1")
-      ->check(whole_number(1, 1024));
-  command->add_flag("--json", o->json, "print the numbers as JSON");
+                   "samples of each pixel in the picture; numbers and heat maps show the first; default: 4, for a "
+                   "capture 1")
+      ->check(whole_number(1, 1024))
+      ->type_name("N")
+      ->group("View");
+  command->add_option("--frames", o->frames, "number of frames to time; default: 20, on a software device 1")
+      ->check(whole_number(1, 100000))
+      ->type_name("N")
+      ->group("Device");
   command->footer(
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png --heatmap heat.png\n"

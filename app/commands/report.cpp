@@ -36,10 +36,13 @@ Exit report(const ReportOptions& o) {
 }  // namespace
 
 Run add_report(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("report", "The page of a bench's results, or of two runs with their ratios");
+  CLI::App* command = app.add_subcommand("report", "Make the page of a bench again, or compare the results of two");
   auto o = std::make_shared<ReportOptions>();
-  command->add_option("results", o->files, "results.json; a second one to compare with")->required()->expected(1, 2);
-  command->add_option("--out", o->out, "the page, .html")->capture_default_str();
+  command->add_option("results", o->files, "results.json of a bench, and of a second one to compare it with")
+      ->type_name("FILE")
+      ->required()
+      ->expected(1, 2);
+  add_out_option(*command, o->out, "write the page to this file, .html");
   command->footer(
       "Examples:\n"
       "  lamp report out/quick/results.json --out quick.html\n"

@@ -1,4 +1,4 @@
-// Parses common options; loads scenes; opens sessions.
+// Parses the values of common options; loads scenes; opens sessions.
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/request.h"
 
@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
-#include <limits>
 
 #include "commands/command_line.h"
 #include "gpu/check.h"
@@ -23,10 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void unknown(const char* what, const std::string& given, std::span<const std::string_view> names) {
-  throw Error(fmt::format("{} '{}': there is none of that name; the nearest are {}", what, given,
-                          fmt::join(nearest_names(given, names), ", ")));
-}
+// A generated light's intensity grows with the square of its range: sums over millions of them stay finite.
+constexpr float LONGEST_RANGE_M = 1e6F;
 
 template <class Number>
 bool parse_number(std::string_view text, Number& out) {
@@ -40,8 +38,11 @@ std::string range_note(std::span<const Light> lights) {
   return fmt::format(" (range {:.2f} to {:.2f} m)", low.range, high.range);
 }
 
-void check_scene_lights(const Scene& scene) {
+void check_scene_lights(const Request& request, const Scene& scene) {
   if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
+  if (scene.lights.size() + request.lights > MAX_LIGHTS)
+    throw Error(fmt::format("--lights {}: with the {} of the scene {}, expected at most {} together", request.lights,
+                            scene.lights.size(), scene.name, MAX_LIGHTS));
 }
 
 /// A capture is one view. What asks for another is an error.
@@ -63,9 +64,7 @@ View requested_view(const Request& request, const Scene& scene) {
   if (scene.captured) return captured_view(request, scene);
   const glm::uvec2 size = parse_size(request.size);
   if (request.frame < 0) return view_of(find_camera(scene, request.camera), size.x, size.y, request.projection);
-  if (!scene.flight) throw Error(fmt::format("scene '{}': has no camera flight for --frame", request.scene));
-  return view_of(flight_camera(*scene.flight, static_cast<std::uint32_t>(request.frame)), size.x, size.y,
-                 request.projection);
+  return view_of(frame_camera(scene, request.frame), size.x, size.y, request.projection);
 }
 
 /// A capture holds no surfaces to lie on but those that its pixels show, with the decals that were there.
@@ -82,72 +81,6 @@ void add_decals(const Request& request, Setup& setup) {
 }
 
 }  // namespace
-
-void add_common_options(CLI::App& command, Request& r) {
-  command
-      .add_option("scene,--scene", r.scene,
-                  "a built-in scene (lamp list scenes), a .gltf or .glb file, or the folder of a capture")
-      ->capture_default_str();
-  command.add_option("--size", r.size, "picture size, WIDTHxHEIGHT; a capture has its own")
-      ->each([&r](const std::string&) { r.size_given = true; })
-      ->capture_default_str();
-  command
-      .add_option("--lights", r.lights, "generated lights, besides the scene's own; to a capture, none unless given")
-      ->check(whole_number(0, MAX_LIGHTS))
-      ->each([&r](const std::string&) { r.lights_given = true; })
-      ->capture_default_str();
-  command.add_option("--spots", r.spots, "fraction of the generated lights that are spots, 0 to 1")
-      ->check(CLI::Range(0.0F, 1.0F))
-      ->capture_default_str();
-  command.add_option("--range", r.range,
-                     "range of generated lights in metres, MIN:MAX or one number; default: from their density");
-  command.add_option("--seed", r.seed, "of the generated lights")
-      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  command.add_option("--camera", r.camera, "a camera of the scene by name; default: its first");
-  command.add_option("--frame", r.frame, "frame of the scene's camera flight instead of a camera; lights move too")
-      ->check(whole_number(0, std::numeric_limits<int>::max()));
-  command.add_option("--projection", r.projection, "camera, perspective, infinite, orthographic or off-centre")
-      ->capture_default_str();
-  command.add_option("--brdf", r.brdf, "ggx or blinn-phong")->capture_default_str();
-  command.add_option("--device", r.device, "number or part of the name of a device (lamp list devices)");
-  command.add_flag("--pipeline-statistics", r.pipeline_statistics,
-                   "registers and what else the driver says of each pass, in the stats; needs a driver that does");
-  command.add_option("--shader-dir", r.shader_dir,
-                     "a checkout of Lamplight whose shaders are compiled anew, with glslc");
-}
-
-void add_method_options(CLI::App& command, Request& r) {
-  command.add_option("--method", r.method, "culling method (lamp list methods), or auto: whichever takes least time")
-      ->capture_default_str();
-  command.add_option("--option", r.options, "option of the method, KEY=VALUE; may be given more than once")
-      ->allow_extra_args(false);
-  command.add_option("--path", r.path, "forward, tiled-deferred, deferred or standard-deferred")->capture_default_str();
-}
-
-void add_grow_option(CLI::App& command, Request& r) {
-  command.add_flag("--grow", r.grow,
-                   "make room for what does not fit, as an engine's Culler does, and say which options that takes");
-}
-
-void add_auto_options(CLI::App& command, Request& r) {
-  command.add_flag("--explain", r.explain, "say what auto predicts for each candidate, and why it takes one");
-  command
-      .add_option(
-          "--calibration", r.calibration,
-          "file of costs that auto goes by, or measure: anew, now; default: measured at a GPU's first use, kept "
-          "in the user's cache folder")
-      ->envname("LAMPLIGHT_CALIBRATION");
-}
-
-void add_decal_option(CLI::App& command, Request& r) {
-  command
-      .add_option("--decals", r.decals,
-                  "box decals, culled and looked up as lights are: the scene's own, then generated ones; a capture has "
-                  "those it was taken with")
-      ->check(whole_number(0, 65536))
-      ->capture_default_str();
-}
 
 glm::uvec2 parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
@@ -167,21 +100,23 @@ std::pair<float, float> parse_range(const std::string& text) {
       parse_number(std::string_view(text).substr(0, colon), low) &&
       parse_number(colon == std::string::npos ? std::string_view(text) : std::string_view(text).substr(colon + 1),
                    high);
-  if (!parsed || !(low > 0.0F) || !(high >= low) || !std::isfinite(high))
-    throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX", text));
+  if (!parsed || !(low > 0.0F) || !(high >= low) || !(high <= LONGEST_RANGE_M))
+    throw Error(
+        fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX <= {}", text, LONGEST_RANGE_M));
   return {low, high};
 }
 
 ShadingPath parse_path(const std::string& text) {
   const auto found = std::ranges::find(path_names(), text);
-  if (found == path_names().end()) unknown("--path", text, path_names());
+  if (found == path_names().end()) throw unknown_name("--path", text, path_names());
   return static_cast<ShadingPath>(found - path_names().begin());
 }
 
 Brdf parse_brdf(const std::string& text) {
-  if (text == "ggx") return Brdf::ggx;
-  if (text == "blinn-phong") return Brdf::blinn_phong;
-  throw Error(fmt::format("--brdf '{}': expected ggx or blinn-phong", text));
+  constexpr std::array<std::string_view, 2> NAMES{"ggx", "blinn-phong"};
+  if (text == NAMES[0]) return Brdf::ggx;
+  if (text == NAMES[1]) return Brdf::blinn_phong;
+  throw unknown_name("--brdf", text, NAMES);
 }
 
 VerifierChoice parse_verifier(const std::string& text, const Context& context) {
@@ -194,16 +129,6 @@ VerifierChoice parse_verifier(const std::string& text, const Context& context) {
   return VerifierChoice::gpu;
 }
 
-void add_verifier_option(CLI::App& command, std::string& verifier) {
-  command
-      .add_option("--verifier", verifier,
-                  fmt::format("who says which lights reach a pixel: oracle (CPU), gpu, or auto: the oracle up to {} "
-                              "billion pairs of pixel and light",
-                              ORACLE_PAIRS / 1'000'000'000))
-      ->check(CLI::IsMember({"oracle", "gpu", "auto"}))
-      ->capture_default_str();
-}
-
 std::uint64_t brute_force_pairs(const Context& context) {
   return context.row().kind == "CPU" ? 3'000'000'000 : 200'000'000'000;
 }
@@ -212,7 +137,16 @@ const Method& parse_method(const std::string& text) { return *take(find_method(t
 
 bool is_auto(std::string_view method) { return method == "auto"; }
 
+void check_once(std::string_view option, std::vector<std::string> values) {
+  std::ranges::sort(values);
+  if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
+    throw Error(fmt::format("{} {}: is given twice, expected once", option, *twice));
+}
+
 void check_request(const Request& request, const std::string& method) {
+  std::vector<std::string> keys;
+  for (const std::string& option : request.options) keys.push_back(option.substr(0, option.find('=')));
+  check_once("--option", keys);
   if (!is_auto(method)) static_cast<void>(take(resolve_options(parse_method(method), request.options)));
   if (is_auto(method) && !request.options.empty())
     throw Error("--option: belongs to one method, and auto chooses its own; name it with --method");
@@ -243,7 +177,7 @@ Setup make_setup(const Request& request) {
   const auto [min_range, max_range] = parse_range(request.range);
   Setup setup;
   setup.scene = load_scene(request.scene);
-  check_scene_lights(setup.scene);
+  check_scene_lights(request, setup.scene);
   setup.view = requested_view(request, setup.scene);
 
   setup.generated =

@@ -15,7 +15,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace lamp::app {
 
@@ -44,16 +45,27 @@ struct Request {
   bool grow = false;        ///< make room until everything fits
 };
 
-/// Adds the options to a command, with their defaults and examples in the help text.
+/// Adds what all commands with a scene take: the scene, its view, its lights, the device.
 void add_common_options(CLI::App& command, Request& request);
-/// Adds `--method`, `--option` and `--path`.
-void add_method_options(CLI::App& command, Request& request);
+/// Adds `--method` for several methods; `help` says what is done with them.
+void add_method_option(CLI::App& command, std::vector<std::string>& methods, const std::string& help);
+/// Adds `--option`.
+void add_option_option(CLI::App& command, Request& request);
+/// Adds `--path`.
+void add_path_option(CLI::App& command, Request& request);
 /// Adds `--grow`.
 void add_grow_option(CLI::App& command, Request& request);
 /// Adds `--explain` and `--calibration`.
 void add_auto_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
+/// Adds `-o` and `--out`.
+CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help);
+/// Adds `--json`.
+void add_json_flag(CLI::App& command, bool& json, const std::string& help);
+
+/// Throws Error, naming the option, if one of the values is there twice.
+void check_once(std::string_view option, std::vector<std::string> values);
 
 /// Throws Error for whatever can be known to be wrong before a scene is loaded: the method (`auto` or one of the
 /// table), its options, size, path, BRDF.

@@ -1,7 +1,6 @@
 // lamp verify: every method against the oracle and against brute force's picture.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +8,7 @@
 #include <memory>
 
 #include "commands/auto_method.h"
+#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/stats.h"
 #include "render/gpu_verifier.h"
@@ -44,10 +44,11 @@ struct Candidate {
 };
 
 void progress(std::string_view text) {
-  if (isatty(STDERR_FILENO) != 0) print_error("\r\033[K{}", text);
+  if (shows_progress()) print_error("\r\033[K{}", text);
 }
 
 std::vector<std::string> wanted_methods(const VerifyOptions& o) {
+  check_once("--method", o.methods);
   std::vector<std::string> wanted = o.methods;
   if (wanted.empty())
     for (const Method& method : methods()) wanted.emplace_back(method.name);
@@ -279,28 +280,26 @@ Exit verify(const VerifyOptions& o) {
 }  // namespace
 
 Run add_verify(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("verify", "Check methods against the oracle and brute force; exit 1 on a miss");
+  CLI::App* command = app.add_subcommand("verify", "Check that methods miss no light; exit code 1 if one does");
   auto o = std::make_shared<VerifyOptions>();
   o->request.size = "640x360";
   o->request.lights = 1024;
   add_common_options(*command, o->request);
   add_decal_option(*command, o->request);
-  command
-      ->add_option("--method", o->methods,
-                   "method to check, or auto; may be given more than once; default: all of them")
-      ->allow_extra_args(false);
-  command->add_option("--option", o->request.options, "option of the one method, KEY=VALUE")->allow_extra_args(false);
+  add_method_option(*command, o->methods, "method to check");
+  add_option_option(*command, o->request);
   add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
-  command->add_option("--path", o->request.path, "forward, tiled-deferred, deferred or standard-deferred")
-      ->capture_default_str();
+  add_path_option(*command, o->request);
   add_verifier_option(*command, o->verifier);
   command
-      ->add_option("--runs", o->runs, "how often lists are made; those of a method whose lists ascend must be the same")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, 100'000U));
-  command->add_flag("--json", o->json, "print an array of Stats objects, one a method");
+      ->add_option("--runs", o->runs,
+                   "make the lists so many times; those of an ordered method must always be the same")
+      ->check(whole_number(1, 100'000))
+      ->type_name("N")
+      ->group("Method")
+      ->capture_default_str();
+  add_json_flag(*command, o->json, "print the numbers as JSON, an array with one object for each method");
   command->footer(
       "Examples:\n"
       "  lamp verify atrium --lights 8192\n"

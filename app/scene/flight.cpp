@@ -130,6 +130,16 @@ Camera flight_camera(const Flight& flight, std::uint32_t frame) {
           .fov_y = flight.fov_y};
 }
 
+Camera frame_camera(const Scene& scene, int frame) {
+  if (!scene.flight) throw Error(fmt::format("--frame {}: the scene {} has no camera flight", frame, scene.name));
+  const std::uint32_t frames = scene.flight->frames;
+  // The path is closed, so that later frames would only be the same ones again.
+  if (frame < 0 || static_cast<std::uint32_t>(frame) >= frames)
+    throw Error(
+        fmt::format("--frame {}: the flight of the scene {} has the frames 0 to {}", frame, scene.name, frames - 1));
+  return flight_camera(*scene.flight, static_cast<std::uint32_t>(frame));
+}
+
 std::span<const std::string_view> projection_names() { return PROJECTIONS; }
 
 View view_of(const Camera& camera, std::uint32_t width, std::uint32_t height, std::string_view projection) {
@@ -153,8 +163,10 @@ const Camera& find_camera(const Scene& scene, std::string_view name) {
   std::vector<std::string_view> names;
   names.reserve(scene.cameras.size());
   for (const Camera& camera : scene.cameras) names.push_back(camera.name);
-  throw Error(
-      fmt::format("{}: camera '{}': there is no such camera; there are {}", scene.name, name, fmt::join(names, ", ")));
+  constexpr std::size_t MOST_NAMED = 8;
+  throw Error(fmt::format("{}: camera '{}': there is no such camera; {} {}", scene.name, name,
+                          names.size() > MOST_NAMED ? "the nearest are" : "there are",
+                          fmt::join(nearest_names(name, names, MOST_NAMED), ", ")));
 }
 
 }  // namespace lamp::app

@@ -16,6 +16,10 @@ namespace lamp::app {
 /// Throws Error for a flight without keys or frames.
 [[nodiscard]] Camera flight_camera(const Flight& flight, std::uint32_t frame);
 
+/// The camera at a frame of the scene's flight, for somebody who names it: throws Error where there is no flight, and
+/// for a frame behind its last.
+[[nodiscard]] Camera frame_camera(const Scene& scene, int frame);
+
 /// Projections of `--projection`: `camera` (as the camera says), `perspective` (finite far), `infinite`,
 /// `orthographic` (a window that shows about the same part of the scene), `off-centre` (a window that is not
 /// symmetric).

@@ -15,6 +15,7 @@ namespace {
 
 std::atomic<int> out_errno = 0;
 std::atomic<int> error_errno = 0;
+bool progress_is_hidden = false;  // set while the command line is read, by the only thread
 
 void remember(std::atomic<int>& first, bool written) {
   int none = 0;
@@ -40,6 +41,10 @@ void open_standard_streams() {
 void write_out(std::string_view text) { write_to(stdout, text, out_errno); }
 
 void write_error(std::string_view text) { write_to(stderr, text, error_errno); }
+
+bool shows_progress() { return !progress_is_hidden && isatty(STDERR_FILENO) != 0; }
+
+void hide_progress() { progress_is_hidden = true; }
 
 int output_problem() {
   errno = 0;

@@ -29,6 +29,10 @@ void print_error(fmt::format_string<Arguments...> format, Arguments&&... argumen
   write_error(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
+/// Whether progress is shown: on a terminal, unless it was hidden.
+[[nodiscard]] bool shows_progress();
+void hide_progress();
+
 /// Flushes stdout. The `errno` of the first of its writes that failed, or 0.
 [[nodiscard]] int output_problem();
 /// The same of stderr.

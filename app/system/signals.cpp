@@ -54,7 +54,7 @@ bool is_remembered(int signal) {
   if (s.signal == 0) {
     s.signal = signal;
     s.came = now;
-    if (isatty(STDERR_FILENO) != 0) write_error("\nstops after what it is at; the signal again ends it at once\n");
+    if (shows_progress()) write_error("\nstops after what it is at; the signal again ends it at once\n");
     return true;
   }
   // Shells and `timeout` may send one signal twice, to the process and to its group: only a later one is impatience.

@@ -22,7 +22,9 @@ TEST_F(BadInput, NamesThatDoNotExistBringTheNearest) {
   expect_error(BAD_INPUT, {"render", "--path", "defered"}, {"--path 'defered'", "nearest are deferred, "});
   expect_error(BAD_INPUT, {"render", "plane", "--projection", "ortho"}, {"projection 'ortho'", "orthographic"});
   expect_error(BAD_INPUT, {"render", "plane", "--camera", "back"}, {"camera 'back'", "there are front"});
-  expect_error(BAD_INPUT, {"render", "--brdf", "gx"}, {"--brdf 'gx'", "ggx or blinn-phong"});
+  expect_error(BAD_INPUT, {"render", "--brdf", "gx"}, {"--brdf 'gx'", "nearest are ggx, "});
+  expect_error(BAD_INPUT, {"capture", "--out", "x", "--lights-as", "jsn"}, {"--lights-as 'jsn'", "nearest are json, "});
+  expect_error(BAD_INPUT, {"verify", "--verifier", "orcle"}, {"--verifier", "'orcle'", "nearest are oracle, "});
   expect_error(BAD_INPUT, {"list", "method"}, {"list 'method'", "methods"});
 }
 
@@ -57,6 +59,12 @@ TEST_F(BadInput, Numbers) {
     expect_error(BAD_INPUT, {"render", std::string("--lights=") + lights},
                  {"--lights", "from 0 to 16777216", "'" + std::string(lights) + "'"});
   expect_error(BAD_INPUT, {"render", "--seed=-1"}, {"--seed", "whole number", "'-1'"});
+  expect_error(BAD_INPUT, {"render", "--range", "1:1e7"}, {"--range '1:1e7'", "MAX <= 1000000"});
+  expect_error(BAD_INPUT, {"render", "plane", "--lights", "16777216"},
+               {"--lights 16777216: with the 1 of the scene plane", "at most 16777216"});
+  expect_error(BAD_INPUT, {"render", "--seed", "18446744073709551616"}, {"--seed", "whole number"});
+  for (const char* runs : {"0", "010", "1e3"})
+    expect_error(BAD_INPUT, {"verify", "--runs", runs}, {"--runs", "from 1"});
   expect_error(BAD_INPUT, {"render", "--frame=-5"}, {"--frame", "whole number", "'-5'"});
   expect_error(BAD_INPUT, {"render", "--frames", "0"}, {"--frames", "from 1 to ", "'0'"});
   expect_error(BAD_INPUT, {"render", "--samples", "0"}, {"--samples", "from 1 to ", "'0'"});
@@ -68,9 +76,50 @@ TEST_F(BadInput, Numbers) {
                  {"--exposure '" + std::string(exposure) + "'", "auto or a factor"});
 }
 
+// The flight is closed: a frame behind its last would be one of the same frames.
+TEST_F(BadInput, FramesBehindTheFlightsLast) {
+  for (const char* frame : {"300", "2147483647"}) {
+    const std::string says =
+        std::string("--frame ") + frame + ": the flight of the scene plane has the frames 0 to 299";
+    for (const Arguments& command :
+         {Arguments{"render", "plane"}, Arguments{"verify", "plane"}, Arguments{"compare", "tiled", "all", "plane"},
+          Arguments{"capture", "plane", "--out", "x"}, Arguments{"bench", "plane"}}) {
+      Arguments all = command;
+      all.insert(all.end(), {"--frame", frame});
+      expect_error(BAD_INPUT, all, {says});
+    }
+  }
+}
+
+TEST_F(BadInput, OptionsThatAreGivenTwice) {
+  const auto twice = [this](const Arguments& command, const std::string& option, const std::string& value) {
+    Arguments all = command;
+    for (int i = 0; i < 2; ++i) {
+      all.push_back(option);
+      if (!value.empty()) all.push_back(value);
+    }
+    expect_error(BAD_INPUT, all, {option, "is given 2 times, expected once"});
+  };
+  for (const char* command : {"render", "verify", "capture", "bench"}) {
+    twice({command, "plane"}, "--size", "8x8");
+    twice({command, "plane"}, "--lights", "1");
+  }
+  for (const char* command : {"render", "capture", "bench"}) twice({command, "plane"}, "--out", "x.png");
+  for (const char* command : {"render", "verify", "bench"}) twice({command, "plane"}, "--pipeline-statistics", "");
+  twice({"render"}, "--method", "tiled");
+  twice({"list", "methods"}, "--json", "");
+  for (const char* command : {"verify", "bench"})
+    expect_error(BAD_INPUT, {command, "plane", "--method", "tiled", "--method", "tiled"},
+                 {"--method tiled: is given twice"});
+  expect_error(BAD_INPUT, {"render", "--method", "tiled", "--option", "tile=8", "--option", "tile=16"},
+               {"--option tile: is given twice"});
+  expect_error(BAD_INPUT, {"render", "plane", "--size"}, {"option '--size': expected a value"});
+}
+
 TEST_F(BadInput, ArgumentsTooMany) {
   expect_error(BAD_INPUT, {"render", "plane", "atrium"}, {"argument 'atrium'", "lamp render --help"});
-  expect_error(BAD_INPUT, {"render", "--size", "8x8", "--size", "9x9"}, {"--size"});
+  expect_error(BAD_INPUT, {"report", "a", "b", "c"}, {"results: expected at most 2, got 3"});
+  expect_error(BAD_INPUT, {"-q", "render", "plane"}, {"option '-q'", "before the command", "lamp render -q"});
   expect_error(BAD_INPUT, {"list"}, {"what is required", "lamp list --help"});
 }
 

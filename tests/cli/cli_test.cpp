@@ -16,14 +16,6 @@
 #include <iterator>
 
 namespace lamp::cli {
-namespace {
-
-namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// What the child writes into one end comes out of the other.
 struct Pipe {
@@ -48,6 +40,15 @@ struct Pipe {
     return text;
   }
 };
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 std::vector<std::string> environment_with(const Environment& more) {
   std::vector<std::string> all;

@@ -1,7 +1,13 @@
 // Whatever stdout and stderr are: closed, full, a pipe that nobody reads. `lamp` ends with an exit code that says what
 // happened, never by an abort, and what it prints never gets into a file.
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <functional>
 
 #include "cli/cli_test.h"
 
@@ -103,6 +109,33 @@ TEST_F(Streams, AnErrorIntoAPipeThatNobodyReadsKeepsItsExitCode) {
   (void)shell(
       "{ sleep 0.2; $LAMP render nowhere 2>&1 >/dev/null; echo $? >code; } | true; while [ ! -s code ]; do :; done");
   EXPECT_EQ(read("code"), "2\n");
+}
+
+/// What the script says on a terminal that is stderr.
+std::string on_a_terminal(const std::function<Outcome(const std::string& terminal)>& run) {
+  const int controller = posix_openpt(O_RDWR | O_NOCTTY);
+  EXPECT_TRUE(controller >= 0 && grantpt(controller) == 0 && unlockpt(controller) == 0);
+  const std::string terminal = ptsname(controller);
+  const int held = open(terminal.c_str(), O_RDWR | O_NOCTTY);  // so that what was written is kept
+  EXPECT_EQ(run(terminal).exit_code, 0);
+  std::string text(65536, '\0');
+  fcntl(controller, F_SETFL, O_NONBLOCK);
+  const ssize_t count = ::read(controller, text.data(), text.size());
+  close(held);
+  close(controller);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  return text;
+}
+
+TEST_F(Streams, ProgressIsShownOnATerminalUnlessItIsHidden) {
+  const auto verify = [&](const std::string& more) {
+    return on_a_terminal([&](const std::string& terminal) {
+      return shell("$LAMP verify plane --size 16x9 --lights 2 --method tiled" + more + " 2>" + terminal);
+    });
+  };
+  EXPECT_NE(verify("").find("\r\033[Kverify"), std::string::npos);
+  EXPECT_EQ(verify(" -q"), "");
+  EXPECT_EQ(verify(" --quiet"), "");
 }
 
 }  // namespace

@@ -1,0 +1,170 @@
+// Adds the options that commands share, in the groups in which the help shows them.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <limits>
+
+#include "commands/command_line.h"
+#include "commands/request.h"
+#include "system/print.h"
+
+namespace lamp::app {
+namespace {
+
+void add_light_options(CLI::App& command, Request& r) {
+  command.add_option("--lights", r.lights, "number of lights to generate, besides the scene's own; for a capture 0")
+      ->check(whole_number(0, MAX_LIGHTS))
+      ->each([&r](const std::string&) { r.lights_given = true; })
+      ->type_name("N")
+      ->group("Lights")
+      ->capture_default_str();
+  command.add_option("--spots", r.spots, "part of the generated lights that are spots, 0 to 1")
+      ->check(number_between(0.0, 1.0))
+      ->type_name("PART")
+      ->group("Lights")
+      ->capture_default_str();
+  command
+      .add_option("--range", r.range,
+                  "range of the generated lights in metres, MIN:MAX or one number; default: such that about 24 of them "
+                  "reach a point")
+      ->type_name("MIN:MAX")
+      ->group("Lights");
+  command.add_option("--seed", r.seed, "seed of the generated lights and decals; the same seed gives the same picture")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("N")
+      ->group("Lights")
+      ->capture_default_str();
+}
+
+void add_view_options(CLI::App& command, Request& r) {
+  command.add_option("--size", r.size, "size of the picture in pixels; a capture has its own")
+      ->each([&r](const std::string&) { r.size_given = true; })
+      ->type_name("WIDTHxHEIGHT")
+      ->group("View")
+      ->capture_default_str();
+  command.add_option("--camera", r.camera, "camera of the scene (an unknown name lists them); default: its first")
+      ->type_name("NAME")
+      ->group("View");
+  command
+      .add_option("--frame", r.frame,
+                  "frame of the scene's camera flight, from 0, instead of a camera; the generated lights move with it")
+      ->check(whole_number(0, std::numeric_limits<int>::max()))
+      ->type_name("N")
+      ->group("View");
+  command
+      .add_option("--projection", r.projection,
+                  "camera (as the scene's camera has it), perspective, infinite, orthographic or off-centre")
+      ->type_name("NAME")
+      ->group("View")
+      ->capture_default_str();
+  command.add_option("--brdf", r.brdf, "how surfaces reflect: ggx or blinn-phong")
+      ->type_name("NAME")
+      ->group("View")
+      ->capture_default_str();
+}
+
+void add_device_options(CLI::App& command, Request& r) {
+  command.add_option("--device", r.device, "Vulkan device: its number, or a part of its name (lamp list devices)")
+      ->type_name("NAME")
+      ->group("Device");
+  command
+      .add_flag("--pipeline-statistics", r.pipeline_statistics,
+                "add what the driver says of each pass, such as its registers, to the numbers; few drivers say it")
+      ->group("Device");
+  command
+      .add_option("--shader-dir", r.shader_dir,
+                  "checkout of Lamplight: its shaders are compiled with glslc and used instead of the built-in ones")
+      ->type_name("FOLDER")
+      ->group("Device");
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, Request& r) {
+  command
+      .add_option("scene,--scene", r.scene,
+                  "a built-in scene (lamp list scenes), a .gltf or .glb file, or the folder of a capture")
+      ->type_name("SCENE")
+      ->capture_default_str();
+  command.add_flag_callback("-q,--quiet", hide_progress, "show no progress on the terminal");
+  add_view_options(command, r);
+  add_light_options(command, r);
+  add_device_options(command, r);
+}
+
+void add_method_option(CLI::App& command, std::vector<std::string>& methods, const std::string& help) {
+  command
+      .add_option("--method", methods, help + " (lamp list methods), or auto; may be repeated; default: all methods")
+      ->allow_extra_args(false)
+      ->type_name("NAME")
+      ->group("Method");
+}
+
+void add_option_option(CLI::App& command, Request& r) {
+  command
+      .add_option("--option", r.options,
+                  "an option of the method (lamp list methods); may be repeated, once for each key")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE")
+      ->group("Method");
+}
+
+void add_path_option(CLI::App& command, Request& r) {
+  command.add_option("--path", r.path, "how pixels are shaded: forward, tiled-deferred, deferred or standard-deferred")
+      ->type_name("NAME")
+      ->group("Method")
+      ->capture_default_str();
+}
+
+void add_grow_option(CLI::App& command, Request& r) {
+  command.add_flag("--grow", r.grow, "enlarge lists until every light fits, and say which options that took")
+      ->group("Method");
+}
+
+void add_auto_options(CLI::App& command, Request& r) {
+  command.add_flag("--explain", r.explain, "print how long auto expects each method to take, and why it chose one")
+      ->group("Method");
+  command
+      .add_option("--calibration", r.calibration,
+                  "file of measured costs for auto, or measure: measure them now; default: measured once for each GPU "
+                  "and kept in the user's cache folder")
+      ->envname("LAMPLIGHT_CALIBRATION")
+      ->type_name("FILE")
+      ->group("Method");
+}
+
+void add_decal_option(CLI::App& command, Request& r) {
+  command
+      .add_option("--decals", r.decals,
+                  "number of box decals: the scene's own first, then generated ones; a capture shows those that it was "
+                  "taken with")
+      ->check(whole_number(0, 65536))
+      ->type_name("N")
+      ->group("Lights")
+      ->capture_default_str();
+}
+
+CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help) {
+  return *command.add_option("-o,--out", out, help)->type_name("FILE")->group("Output")->capture_default_str();
+}
+
+void add_json_flag(CLI::App& command, bool& json, const std::string& help) {
+  command.add_flag("--json", json, help)->group("Output");
+}
+
+void add_verifier_option(CLI::App& command, std::string& verifier) {
+  static constexpr std::array<std::string_view, 3> NAMES{"oracle", "gpu", "auto"};
+  command
+      .add_option("--verifier", verifier,
+                  fmt::format("what finds the lights that reach each pixel: oracle (on the CPU), gpu, or auto: the "
+                              "oracle up to {} billion pairs of pixel and light",
+                              ORACLE_PAIRS / 1'000'000'000))
+      ->check([](const std::string& text) { return one_of(text, NAMES); })
+      ->type_name("NAME")
+      ->group("Method")
+      ->capture_default_str();
+}
+
+}  // namespace lamp::app
