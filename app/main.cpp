@@ -34,7 +34,8 @@ constexpr const char* WELCOME =
     "  lamp bench --out out/quick             measure methods; the report is out/quick/report.html\n"
     "  lamp capture --out frame               write one frame as files, a scene for every command\n"
     "  lamp list methods                      list the methods; also scenes, suites, devices\n"
-    "`lamp COMMAND --help` explains a command, `lamp --version` names the release.\n";
+    "  lamp info atrium                       say what a scene holds\n"
+    "`lamp help COMMAND` or `lamp COMMAND --help` explains a command, `lamp --version` names the release.\n";
 
 Exit run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
@@ -52,7 +53,9 @@ Exit run(int argc, char** argv) {
       {"capture", lamp::app::add_capture(app)},
       {"bench", lamp::app::add_bench(app, {argv, static_cast<std::size_t>(argc)})},
       {"report", lamp::app::add_report(app)},
-      {"list", lamp::app::add_list(app)}};
+      {"info", lamp::app::add_info(app)},
+      {"list", lamp::app::add_list(app)},
+      {"help", lamp::app::add_help(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

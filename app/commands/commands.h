@@ -23,6 +23,8 @@ using Run = std::function<Exit()>;
 /// `arguments`: the whole command line, for the record of how results were made.
 [[nodiscard]] Run add_bench(CLI::App& app, std::span<char* const> arguments);
 [[nodiscard]] Run add_report(CLI::App& app);
+[[nodiscard]] Run add_info(CLI::App& app);
 [[nodiscard]] Run add_list(CLI::App& app);
+[[nodiscard]] Run add_help(CLI::App& app);
 
 }  // namespace lamp::app

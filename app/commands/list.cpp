@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/suite.h"
+#include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/request.h"
 #include "gpu/context.h"
 #include "lamplight/method.h"
 #include "scene/builtin.h"
@@ -26,22 +28,24 @@ nlohmann::json option_json(const OptionSpec& spec) {
   return json;
 }
 
+nlohmann::json method_json(const Method& m) {
+  nlohmann::json options = nlohmann::json::array();
+  for (const OptionSpec& spec : m.options) options.push_back(option_json(spec));
+  return {{"name", m.name},
+          {"title", m.title},
+          {"source", m.source},
+          {"summary", m.summary},
+          {"result", m.result},
+          {"ordered", m.ordered},
+          {"approximate", m.approximate},
+          {"needs_depth", m.needs_depth},
+          {"any_depth", m.any_depth},
+          {"options", options}};
+}
+
 nlohmann::json methods_json() {
   nlohmann::json array = nlohmann::json::array();
-  for (const Method& m : methods()) {
-    nlohmann::json options = nlohmann::json::array();
-    for (const OptionSpec& spec : m.options) options.push_back(option_json(spec));
-    array.push_back({{"name", m.name},
-                     {"title", m.title},
-                     {"source", m.source},
-                     {"summary", m.summary},
-                     {"result", m.result},
-                     {"ordered", m.ordered},
-                     {"approximate", m.approximate},
-                     {"needs_depth", m.needs_depth},
-                     {"any_depth", m.any_depth},
-                     {"options", options}});
-  }
+  for (const Method& m : methods()) array.push_back(method_json(m));
   return array;
 }
 
@@ -51,13 +55,31 @@ void print_option(const OptionSpec& spec) {
   print_out("    {:<16} {} (default {}): {}\n", spec.key, values, spec.fallback, spec.help);
 }
 
+void print_method(const Method& m) {
+  print_out("{:<20} {}{}{}\n  {}\n  {}\n", m.name, m.title, m.ordered ? "" : " [unordered]",
+            m.approximate ? " [approximate]" : "", m.summary, m.source);
+}
+
 void print_methods() {
-  for (const Method& m : methods()) {
-    print_out("{:<14} {}{}{}\n  {}\n  {}\n", m.name, m.title, m.ordered ? "" : " [unordered]",
-              m.approximate ? " [approximate]" : "", m.summary, m.source);
-    for (const OptionSpec& spec : m.options) print_option(spec);
+  for (const Method& m : methods()) print_method(m);
+  write_out(
+      "unordered: its lists come in another order every time. approximate: it may miss lights, as its source does.\n"
+      "`lamp list methods NAME` shows a method's options. --method auto, the default, takes the method that is "
+      "expected "
+      "to be fastest (docs/auto.md).\n");
+}
+
+/// One method, with its options.
+Exit list_method(const std::string& name, bool json) {
+  const Method& method = parse_method(name);
+  if (json) {
+    print_out("{}\n", method_json(method).dump(2));
+    return Exit::done;
   }
-  print_out("--method auto, the default, takes whichever is predicted to take least time (docs/auto.md).\n");
+  print_method(method);
+  if (!method.options.empty()) write_out("  options, for --option KEY=VALUE:\n");
+  for (const OptionSpec& spec : method.options) print_option(spec);
+  return Exit::done;
 }
 
 nlohmann::json scenes_json() {
@@ -85,7 +107,8 @@ nlohmann::json devices_json(std::span<const DeviceRow> rows) {
 
 void print_devices(std::span<const DeviceRow> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i)
-    print_out("{} {} [{}] {} {}\n", i, rows[i].name, rows[i].kind, rows[i].driver, rows[i].problem);
+    print_out("{} {}, {}, driver {}{}\n", i, rows[i].name, rows[i].kind, rows[i].driver,
+              rows[i].problem.empty() ? "" : "; cannot be used: " + rows[i].problem);
 }
 
 nlohmann::json suites_json() {
@@ -107,10 +130,11 @@ void print_suites() {
 
 constexpr std::string_view KINDS[] = {"methods", "scenes", "suites", "devices"};
 
-Exit list(const std::string& what, bool json) {
-  if (std::ranges::find(KINDS, what) == std::end(KINDS))
-    throw Error(fmt::format("list '{}': there is no such list; expected {}", what,
-                            fmt::join(nearest_names(what, KINDS), ", ")));
+Exit list(const std::string& what, const std::string& name, bool json) {
+  if (std::ranges::find(KINDS, what) == std::end(KINDS)) throw unknown_name("list", what, KINDS);
+  if (!name.empty() && what != "methods")
+    throw Error(fmt::format("argument '{}': was not expected; only a method has more to show", name));
+  if (!name.empty()) return list_method(name, json);
   if (what == "devices") {
     const std::vector<DeviceRow> rows = list_devices();
     if (json)
@@ -132,13 +156,15 @@ Exit list(const std::string& what, bool json) {
 }  // namespace
 
 Run add_list(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "What there is: methods, scenes, suites or devices");
+  CLI::App* command = app.add_subcommand("list", "List methods, scenes, suites or devices");
   auto what = std::make_shared<std::string>();
+  auto name = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("what", *what, "methods, scenes, suites or devices")->required();
-  command->add_flag("--json", *json, "print an array of objects");
-  command->footer("Examples:\n  lamp list methods\n  lamp list devices --json");
-  return [what, json] { return list(*what, *json); };
+  command->add_option("what", *what, "methods, scenes, suites or devices")->type_name("WHAT")->required();
+  command->add_option("name", *name, "a method, to see its options")->type_name("NAME");
+  add_json_flag(*command, *json, "print an array of objects, of one method an object");
+  command->footer("Examples:\n  lamp list methods\n  lamp list methods tiled\n  lamp list devices --json");
+  return [what, name, json] { return list(*what, *name, *json); };
 }
 
 }  // namespace lamp::app

@@ -44,7 +44,7 @@ void add_view_options(CLI::App& command, Request& r) {
       ->type_name("WIDTHxHEIGHT")
       ->group("View")
       ->capture_default_str();
-  command.add_option("--camera", r.camera, "camera of the scene (an unknown name lists them); default: its first")
+  command.add_option("--camera", r.camera, "camera of the scene (lamp info SCENE names them); default: its first")
       ->type_name("NAME")
       ->group("View");
   command
@@ -105,7 +105,7 @@ void add_method_option(CLI::App& command, std::vector<std::string>& methods, con
 void add_option_option(CLI::App& command, Request& r) {
   command
       .add_option("--option", r.options,
-                  "an option of the method (lamp list methods); may be repeated, once for each key")
+                  "an option of the method (lamp list methods NAME shows them); may be repeated, once for each key")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE")
       ->group("Method");

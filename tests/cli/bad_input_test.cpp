@@ -25,6 +25,9 @@ TEST_F(BadInput, NamesThatDoNotExistBringTheNearest) {
   expect_error(BAD_INPUT, {"render", "--brdf", "gx"}, {"--brdf 'gx'", "nearest are ggx, "});
   expect_error(BAD_INPUT, {"capture", "--out", "x", "--lights-as", "jsn"}, {"--lights-as 'jsn'", "nearest are json, "});
   expect_error(BAD_INPUT, {"verify", "--verifier", "orcle"}, {"--verifier", "'orcle'", "nearest are oracle, "});
+  expect_error(BAD_INPUT, {"help", "rendr"}, {"command 'rendr'", "nearest are render, "});
+  expect_error(BAD_INPUT, {"list", "methods", "tilde"}, {"method 'tilde'", "nearest are tiled, "});
+  expect_error(BAD_INPUT, {"info", "atriun"}, {"scene 'atriun'", "nearest are atrium, "});
   expect_error(BAD_INPUT, {"list", "method"}, {"list 'method'", "methods"});
 }
 
@@ -108,6 +111,7 @@ TEST_F(BadInput, OptionsThatAreGivenTwice) {
   for (const char* command : {"render", "verify", "bench"}) twice({command, "plane"}, "--pipeline-statistics", "");
   twice({"render"}, "--method", "tiled");
   twice({"list", "methods"}, "--json", "");
+  twice({"info", "plane"}, "--json", "");
   for (const char* command : {"verify", "bench"})
     expect_error(BAD_INPUT, {command, "plane", "--method", "tiled", "--method", "tiled"},
                  {"--method tiled: is given twice"});
@@ -118,6 +122,7 @@ TEST_F(BadInput, OptionsThatAreGivenTwice) {
 
 TEST_F(BadInput, ArgumentsTooMany) {
   expect_error(BAD_INPUT, {"render", "plane", "atrium"}, {"argument 'atrium'", "lamp render --help"});
+  expect_error(BAD_INPUT, {"list", "scenes", "plane"}, {"argument 'plane'", "was not expected"});
   expect_error(BAD_INPUT, {"report", "a", "b", "c"}, {"results: expected at most 2, got 3"});
   expect_error(BAD_INPUT, {"-q", "render", "plane"}, {"option '-q'", "before the command", "lamp render -q"});
   expect_error(BAD_INPUT, {"list"}, {"what is required", "lamp list --help"});

@@ -18,8 +18,9 @@ TEST_F(List, WithoutArgumentsItWelcomes) {
 }
 
 TEST_F(List, EveryHelpHasExamples) {
-  for (const Arguments& command : {Arguments{}, Arguments{"render"}, Arguments{"verify"}, Arguments{"compare"},
-                                   Arguments{"bench"}, Arguments{"report"}, Arguments{"list"}}) {
+  for (const Arguments& command :
+       {Arguments{}, Arguments{"render"}, Arguments{"verify"}, Arguments{"compare"}, Arguments{"capture"},
+        Arguments{"bench"}, Arguments{"report"}, Arguments{"info"}, Arguments{"list"}, Arguments{"help"}}) {
     Arguments help = command;
     help.emplace_back("--help");
     const std::string text = output_of(help);
@@ -28,7 +29,19 @@ TEST_F(List, EveryHelpHasExamples) {
     EXPECT_NE(text.find("Usage: lamp"), std::string::npos) << text;
     const std::string name = command.empty() ? "lamp render" : "lamp " + command[0];
     EXPECT_NE(text.find(name, examples), std::string::npos) << "no example of " << name;
+    EXPECT_EQ(text.find("\n\n\n"), std::string::npos);
+    Arguments in_words{"help"};
+    in_words.insert(in_words.end(), command.begin(), command.end());
+    EXPECT_EQ(output_of(in_words), text);
   }
+}
+
+TEST_F(List, OneMethodWithItsOptions) {
+  const std::string text = output_of({"list", "methods", "tiled"});
+  for (const char* part : {"tiled", "Stewart", "tile ", "8 | 16 | 32", "default 16"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  EXPECT_EQ(text.find("clustered"), std::string::npos);
+  EXPECT_EQ(json_of({"list", "methods", "tiled", "--json"}), json_of({"list", "methods", "--json"}).at(1));
 }
 
 TEST_F(List, VersionIsTheProjects) {
