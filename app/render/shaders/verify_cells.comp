@@ -16,6 +16,7 @@ layout(push_constant) uniform Push {
 };
 #include "lookup.glsl"
 #include "lookup/parts/each.glsl"
+#include "common/atomic_load.glsl"
 #include "common/frame.glsl"
 
 void main() {
@@ -33,7 +34,7 @@ void main() {
     const uint word = place / 32u;
     ++place;
     // Most are marked already, and an atomic is dear.
-    if ((marks[word] & bit) != 0u) continue;
+    if ((LOAD_OF_DEVICE(marks[word]) & bit) != 0u) continue;
     if (light < frame.light_count && surely_reaches(light, position)) atomicOr(marks[word], bit);
   }
 }

@@ -28,9 +28,12 @@ uint light_to_find(uint i) { return seen[i]; }
 
 void clear_hits() { s_group_hits = 0u; }
 
-// Room among all hits, by one thread. Where there is none left the total stops growing: it has 32 bits, the sum might
-// not.
-uint reserve_hits(uint count) { return totals.hits <= HITS ? atomicAdd(totals.hits, count) : HITS; }
+// Room among all hits, by one thread.
+uint reserve_hits(uint count) {
+  const uint begin = atomicAdd(totals.hits, count);
+  if (begin > ENOUGH) atomicMin(totals.hits, ENOUGH);
+  return begin;
+}
 
 // All below is for the threads of a subgroup together. `waiting`: its hits since they were last written.
 uint hits_room() { return GROUP_HITS / gl_NumSubgroups; }

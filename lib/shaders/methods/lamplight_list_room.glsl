@@ -1,5 +1,5 @@
 // Lists of a work group's rows: room for all of them together, then each in order. Threads are no fewer than rows.
-// Needs: ROWS, LIST_ENTRIES, MAY_WRAP; `totals`, `rows`; CellPiece; methods/lamplight_row_lists.glsl.
+// Needs: ROWS, LIST_ENTRIES; `totals`, `rows`; CellPiece; methods/lamplight_row_lists.glsl.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_LIST_ROOM
 #define LAMP_METHODS_LAMPLIGHT_LIST_ROOM
@@ -10,10 +10,10 @@ shared uint s_list_size[ROWS];
 shared uint s_list_begin[ROWS];
 shared uint s_base;
 
-// Room for all rows' lists together. By one thread; where the total could begin anew, after a look at it.
+// Room for all rows' lists together. By one thread.
 void reserve_lists(uint size) {
-  const bool full = MAY_WRAP != 0u && totals.list_entries > LIST_ENTRIES;
-  const uint begin = full ? LIST_ENTRIES : atomicAdd(totals.list_entries, size);
+  const uint begin = atomicAdd(totals.list_entries, size);
+  if (begin > ENOUGH) atomicMin(totals.list_entries, ENOUGH);
   s_base = size == 0u || (begin <= LIST_ENTRIES && size <= LIST_ENTRIES - begin) ? begin : ~0u;
 }
 

@@ -6,15 +6,14 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
 layout(constant_id = 3) const uint LIST_ENTRIES = 1;
-layout(constant_id = 4) const uint MAY_WRAP = 0;     // 1: all lists together might have 2^32 entries
-layout(constant_id = 5) const uint PAIRS = 1024;     // of light and row that wait in shared memory
-layout(constant_id = 6) const uint ROWS = 16;        // that a work group looks at: whole lines of tiles, of one slice
-layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
-layout(constant_id = 8) const uint CELL_ROWS = 16;
-layout(constant_id = 9) const bool BITS = false;     // the container: bits, or lists
+layout(constant_id = 4) const uint PAIRS = 1024;     // of light and row that wait in shared memory
+layout(constant_id = 5) const uint ROWS = 16;        // that a work group looks at: whole lines of tiles, of one slice
+layout(constant_id = 6) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
+layout(constant_id = 7) const uint CELL_ROWS = 16;
+layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
 #ifdef SLICED
-layout(constant_id = 15) const uint CELL_SLICES = 4;
-#define SLICE_CONSTANT 16
+layout(constant_id = 14) const uint CELL_SLICES = 4;
+#define SLICE_CONSTANT 15
 #include "common/slice_constants.glsl"
 #endif
 #include "methods/lamplight_exact.glsl"

@@ -47,9 +47,10 @@ uint pieces_before(uint column) {
   return sum;
 }
 
-// By one thread: room for the group's cells, whole pieces. Pieces of all cells together stay below 2^32.
+// By one thread: room for the group's cells, whole pieces.
 void reserve_pieces(uint wanted) {
   s_base = atomicAdd(totals.wanted_pieces, wanted);
+  if (s_base > ENOUGH / PIECE) atomicMin(totals.wanted_pieces, ENOUGH / PIECE);
   atomicMax(totals.pieces, min(s_base + wanted, PIECES));
 }
 

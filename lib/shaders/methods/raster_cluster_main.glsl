@@ -5,6 +5,7 @@
 // farthest mark of its tile first, because marks may have gaps where a sliver of the back lies between two pixels.
 // Needs: set_bit(word, bit).
 // SPDX-License-Identifier: Apache-2.0
+#include "common/atomic_load.glsl"
 #include "methods/raster_face.glsl"
 
 layout(constant_id = 6) const uint MODE = 0;
@@ -33,7 +34,7 @@ uint cluster_word(uvec2 tile, uint slice) {
 // any pixel. Other walks set bits meanwhile, but none beyond the farthest mark.
 uint farthest_mark(uvec2 tile, uint bit, uint first, uint last) {
   for (uint slice = last + 1u; slice > first; --slice)
-    if ((bits[cluster_word(tile, slice - 1u)] & bit) != 0u) return slice - 1u;
+    if ((LOAD_OF_DEVICE(bits[cluster_word(tile, slice - 1u)]) & bit) != 0u) return slice - 1u;
   return last;
 }
 

@@ -6,6 +6,7 @@ layout(local_size_x_id = 0) in;  // before anything that asks for the work group
 #define TILE_CONSTANT 1
 #define TILE_BINDING 0
 #define TILE_FRAME uniform
+#include "common/atomic_load.glsl"
 #include "methods/tile_inputs.glsl"
 #include "common/pixel_tests.glsl"
 
@@ -20,7 +21,7 @@ shared uint s_kept[2u * BATCH_WORDS];
 void flag_reached(PrunePixel pixel, uint range, uint first) {
   for (uint word = 0u; word < gl_WorkGroupSize.x / 32u; ++word) {
     const uint at = range * BATCH_WORDS + word;
-    for (uint open = s_found[at] & ~s_kept[at]; open != 0u; open &= open - 1u) {
+    for (uint open = s_found[at] & ~LOAD_OF_GROUP(s_kept[at]); open != 0u; open &= open - 1u) {
       const uint bit = uint(findLSB(open));
       if (reaches_pixel(cull_frame, cull_lights[first + word * 32u + bit], pixel)) atomicOr(s_kept[at], 1u << bit);
     }

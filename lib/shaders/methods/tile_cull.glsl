@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_TILE_CULL
 #define LAMP_METHODS_TILE_CULL
+#include "common/atomic_load.glsl"
 #include "methods/tile_inputs.glsl"
 #include "common/pixel_tests.glsl"
 
@@ -32,7 +33,7 @@ void flag_reached(PrunePixel pixel, uint range) {
   for (uint i = 0u; i < s_light_count[range]; ++i) {
     const uint entry = range * CAPACITY + i;
     const uint bit = 1u << (entry % 32u);
-    if ((s_kept[entry / 32u] & bit) != 0u) continue;
+    if ((LOAD_OF_GROUP(s_kept[entry / 32u]) & bit) != 0u) continue;
     if (reaches_pixel(cull_frame, cull_lights[s_lights[entry] & ~TYPE_BIT], pixel)) atomicOr(s_kept[entry / 32u], bit);
   }
 }

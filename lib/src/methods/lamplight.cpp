@@ -106,9 +106,6 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
   return b;
 }
 
-/// Whether all lists together could have 2^32 entries: then a total is looked at before it is added to.
-std::uint32_t lists_may_wrap(const Sizes& s) { return std::uint64_t{s.entries} * s.cell_rows >> 32 == 0 ? 0 : 1; }
-
 using Constants = std::vector<std::uint32_t>;
 
 Constants with_slices(Constants constants, const Problem& problem, const Sizes& s) {
@@ -230,28 +227,27 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   // In shared memory, to put lights in order by: two sums for each subgroup, or a bit for each light of a block.
   const std::uint32_t order_size = s.cell_bits ? most_subgroups(problem, threads) : parts::divide_up(s.block, 32);
   const std::uint32_t order_words = s.cell_bits ? 2 * order_size : order_size;
-  Pass pass{
-      .name = s.bits ? "tile bits" : "tile lists",
-      .shader = shader_of(s.sliced() ? "lists_sliced"
-                          : pruned   ? "lists_pruned"
-                                     : "lists",
-                          s),
-      .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, lists_may_wrap(s), pairs, s.group_rows,
-                                mark_words, s.cell_rows, s.bits ? 1U : 0U, order_size, s.cell_bits ? s.pieces : s.block,
-                                s.cell_count, has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
-                               problem, s),
-      .bindings = {{INPUT_FRAME},
-                   {INPUT_LIGHTS},
-                   {INPUT_SPHERES},
-                   s.cell_bits ? Binding{b.cells, Access::read_write} : Binding{b.pieces},
-                   {b.totals, Access::read_write},
-                   {b.rows, Access::write},
-                   {b.piece_lists, Access::write},
-                   {b.lists, Access::write}},
-      .extent = lists_extent(problem, s, b),
-      .shared_bytes =
-          (7 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 + s.cell_tiles * 32 + 132,
-      .full_subgroups = threads};
+  Pass pass{.name = s.bits ? "tile bits" : "tile lists",
+            .shader = shader_of(s.sliced() ? "lists_sliced"
+                                : pruned   ? "lists_pruned"
+                                           : "lists",
+                                s),
+            .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, pairs, s.group_rows, mark_words,
+                                      s.cell_rows, s.bits ? 1U : 0U, order_size, s.cell_bits ? s.pieces : s.block,
+                                      s.cell_count, has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
+                                     problem, s),
+            .bindings = {{INPUT_FRAME},
+                         {INPUT_LIGHTS},
+                         {INPUT_SPHERES},
+                         s.cell_bits ? Binding{b.cells, Access::read_write} : Binding{b.pieces},
+                         {b.totals, Access::read_write},
+                         {b.rows, Access::write},
+                         {b.piece_lists, Access::write},
+                         {b.lists, Access::write}},
+            .extent = lists_extent(problem, s, b),
+            .shared_bytes = (7 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 +
+                            s.cell_tiles * 32 + 132,
+            .full_subgroups = threads};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});

@@ -67,11 +67,16 @@ struct LightTotals {
   uint scatter_x;  // and these of scattering
   uint scatter_y;
   uint scatter_z;
-  uint seen;           // lights in view
-  uint hits;           // pairs of light and cell; beyond the capacity it may stop to grow
-  uint wanted_pieces;  // whether there is room or not
+  uint seen;  // lights in view
+  // Whether there is room or not; each may stop to grow at ENOUGH.
+  uint hits;  // pairs of light and cell
+  uint wanted_pieces;
   uint list_entries;
 };
+
+// Totals have 32 bits, what is needed may be more. Who finds that a total was beyond this puts it back: it is more than
+// any capacity, and leaves all groups that a GPU runs at once room to add to it in the meantime.
+LAMP_CONST ENOUGH = 0x80000000u;  // entries
 
 #ifdef __cplusplus
 static_assert(sizeof(TileDepths) == 16 && sizeof(LightHit) == 8 && sizeof(LightCell) == 12 &&
