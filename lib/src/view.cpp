@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/view.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -87,6 +88,18 @@ std::optional<Error> check_rigid(const glm::dmat4& m) {
   return std::nullopt;
 }
 
+// A length becomes one between the least and the greatest singular value of `m`; their squares less 1 are eigenvalues
+// of transpose(m) m - 1, and no eigenvalue is larger than the largest sum of a row's magnitudes (Gershgorin).
+double stretch_of(const glm::dmat3& m) {
+  const glm::dmat3 deviation = glm::transpose(m) * m - glm::dmat3(1.0);
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 row = glm::abs(deviation[i]);
+    largest = std::max(largest, row.x + row.y + row.z);
+  }
+  return 1.0 - std::sqrt(1.0 - largest);  // the greatest deviates less: sqrt(1 + largest) - 1
+}
+
 }  // namespace
 
 Result<View> View::create(std::uint32_t width, std::uint32_t height, const glm::dmat4& clip_from_view,
@@ -104,6 +117,7 @@ Result<View> View::create(std::uint32_t width, std::uint32_t height, const glm::
   if (auto error = check_projection(view.clip_from_view_)) return *error;
   if (auto error = check_rigid(view.view_from_world_)) return *error;
   view.world_from_view_ = glm::inverse(view.view_from_world_);
+  view.stretch_ = stretch_of(glm::dmat3(view.view_from_world_));
   return view;
 }
 
@@ -134,6 +148,7 @@ shared::Frame View::frame(std::uint32_t light_count) const {
   frame.eye_world = glm::vec3(world_from_view_[3]);
   frame.light_count = light_count;
   frame.size_px = {width_, height_};
+  frame.stretch = static_cast<float>(stretch_);
   return frame;
 }
 

@@ -30,6 +30,23 @@ glm::dmat4 pose() {
   return glm::translate(turn, glm::dvec3(3.0, -20.0, 7.5));
 }
 
+/// What an engine gets that turns its camera by one float matrix after another.
+glm::dmat4 after_many_turns() {
+  glm::mat4 view_from_world(pose());
+  for (int i = 0; i < 3000; ++i)
+    view_from_world = glm::rotate(glm::mat4(1.0F), 0.01F, glm::vec3(0.6F, 0.8F, 0.0F)) * view_from_world;
+  return {view_from_world};
+}
+
+/// Longer one way, shorter another, and sheared, as far as views are accepted.
+glm::dmat4 stretched_and_sheared() {
+  glm::dmat4 stretch(1.0);
+  stretch[0] = {1.000045, 2e-5, 0.0, 0.0};
+  stretch[1] = {2e-5, 0.99996, -2e-5, 0.0};
+  stretch[2] = {0.0, -2e-5, 1.00004, 0.0};
+  return stretch * pose();
+}
+
 float device_depth(const View& view, double z_view) {
   const glm::dmat4& p = view.clip_from_view();
   return static_cast<float>((p[3][2] - p[2][2] * z_view) / (p[3][3] - p[2][3] * z_view));
@@ -88,8 +105,15 @@ OddFrame frame_of(std::string name, const glm::dmat4& clip_from_view, const glm:
 }  // namespace
 
 std::vector<OddFrame> odd_frames() {
+  const glm::dmat4 usual = perspective(symmetric_window(0.9, ASPECT), 0.1, INFINITE_FAR);
+  const glm::dmat4 mirror = glm::scale(glm::dmat4(1.0), glm::dvec3(-0.99996, 0.99996, 0.99996));
   return {frame_of("behind the eye", looks_behind_the_eye(), pose()),
-          frame_of("leaning, behind the eye", leaning(looks_behind_the_eye()), pose())};
+          frame_of("leaning, behind the eye", leaning(looks_behind_the_eye()), pose()),
+          frame_of("larger", usual, glm::scale(pose(), glm::dvec3(1.000049))),
+          frame_of("smaller, mirrored", usual, mirror * pose()),
+          frame_of("after many turns", usual, after_many_turns()),
+          frame_of("stretched and sheared", usual, stretched_and_sheared()),
+          frame_of("larger, orthographic", looks_behind_the_eye(), glm::scale(pose(), glm::dvec3(1.000049)))};
 }
 
 }  // namespace lamp::app

@@ -23,7 +23,7 @@ class RandomVolumes {
   explicit RandomVolumes(std::uint32_t seed) : random_(seed) {}
 
   /// Any projection (finite, infinite, off-centre, orthographic, leaning, with the near plane behind the eye), any
-  /// rotation, eyes up to 5 km from the origin.
+  /// rotation and what is rigid within tolerance, eyes up to 5 km from the origin.
   [[nodiscard]] View view();
 
   /// Pixels up to 5 km ahead of the eye, or behind it; often the slab has no thickness.

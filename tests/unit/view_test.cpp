@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -146,6 +147,44 @@ TEST(View, FrameHoldsTheView) {
 std::string refusal(const glm::dmat4& clip_from_view, const glm::dmat4& view_from_world) {
   const auto view = View::create(WIDTH, HEIGHT, clip_from_view, view_from_world);
   return view.ok() ? "accepted" : view.error().text();
+}
+
+TEST(View, StretchIsHowFarAMatrixIsFromRigid) {
+  const auto stretch = [](const glm::dmat4& view_from_world) {
+    const View view = make_view(lamp::perspective(OFF_CENTRE, NEAR, FAR), view_from_world);
+    EXPECT_EQ(view.frame(0).stretch, static_cast<float>(view.stretch()));
+    return view.stretch();
+  };
+  const glm::dmat4 quarter_turn(glm::dvec4(0, 0, 1, 0), glm::dvec4(1, 0, 0, 0), glm::dvec4(0, -1, 0, 0),
+                                glm::dvec4(5, 6, 7, 1));
+  EXPECT_EQ(stretch(glm::dmat4(1.0)), 0.0);
+  EXPECT_EQ(stretch(quarter_turn), 0.0);
+  EXPECT_EQ(stretch(glm::scale(quarter_turn, glm::dvec3(-1.0, 1.0, 1.0))), 0.0) << "a mirror";
+  EXPECT_LT(stretch(pose()), 3e-7) << "rounding of its numbers";
+  for (const double scale : {1.000049, 0.99996}) {
+    EXPECT_NEAR(stretch(glm::scale(quarter_turn, glm::dvec3(scale))), std::abs(scale - 1.0), 1e-7);
+    EXPECT_NEAR(stretch(glm::scale(pose(), glm::dvec3(scale))), std::abs(scale - 1.0), 4e-7);
+    EXPECT_NEAR(stretch(glm::scale(pose(), glm::dvec3(1.0, scale, 1.0))), std::abs(scale - 1.0), 4e-5);
+  }
+}
+
+// What a bound is widened by must be as much as any length changes, and is never much more.
+TEST(View, NoLengthChangesByMoreThanTheStretch) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution unit(-1.0, 1.0);
+  double largest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    glm::dmat4 near_one(1.0);
+    for (int j = 0; j < 9; ++j) near_one[j / 3][j % 3] += 2.4e-5 * unit(random);
+    const View view = make_view(lamp::perspective(OFF_CENTRE, NEAR, FAR), near_one * pose());
+    for (int j = 0; j < 100; ++j) {
+      const glm::dvec3 direction = glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)));
+      const double length = glm::length(glm::dmat3(view.view_from_world()) * direction);
+      EXPECT_LE(std::abs(length - 1.0), view.stretch());
+      largest = std::max(largest, std::abs(length - 1.0) / view.stretch());
+    }
+  }
+  EXPECT_GT(largest, 0.6);
 }
 
 TEST(View, RefusesBadSizes) {

@@ -30,6 +30,9 @@ class LAMPLIGHT_API View {
   [[nodiscard]] const glm::dmat4& view_from_world() const { return view_from_world_; }
   [[nodiscard]] const glm::dmat4& world_from_view() const { return world_from_view_; }
   [[nodiscard]] bool orthographic() const { return clip_from_view_[2][3] == 0.0; }
+  /// The largest share by which `view_from_world` may change a length: 0 if it is rigid, else some 1e-7 from the
+  /// rounding of its numbers, up to 1.6e-4. Every bound of a light in view space is wider by it.
+  [[nodiscard]] double stretch() const { return stretch_; }
 
   /// Metres ahead of the eye of a device depth in (0, 1].
   [[nodiscard]] double z_view(double device_depth) const;
@@ -51,6 +54,7 @@ class LAMPLIGHT_API View {
   glm::dmat4 clip_from_view_{1.0};
   glm::dmat4 view_from_world_{1.0};
   glm::dmat4 world_from_view_{1.0};
+  double stretch_ = 0.0;
 };
 
 /// Edges of a projection's window at 1 m ahead (perspective) or in metres (orthographic): left < right, bottom < top.

@@ -22,7 +22,7 @@ LightSphere light_sphere(Light light) {
 LightBounds view_bounds(Frame frame, LightSphere sphere) {
   const vec3 center = (frame.view_from_world * vec4(sphere.center, 1.0)).xyz;
   // A spot's tip, which rounds as well, is within two radii of the centre.
-  const float slack = (ROUND_RADIUS + 2.0 * ROUND_POSITION) * sphere.radius +
+  const float slack = (ROUND_RADIUS + 2.0 * ROUND_POSITION + frame.stretch) * sphere.radius +
                       ROUND_POSITION * (length(center) + length(sphere.center) + length(frame.eye_world));
   // Without a branch: compilers load what comes behind one only then.
   const bool reaches = sphere.radius >= 0.0;

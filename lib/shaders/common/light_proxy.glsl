@@ -53,8 +53,10 @@ LightProxy light_proxy(Frame frame, Light light, LightBounds sphere, float reach
   proxy.z_near = -sphere.center.z - sphere.radius;
   proxy.z_far = -sphere.center.z + sphere.radius;
   const float radius = min(light.range, INFINITE_RADIUS);
-  const float rounding = ROUND_RADIUS * radius + ROUND_POSITION * (length(proxy.origin) + length(light.position) +
-                                                                   length(frame.eye_world));
+  // Where the view stretches, a point of the light lies up to that much aside, and the axis leans as much again.
+  const float rounding =
+      (ROUND_RADIUS + frame.stretch) * radius +
+      ROUND_POSITION * (length(proxy.origin) + length(light.position) + length(frame.eye_world));
   const float margin = 4.0 * rounding + reach_px * pixel_m(frame, proxy.z_far);
   if (spot)
     spot_profile(proxy, light, radius, margin);

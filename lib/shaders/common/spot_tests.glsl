@@ -8,13 +8,16 @@
 #include "common/tile_ranges.glsl"
 #include "common/tile_volume.glsl"
 
+// View space: as the view shows a cone of the world. Where the view is not rigid the axis is not quite unit, and what
+// was a cone around it lies in one that is wider by a share of `stretch`.
 struct SpotCone {
-  vec3 tip;  // view space
+  vec3 tip;
   vec3 axis;
   float range;
   float sin_angle;
   float cos_angle;
-  float slack;  // m: rounding, as in light_bounds
+  float slack;    // m: rounding, as in light_bounds
+  float stretch;  // the frame's
 };
 
 SpotCone spot_cone(Frame frame, Light light) {
@@ -25,16 +28,20 @@ SpotCone spot_cone(Frame frame, Light light) {
   cone.cos_angle = light.cos_outer;
   cone.sin_angle = light.sin_outer;
   cone.slack = ROUND_POSITION * (length(cone.tip) + length(light.position) + length(frame.eye_world));
+  cone.stretch = frame.stretch;
   return cone;
 }
 
-// The sphere's distance to the generatrix nearest to it, to the cap and to the plane through the tip.
+// The sphere's distance to the generatrix nearest to it, to the cap and to the plane through the tip. What the view
+// stretches moves a point of the cone by a share of its distance from the tip, and each of these distances by two more
+// of the centre's.
 bool cone_touches_sphere(SpotCone cone, vec4 sphere) {
   const vec3 offset = sphere.xyz - cone.tip;
   const float distance2 = dot(offset, offset);
   const float along = dot(offset, cone.axis);
   const float rejection = length(offset - along * cone.axis);  // not a difference of squares: narrow cones need it exact
-  const float reach = sphere.w + cone.slack + ROUND_RADIUS * (sqrt(distance2) + min(cone.range, sqrt(distance2)));
+  const float reach = sphere.w + cone.slack +
+                      (ROUND_RADIUS + 3.0 * cone.stretch) * (sqrt(distance2) + min(cone.range, sqrt(distance2)));
   return cone.cos_angle * rejection - cone.sin_angle * along <= reach && along >= -reach &&
          distance2 <= (cone.range + reach) * (cone.range + reach);
 }
@@ -48,7 +55,7 @@ bool discs_touch_frustum(SpotCone cone, TileSides sides, float z_near, float z_f
   const vec4 lengths = edge_lengths(sides.x_edges, sides.y_edges);
   const vec4 toward = vec4(sides.x_edges.y * ahead - cone.axis.x, cone.axis.x - sides.x_edges.w * ahead,
                            sides.y_edges.y * ahead - cone.axis.y, cone.axis.y - sides.y_edges.w * ahead);
-  const float slope = cone.sin_angle / cone.cos_angle * (1.0 + ROUND_RADIUS);
+  const float slope = cone.sin_angle / cone.cos_angle * (1.0 + ROUND_RADIUS + cone.stretch);
   const float slack = cone.slack + ROUND_RADIUS * cone.range;
   // a + b t <= 0
   const vec4 a_sides = edges_outside(cone.tip, sides.x_edges, sides.y_edges) - slack * lengths;
@@ -80,7 +87,8 @@ bool cone_touches_planes(SpotCone cone, TileSides sides, float z_near, float z_f
                                 : vec4(0.0, 0.0, 1.0, z_far);
     const float at_tip = dot(plane.xyz, cone.tip) + plane.w;
     const float toward = dot(plane.xyz, cone.axis);
-    const float at_base = at_tip + toward * cone.range + base_radius * sqrt(max(1.0 - toward * toward, 0.0));
+    const float aside = sqrt(max(1.0 + 3.0 * cone.stretch - toward * toward, 0.0));
+    const float at_base = at_tip + toward * cone.range + base_radius * aside;
     if (max(at_tip, at_base) < -slack) return false;
   }
   return true;

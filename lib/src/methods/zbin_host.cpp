@@ -33,8 +33,9 @@ constexpr DepthSpan REACHES_NOTHING{.middle = 0.0F, .near = 1.0F, .far = -1.0F};
 struct Eye {
   glm::vec3 position;  ///< world
   float distance;      ///< of it to the world's origin
-  glm::vec3 ahead;     ///< world, unit length
+  glm::vec3 ahead;     ///< world, of unit length but for what the view stretches
   float offset;        ///< depth of the world's origin
+  float of_radius;     ///< how long a span is to either side, for each metre of a radius
 };
 
 Eye eye_of(const shared::Frame& frame) {
@@ -42,18 +43,18 @@ Eye eye_of(const shared::Frame& frame) {
   return {.position = frame.eye_world,
           .distance = glm::length(frame.eye_world),
           .ahead = {-m[0].z, -m[1].z, -m[2].z},
-          .offset = -m[3].z};
+          .offset = -m[3].z,
+          .of_radius = 1.0F + shared::ROUND_RADIUS + 2.0F * shared::ROUND_POSITION + frame.stretch};
 }
 
 /// Of the light's bounding sphere, as much too long as view_bounds() in common/light_bounds.glsl makes it. The view is
-/// rigid, so that a distance to the eye may be measured in the world.
+/// rigid enough for a distance to the eye to be measured in the world.
 DepthSpan depth_span(const Eye& eye, const shared::Light& light) {
   const auto [center, radius] = bounding_sphere(light);
   if (radius < 0.0F) return REACHES_NOTHING;
   const float middle = (eye.ahead.x * center.x + eye.ahead.y * center.y) + (eye.ahead.z * center.z + eye.offset);
-  const float reach =
-      radius * (1.0F + shared::ROUND_RADIUS + 2.0F * shared::ROUND_POSITION) +
-      shared::ROUND_POSITION * (glm::length(center - eye.position) + glm::length(center) + eye.distance);
+  const float reach = radius * eye.of_radius + shared::ROUND_POSITION * (glm::length(center - eye.position) +
+                                                                         glm::length(center) + eye.distance);
   return {.middle = middle, .near = middle - reach, .far = middle + reach};
 }
 

@@ -6,7 +6,7 @@
 
 vec3 to_eye(Frame frame, vec3 position) {
   const bool perspective = frame.clip_from_view[2][3] != 0.0;
-  return perspective ? normalize(frame.eye_world - position) : frame.world_from_view[2].xyz;
+  return perspective ? normalize(frame.eye_world - position) : normalize(frame.world_from_view[2].xyz);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // What a frame's passes know of the camera and the entities: matrices, size, counts.
-// Promise: 224 bytes in C++ and in GLSL; bound as a storage buffer.
+// Promise: 240 bytes in C++ and in GLSL; bound as a storage buffer.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_FRAME_H
 #define LAMPLIGHT_SHARED_FRAME_H
@@ -12,17 +12,21 @@ namespace lamp::shared {
 
 struct Frame {
   mat4 clip_from_view;   // reversed depth, Vulkan clip space (y down); no shear (see view.h)
-  mat4 view_from_world;  // rigid
+  mat4 view_from_world;  // rigid, but for `stretch`
   mat4 world_from_view;
   vec3 eye_world;    // m, world_from_view * (0,0,0)
   uint light_count;  // lights of this frame, at most the plan's capacity; with boxes: all entities (entity.h)
   uvec2 size_px;     // width, height
   uint box_count;    // how many of them, the last ones, are boxes
   uint reserved;
+  float stretch;  // the largest share by which view_from_world may change a length; 0: it is rigid
+  uint reserved1;
+  uint reserved2;
+  uint reserved3;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 224);
+static_assert(sizeof(Frame) == 240);
 }  // namespace lamp::shared
 #endif
 
