@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <unordered_map>
 
 #include "gpu/check.h"
@@ -35,7 +36,8 @@ std::vector<gpu::ReachLimits> limits_of(std::span<const shared::Light> lights) {
   std::vector<gpu::ReachLimits> limits;
   limits.reserve(lights.size());
   for (const shared::Light& light : lights) {
-    const double distance = light.range * (1.0 - BOUNDARY_BAND);
+    const double distance = light.range >= shared::INFINITE_RADIUS ? std::numeric_limits<double>::infinity()
+                                                                   : light.range * (1.0 - BOUNDARY_BAND);
     const double angle = light.type == shared::LIGHT_POINT ? 0.0 : light.outer_angle * (1.0 - BOUNDARY_BAND);
     const double sine = std::sin(angle);
     const double cosine = std::cos(angle);

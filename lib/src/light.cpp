@@ -119,19 +119,23 @@ std::vector<shared::Light> pack(std::span<const Light> lights) {
 }
 
 /// A narrow cone's goes through the apex and the rim, a wide one's has the rim as a great circle: `shift` to the centre
-/// and the radius are the lesser and the greater of both, and a point light is the widest.
+/// and the radius are the lesser and the greater of both, and a point light is the widest. What reaches everything does
+/// so around the origin, where scenes are, wherever the light may be.
 shared::LightSphere bounding_sphere(const shared::Light& light) {
   const bool spot = light.type == shared::LIGHT_SPOT;
   const bool dark = !(light.range > 0.0F);
   if (dark | (spot & (light.outer_angle <= 0.0F))) return NO_SPHERE;
+  const bool everywhere = light.range >= shared::INFINITE_RADIUS;
   const float range = std::min(light.range, shared::INFINITE_RADIUS);
-  const bool cone = spot & (range < shared::INFINITE_RADIUS);
+  const bool cone = spot & !everywhere;
   const float cosine = choose(cone, light.cos_outer, 0.0F);
   const float sine = choose(cone, light.sin_outer, 1.0F);
   const float shift = std::min(range * cosine, range / (2.0F * std::max(cosine, COS_45)));
   const glm::vec3 direction(choose(cone, light.direction.x, 0.0F), choose(cone, light.direction.y, 0.0F),
                             choose(cone, light.direction.z, 0.0F));
-  return {.center = light.position + shift * direction, .radius = std::max(range * sine, shift)};
+  const glm::vec3 position(choose(everywhere, 0.0F, light.position.x), choose(everywhere, 0.0F, light.position.y),
+                           choose(everywhere, 0.0F, light.position.z));
+  return {.center = position + shift * direction, .radius = std::max(range * sine, shift)};
 }
 
 std::vector<shared::LightSphere> bounding_spheres(std::span<const shared::Light> lights) {

@@ -31,8 +31,9 @@ struct Sphere {
 
 Sphere sphere_of(const View& view, const shared::Light& light) {
   glm::dvec3 center(light.position);
-  double radius = light.range;
-  if (light.type == shared::LIGHT_SPOT && std::isfinite(light.range)) {
+  const bool everywhere = light.range >= shared::INFINITE_RADIUS;
+  double radius = everywhere ? std::numeric_limits<double>::infinity() : light.range;
+  if (light.type == shared::LIGHT_SPOT && !everywhere) {
     const bool narrow = light.outer_angle <= HALF_RIGHT_ANGLE;
     const double along = narrow ? radius / (2.0 * light.cos_outer) : radius * light.cos_outer;
     radius = narrow ? along : radius * light.sin_outer;
@@ -145,7 +146,7 @@ bool reaches(const Sphere& s, const Pixel& pixel, double slack) {
   if (slack == 0.0) return reach(*s.light, pixel.world) == Reach::inside;
   const glm::dvec3 away = pixel.world - glm::dvec3(s.light->position);
   const double distance = glm::length(away);
-  if (distance > s.light->range + slack) return false;
+  if (s.light->range < shared::INFINITE_RADIUS && distance > s.light->range + slack) return false;
   if (s.light->type != shared::LIGHT_SPOT || distance <= slack) return true;
   const double along = glm::dot(away, glm::dvec3(s.light->direction));
   const double across = std::sqrt(std::max(0.0, distance * distance - along * along));

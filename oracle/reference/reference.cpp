@@ -21,7 +21,7 @@ Reach compare(double measure, double limit) {
 Reach reach_of_range(const shared::Light& light, double distance_squared) {
   const double range = light.range;
   if (!(range > 0.0)) return Reach::outside;
-  if (std::isinf(range)) return Reach::inside;
+  if (light.range >= shared::INFINITE_RADIUS) return Reach::inside;
   // Nearly every pair ends here, without a square root; the factor clears the boundary band.
   if (distance_squared > range * range * 1.001) return Reach::outside;
   return compare(std::sqrt(distance_squared), range);

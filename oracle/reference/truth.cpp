@@ -186,7 +186,8 @@ Truth truth(const TruthQuery& query) {
   std::vector<Sphere> spheres;
   std::vector<std::uint32_t> candidates;
   for (std::uint32_t i = 0; i < query.lights.size(); ++i) {
-    const double radius = query.lights[i].range * SURELY_OUTSIDE;
+    const double radius = query.lights[i].range >= shared::INFINITE_RADIUS ? std::numeric_limits<double>::infinity()
+                                                                           : query.lights[i].range * SURELY_OUTSIDE;
     spheres.push_back({glm::dvec3(query.lights[i].position), radius * radius});
     if (radius > 0.0) candidates.push_back(i);
   }

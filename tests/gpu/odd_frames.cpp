@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <numbers>
 
 #include "gpu/check.h"
 #include "gpu/random_volumes.h"
@@ -15,6 +17,7 @@ constexpr double ASPECT = static_cast<double>(ODD_SIZE.x) / ODD_SIZE.y;
 constexpr double NEAREST_M = -40.0;  // surfaces of views that look behind the eye
 constexpr double FARTHEST_M = 60.0;
 constexpr std::uint32_t FLAT_PX = 32;  // the largest tile
+constexpr float RIGHT_ANGLE = std::numbers::pi_v<float> / 2.0F;
 
 glm::dmat4 looks_behind_the_eye() { return orthographic(symmetric_window(1.4, ASPECT), NEAREST_M - 2.0, 90.0); }
 
@@ -94,12 +97,40 @@ std::vector<Light> reaching_lights(const View& view, const std::vector<float>& d
   return lights;
 }
 
+/// Points and spots that reach everything ahead of them, from near and from beyond every scene.
+std::vector<Light> endless_lights(const View& view) {
+  constexpr float RANGES[] = {1e18F, 2e18F, 1e30F, std::numeric_limits<float>::max(),
+                              std::numeric_limits<float>::infinity()};
+  constexpr float AWAY_M[] = {3.0F, 7e6F, 6e17F, 3e18F, 1e22F, 1e30F, 3e38F};
+  constexpr float ANGLES[] = {0.01F, 0.4F, 1.2F, RIGHT_ANGLE};
+  const glm::vec3 ahead = -glm::normalize(glm::vec3(view.world_from_view()[2]));
+  const glm::vec3 eye(view.world_from_view()[3]);
+  std::vector<Light> lights(ODD_LIGHTS);
+  for (std::uint32_t i = 0; i < ODD_LIGHTS; ++i) {
+    Light& light = lights[i];
+    light.range = RANGES[i % std::size(RANGES)];
+    const glm::vec3 away = glm::normalize(glm::vec3(static_cast<float>(i % 3) - 1.0F) + (i % 2 == 0 ? ahead : -ahead));
+    light.position = eye + AWAY_M[i % std::size(AWAY_M)] * away;
+    if (i % 4 == 0) continue;
+    light.type = LightType::spot;
+    light.direction = i % 11 == 0 ? away : -away;
+    light.outer_angle = ANGLES[i / 4 % std::size(ANGLES)];
+  }
+  return lights;
+}
+
 OddFrame frame_of(std::string name, const glm::dmat4& clip_from_view, const glm::dmat4& view_from_world) {
   const View view = take(View::create(ODD_SIZE.x, ODD_SIZE.y, clip_from_view, view_from_world));
   const double nearest = view.orthographic() ? NEAREST_M : 0.5;
   std::vector<float> depth = steps(view, nearest, FARTHEST_M);
   std::vector<Light> lights = reaching_lights(view, depth);
   return {std::move(name), view, std::move(depth), std::move(lights)};
+}
+
+OddFrame endless(OddFrame frame) {
+  frame.name += ", endless lights";
+  frame.lights = endless_lights(frame.view);
+  return frame;
 }
 
 }  // namespace
@@ -113,7 +144,9 @@ std::vector<OddFrame> odd_frames() {
           frame_of("smaller, mirrored", usual, mirror * pose()),
           frame_of("after many turns", usual, after_many_turns()),
           frame_of("stretched and sheared", usual, stretched_and_sheared()),
-          frame_of("larger, orthographic", looks_behind_the_eye(), glm::scale(pose(), glm::dvec3(1.000049)))};
+          frame_of("larger, orthographic", looks_behind_the_eye(), glm::scale(pose(), glm::dvec3(1.000049))),
+          endless(frame_of("perspective", usual, pose())),
+          endless(frame_of("orthographic", leaning(looks_behind_the_eye()), pose()))};
 }
 
 }  // namespace lamp::app

@@ -8,6 +8,7 @@
 #include "gpu/method_check.h"
 #include "gpu/odd_frames.h"
 #include "gpu/test_scenes.h"
+#include "render/gpu_verifier.h"
 
 namespace lamp::app {
 namespace {
@@ -94,6 +95,17 @@ TEST_P(OddFrames, MissNothing) {
     SCOPED_TRACE(stage->name);
     ASSERT_GT(stage->lit.truth.lights.size(), ODD_LIGHTS) << "lights that reach nothing show nothing";
     check_method(stage->renderer, stage->lit, candidate, Check::lists);
+  }
+}
+
+TEST_F(GpuTest, OddFramesHaveTheSameTruthOnTheGpu) {
+  Lighting lighting =
+      make_lighting(stages().front()->renderer, {.method = &brute_force(), .light_capacity = ODD_LIGHTS});
+  for (const std::unique_ptr<Stage>& stage : stages()) {
+    SCOPED_TRACE(stage->name);
+    stage->renderer.set_frame(stage->lit.view, stage->lit.lights);
+    GpuVerifier verifier(stage->renderer, stage->lit.lights);
+    EXPECT_EQ(verifier.check(lighting, vulkan::PlanRunner::Passes::separate).useful, stage->lit.truth.lights.size());
   }
 }
 

@@ -195,6 +195,12 @@ TEST(BoundingSphere, HoldsAllThatASpotReaches) {
 TEST(BoundingSphere, TellsNothingFromEverything) {
   Light light;
   EXPECT_EQ(lamp::bounding_sphere(lamp::pack(light)).radius, 1e18F) << "infinite range";
+  for (const float range : {1e18F, 2e18F, 1e30F, std::numeric_limits<float>::max(), INFINITE})
+    for (const LightType type : {LightType::point, LightType::spot}) {
+      const Light far{.type = type, .position = {0.0F, -3e18F, 2.0F}, .range = range, .outer_angle = 0.5F};
+      EXPECT_EQ(lamp::bounding_sphere(lamp::pack(far)).radius, 1e18F) << range;
+      EXPECT_EQ(lamp::bounding_sphere(lamp::pack(far)).center, glm::vec3(0.0F)) << "around the origin";
+    }
   light.range = 0.0F;
   EXPECT_LT(lamp::bounding_sphere(lamp::pack(light)).radius, 0.0F);
   Light narrow = spot();

@@ -57,7 +57,12 @@ TEST(Reach, RangeZeroReachesNothingAndInfinityEverything) {
   EXPECT_EQ(ask({.position = center, .range = INFINITE}, glm::dvec3(1e30)), Reach::inside);
   EXPECT_EQ(ask(spot_down(0.5F, INFINITE), off_axis(0.4, 1e30)), Reach::inside);
   EXPECT_EQ(ask(spot_down(0.5F, INFINITE), off_axis(0.6, 1e30)), Reach::outside);
-  EXPECT_EQ(ask({.position = center, .range = std::numeric_limits<float>::max()}, glm::dvec3(1e30)), Reach::inside);
+  for (const float range : {1e18F, 2e18F, 1e30F, std::numeric_limits<float>::max()}) {
+    EXPECT_EQ(ask({.position = center, .range = range}, glm::dvec3(1e31)), Reach::inside) << range;
+    EXPECT_EQ(ask(spot_down(0.5F, range), off_axis(0.4, 1e31)), Reach::inside) << range;
+    EXPECT_EQ(ask(spot_down(0.5F, range), off_axis(0.6, 1e31)), Reach::outside) << range;
+  }
+  EXPECT_EQ(ask({.position = center, .range = 9.9e17F}, glm::dvec3(1e18)), Reach::outside);
 }
 
 TEST(Reach, SpotConeAtAnyHalfAngle) {

@@ -39,7 +39,7 @@ bool touches_box(uint light) {
   const dvec3 center = dvec3(lights[light].position);
   const dvec3 gap = max(max(low[0] - center, center - high[0]), dvec3(0.0lf));
   const double range = double(lights[light].range);
-  return range > 0.0lf && dot(gap, gap) <= range * range;
+  return range > 0.0lf && (lights[light].range >= INFINITE_RADIUS || dot(gap, gap) <= range * range);
 }
 
 void main() {

@@ -20,7 +20,7 @@ enum class LightType : std::uint32_t { point = shared::LIGHT_POINT, spot = share
 struct Light {
   LightType type = LightType::point;
   glm::vec3 position{0.0F};
-  float range = std::numeric_limits<float>::infinity();  ///< m, >= 0; 0 reaches nothing, infinity everything
+  float range = std::numeric_limits<float>::infinity();  ///< m, >= 0; 0 reaches nothing, 1e18 and more everything
   glm::vec3 color{1.0F};                                 ///< linear Rec. 709, >= 0
   float intensity = 1.0F;                                ///< candela, >= 0
   glm::vec3 direction{0.0F, 0.0F, -1.0F};                ///< spots: where it looks; any length but 0

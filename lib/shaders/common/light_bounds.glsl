@@ -9,14 +9,14 @@
 
 LightSphere light_sphere(Light light) {
   if (!(light.range > 0.0)) return LightSphere(vec3(0.0), REACHES_NOTHING);
-  const float range = min(light.range, INFINITE_RADIUS);
-  if (light.type != LIGHT_SPOT) return LightSphere(light.position, range);
-  if (light.outer_angle <= 0.0) return LightSphere(vec3(0.0), REACHES_NOTHING);
-  if (range >= INFINITE_RADIUS) return LightSphere(light.position, range);
+  if (light.type == LIGHT_SPOT && light.outer_angle <= 0.0) return LightSphere(vec3(0.0), REACHES_NOTHING);
+  // Around the origin, where scenes are, wherever the light may be.
+  if (light.range >= INFINITE_RADIUS) return LightSphere(vec3(0.0), INFINITE_RADIUS);
+  if (light.type != LIGHT_SPOT) return LightSphere(light.position, light.range);
   // A narrow cone's sphere goes through the apex and the rim; that of a wide one has the rim as a great circle.
   const float cos_45 = 0.70710678;
-  const float shift = min(range * light.cos_outer, range / (2.0 * max(light.cos_outer, cos_45)));
-  return LightSphere(light.position + light.direction * shift, max(range * light.sin_outer, shift));
+  const float shift = min(light.range * light.cos_outer, light.range / (2.0 * max(light.cos_outer, cos_45)));
+  return LightSphere(light.position + light.direction * shift, max(light.range * light.sin_outer, shift));
 }
 
 LightBounds view_bounds(Frame frame, LightSphere sphere) {

@@ -29,13 +29,13 @@ bool reaches_pixel(Frame frame, Light light, PrunePixel pixel) {
   const vec3 offset = pixel.position - light.position;
   const float slack = ROUND_RADIUS * min(light.range, INFINITE_RADIUS) +
                       ROUND_POSITION * (length(light.position) + length(pixel.position) + length(frame.eye_world));
-  const float reach = min(light.range, INFINITE_RADIUS) + slack;
+  const float reach = light.range + slack;
   const float distance2 = dot(offset, offset);
-  if (!(light.range > 0.0) || distance2 > reach * reach) return false;
+  if (!(light.range > 0.0) || (light.range < INFINITE_RADIUS && distance2 > reach * reach)) return false;
   if (light.type != LIGHT_SPOT) return true;
   const float along = dot(offset, light.direction);
   const float distance = sqrt(distance2);
-  return along + slack >= distance * (light.cos_outer - ROUND_COSINE) - slack;
+  return along + 2.0 * slack >= distance * (light.cos_outer - ROUND_COSINE);
 }
 
 #endif

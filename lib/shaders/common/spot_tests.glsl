@@ -20,11 +20,13 @@ struct SpotCone {
   float stretch;  // the frame's
 };
 
+const float ANY_RANGE = 3e38;  // m
+
 SpotCone spot_cone(Frame frame, Light light) {
   SpotCone cone;
   cone.tip = (frame.view_from_world * vec4(light.position, 1.0)).xyz;
   cone.axis = mat3(frame.view_from_world) * light.direction;
-  cone.range = min(light.range, INFINITE_RADIUS);
+  cone.range = light.range < INFINITE_RADIUS ? light.range : ANY_RANGE;
   cone.cos_angle = light.cos_outer;
   cone.sin_angle = light.sin_outer;
   cone.slack = ROUND_POSITION * (length(cone.tip) + length(light.position) + length(frame.eye_world));
@@ -34,7 +36,7 @@ SpotCone spot_cone(Frame frame, Light light) {
 
 // The sphere's distance to the generatrix nearest to it, to the cap and to the plane through the tip. What the view
 // stretches moves a point of the cone by a share of its distance from the tip, and each of these distances by two more
-// of the centre's.
+// of the centre's. A tip may be so far away that rounding alone is more than any scene.
 bool cone_touches_sphere(SpotCone cone, vec4 sphere) {
   const vec3 offset = sphere.xyz - cone.tip;
   const float distance2 = dot(offset, offset);
@@ -42,8 +44,9 @@ bool cone_touches_sphere(SpotCone cone, vec4 sphere) {
   const float rejection = length(offset - along * cone.axis);  // not a difference of squares: narrow cones need it exact
   const float reach = sphere.w + cone.slack +
                       (ROUND_RADIUS + 3.0 * cone.stretch) * (sqrt(distance2) + min(cone.range, sqrt(distance2)));
-  return cone.cos_angle * rejection - cone.sin_angle * along <= reach && along >= -reach &&
-         distance2 <= (cone.range + reach) * (cone.range + reach);
+  return !(reach < INFINITE_RADIUS) ||
+         (cone.cos_angle * rejection - cone.sin_angle * along <= reach && along >= -reach &&
+          distance2 <= (cone.range + reach) * (cone.range + reach));
 }
 
 // Discs around the axis, t metres from the tip and t tan wide, hold all that the cone reaches. A disc that touches the frustum

@@ -24,7 +24,7 @@ enum class Reach : std::uint8_t {
 };
 
 /// A point light reaches what is nearer than its range; a spot, what is also inside its outer cone.
-/// A range of 0 or an angle of 0 reaches nothing, an infinite range everything (a spot: everything in its cone).
+/// A range of 0 or an angle of 0 reaches nothing, one of 1e18 m and more everything (a spot: everything in its cone).
 /// A spot's own position has no angle and counts as boundary.
 [[nodiscard]] Reach reach(const shared::Light& light, const glm::dvec3& position_world);
 

@@ -15,7 +15,7 @@ Emitter point_at(uint light) {
   const float range = uintBitsToFloat(first.w);
   Emitter e;
   e.position = uintBitsToFloat(first.xyz);
-  e.inverse_range2 = 1.0 / (range * range);
+  e.inverse_range2 = range < INFINITE_RADIUS ? 1.0 / (range * range) : 0.0;
   e.intensity = uintBitsToFloat(second.xyz);
   e.edge = 0.0;
   return e;

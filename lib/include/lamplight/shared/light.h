@@ -14,7 +14,8 @@ namespace lamp::shared {
 LAMP_CONST LIGHT_POINT = 0u;
 LAMP_CONST LIGHT_SPOT = 1u;
 
-LAMP_CONST_FLOAT INFINITE_RADIUS = 1e18f;   // m; larger than any scene, and its square is still a finite float
+// m. A range from here on is infinite: larger than any scene, and its square is still a finite float.
+LAMP_CONST_FLOAT INFINITE_RADIUS = 1e18f;
 LAMP_CONST_FLOAT REACHES_NOTHING = -1e30f;  // the radius of a light that reaches nothing
 
 // Rounding of 32-bit arithmetic, as a share of the numbers that go in: four units in the last place of the radius,
@@ -25,7 +26,7 @@ LAMP_CONST_FLOAT ROUND_POSITION = 1e-6f;
 // World space. A point light leaves the direction and the angles unread.
 struct Light {
   vec3 position;      // m
-  float range;        // m, >= 0; 0 reaches nothing, infinity reaches everything
+  float range;        // m, >= 0; 0 reaches nothing, INFINITE_RADIUS and more reaches everything
   vec3 intensity;     // candela, linear Rec. 709: colour times intensity
   uint type;          // LIGHT_POINT or LIGHT_SPOT
   vec3 direction;     // unit length; where a spot looks
