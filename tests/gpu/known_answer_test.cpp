@@ -154,6 +154,45 @@ TEST_F(KnownAnswer, SpotIsDarkOutsideItsConeAndFullInside) {
   });
 }
 
+/// A wall that a camera sees from 40 micrometres, and a light 4 before it that reaches 8.
+Scene tiny_scene(const Light& light) {
+  Scene scene = wall_scene({}, 1e-3F);
+  scene.cameras[0].world_from_camera[3] = glm::vec4(0.0F, 0.0F, 4e-5F, 1.0F);
+  scene.cameras[0].near_m = 1e-6F;
+  scene.lights = {light};
+  scene.lights[0].position = {0.0F, 0.0F, 4e-6F};
+  scene.lights[0].range = 8e-6F;
+  scene.lights[0].intensity = 1e-8F;
+  return scene;
+}
+
+TEST_F(KnownAnswer, LightsOfATinyRangeAreLitToTheirRange) {
+  Light spot;
+  spot.type = LightType::spot;
+  spot.outer_angle = 1.3F;
+  spot.inner_angle = 1.2F;  // the wall within the range is within that
+  for (const Light& light : {Light{}, spot}) {
+    SCOPED_TRACE(static_cast<int>(light.type));
+    const Scene scene = tiny_scene(light);
+    const Pictures pictures(scene);
+    for_each_path([&](ShadingPath path) {
+      std::uint32_t lit = 0;
+      for (std::uint32_t x = 0; x < WIDTH; ++x) {
+        const glm::dvec3 at = seen_point(pictures.view, {x, 24}, {0.0, 0.0, 1.0});
+        const double distance = glm::length(glm::dvec3(scene.lights[0].position) - at);
+        const glm::dvec3 found = pictures.at(path, {x, 24});
+        if (distance > 8.01e-6) expect_near(found, glm::dvec3(0.0), 0.0);
+        if (distance > 7.9e-6) continue;
+        ++lit;
+        // Nearer than 0.1 mm no light is brighter than there.
+        const double dimmer = distance * distance / 1e-8;
+        expect_near(found, lit_by_point(scene.lights[0], at, {}, pictures.view) * dimmer, tolerance(path));
+      }
+      EXPECT_GT(lit, 10U);
+    });
+  }
+}
+
 TEST_F(KnownAnswer, EmissionAmbientSunAndSky) {
   const glm::vec3 emitted(0.5F, 2.0F, 7.0F);
   Scene scene = wall_scene({.emissive = emitted}, 1.0F);

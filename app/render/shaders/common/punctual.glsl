@@ -6,7 +6,8 @@
 #define LAMP_PUNCTUAL
 #include "common/brdf.glsl"
 
-const float RADIUS2 = 1e-8;  // m^2, squared radius of every light: a point would be infinitely bright
+const float BRIGHTEST = 1e8;     // 1 / m^2: nearer than 0.1 mm no light is brighter; a point would be infinitely so
+const float NO_DISTANCE2 = 1e-30;  // m^2, so that nothing is divided by 0
 
 // What shading asks of a light.
 struct Emitter {
@@ -23,7 +24,7 @@ bool is_spot(Emitter e) { return e.edge > 0.0; }
 // The way from a surface to a light.
 struct Way {
   vec3 offset;     // m
-  float d2;        // its squared length and RADIUS2
+  float d2;        // its squared length and NO_DISTANCE2
   float ratio2;    // d2 over the squared range
   float n_offset;  // its length along the normal
 };
@@ -31,7 +32,7 @@ struct Way {
 // False if nothing arrives, whatever else the light is.
 bool way_to(Reflector r, vec3 position, float inverse_range2, out Way way) {
   precise const vec3 offset = position - r.position;
-  precise const float d2 = fma(offset.x, offset.x, fma(offset.y, offset.y, fma(offset.z, offset.z, RADIUS2)));
+  precise const float d2 = fma(offset.x, offset.x, fma(offset.y, offset.y, fma(offset.z, offset.z, NO_DISTANCE2)));
   precise const float ratio2 = d2 * inverse_range2;
   way = Way(offset, d2, ratio2, fused_dot(r.normal, offset));
   return ratio2 < 1.0 && way.n_offset > 0.0;
@@ -40,7 +41,7 @@ bool way_to(Reflector r, vec3 position, float inverse_range2, out Way way) {
 // `spot` is is_spot(e), for callers that know it beforehand.
 void add_light_along(inout vec3 sum, Reflector r, Way way, Emitter e, bool spot) {
   precise const float inverse = inversesqrt(way.d2);
-  precise float attenuation = fma(minus(way.ratio2), way.ratio2, 1.0) * (inverse * inverse);
+  precise float attenuation = fma(minus(way.ratio2), way.ratio2, 1.0) * min(inverse * inverse, BRIGHTEST);
   if (spot) {
     precise const float cone = clamp(fma(fused_dot(way.offset, e.axis), inverse, minus(e.edge)), 0.0, 1.0);
     attenuation *= cone * cone;
