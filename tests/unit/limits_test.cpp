@@ -184,6 +184,29 @@ TEST(PieceLimits, PiecesStayBelowTheWorkGroupsOfADevice) {
   EXPECT_GT(pieces->bytes / sizeof(shared::LightPiece), 60000);
 }
 
+// A hit names its cell in HIT_CELL_BITS bits, whatever the picture.
+TEST(CellLimits, EveryCellOfThePlannersLargestPicturesHasANumber) {
+  const Method& method = *find_method("lamplight").value();
+  DeviceTraits boundless = test::LARGE_DEVICE;
+  boundless.max_storage_buffer_bytes = boundless.memory_bytes = ~0ULL;
+  boundless.max_groups = {~0U, ~0U, ~0U};
+  boundless.max_image_size = MAX_IMAGE_SIZE;
+  std::uint64_t most = 0;
+  for (const glm::uvec2 size : {glm::uvec2(MAX_IMAGE_SIZE), {MAX_IMAGE_SIZE, MAX_IMAGE_SIZE - 1}, {MAX_IMAGE_SIZE, 1}})
+    for (const char* tile : {"tile=8", "tile=16", "tile=32"})
+      for (const char* slices : {"slices=2", "slices=4", "slices=5", "slices=32"})
+        for (const char* depth : {"depth=buffer", "depth=none"})
+          for (const std::uint32_t lights : {1U, 1U << 17, MAX_LIGHTS}) {
+            Problem problem = problem_of(method, size.x, size.y, lights, boundless);
+            problem.options = resolve_options(method, {tile, slices, depth, "cells=list"}).value();
+            const Plan plan = make_plan(method, problem).value();
+            const std::uint64_t bytes = std::ranges::find(plan.buffers, "cells", &BufferDesc::name)->bytes;
+            most = std::max(most, bytes / sizeof(shared::LightCell));
+          }
+  EXPECT_GT(most, 500'000U);
+  EXPECT_LE(most, 1ULL << shared::HIT_CELL_BITS);
+}
+
 // Below that no light can miss its place: needles may be in every cell.
 TEST(LamplightMemory, FewLightsHaveRoomInEveryCell) {
   const Method& method = *find_method("lamplight").value();

@@ -328,6 +328,7 @@ std::optional<Error> check_lamplight(const Problem& problem) {
 }
 
 std::vector<OptionSpec> lamplight_options() {
+  static_assert(lamplight::LEAST_TILE_PX == 8);
   return {{.key = "tile", .help = "tile size, pixels", .fallback = "16", .choices = {"8", "16", "32"}},
           {.key = "container",
            .help = "what a tile keeps: a list, or a bit for each light of its cell",
@@ -346,7 +347,11 @@ std::vector<OptionSpec> lamplight_options() {
            .help = "none: tiles are cut into slices, right at any depth, and no depth buffer is read",
            .fallback = "buffer",
            .choices = {"buffer", "none"}},
-          {.key = "slices", .help = "depth=none: slices of depth", .fallback = "24", .min = 2, .max = 32},
+          {.key = "slices",
+           .help = "depth=none: slices of depth",
+           .fallback = "24",
+           .min = 2,
+           .max = lamplight::MOST_SLICES},
           parts::slice_scale_option("scale", "log"),
           parts::slice_near_option(),
           parts::slice_far_option(),

@@ -25,6 +25,11 @@ constexpr std::uint64_t MEAN_CAPACITY = 32;                  // default of the o
 constexpr std::uint64_t LIST_LIGHTS = 4;          // entries for each light that are room as well, within LIST_BUDGET
 constexpr std::uint64_t LIST_BUDGET = 5U << 18;   // entries, 5 MiB: what small pictures leave of it is room as well
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // an entry's place has 31 bits
+// A hit's place holds any cell, and beside it any rank in a block.
+constexpr std::uint32_t LEAST_CELL_PX = LEAST_TILE_PX * MOST_CELL_TILES;  // in the largest picture
+constexpr std::uint32_t MOST_CELLS_ACROSS = (MAX_IMAGE_SIZE + LEAST_CELL_PX - 1) / LEAST_CELL_PX;
+constexpr std::uint32_t MOST_LAYERS = (MOST_SLICES + CELL_SLICES - 1) / CELL_SLICES;
+static_assert(MOST_CELLS_ACROSS * MOST_CELLS_ACROSS * MOST_LAYERS <= 1U << shared::HIT_CELL_BITS);
 static_assert(LARGEST_BLOCK <= 1U << (32 - shared::HIT_CELL_BITS));
 
 std::uint32_t block_size(std::uint32_t lights) {

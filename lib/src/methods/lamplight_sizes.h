@@ -15,6 +15,9 @@ constexpr std::uint32_t THREADS = 256;  ///< of a work group, where the device t
 
 constexpr std::uint32_t WORD_LIGHTS = 32;  ///< bits
 
+constexpr std::uint32_t LEAST_TILE_PX = 8;  ///< of the options
+constexpr std::uint32_t MOST_SLICES = 32;
+
 constexpr std::uint32_t THREAD_PAIRS = 4;  ///< of light and row for each thread that tests them, in shared memory
 
 /// What a row keeps of a piece: a span of the lists, or bits.

@@ -24,7 +24,7 @@ struct LightHit {
   uint light;
   uint place;  // cell, and above HIT_CELL_BITS the rank among the hits of the same block of lights in the same cell
 };
-LAMP_CONST HIT_CELL_BITS = 18u;  // eight layers of cells of 32 x 32 tiles of 8 pixels in a picture of 32768 x 32768
+LAMP_CONST HIT_CELL_BITS = 19u;  // eight layers of cells of 32 x 32 tiles of 8 pixels in a picture of 65536 x 65536
 
 LAMP_CONST PIECE = 128u;      // entries
 LAMP_CONST PIECE_WORDS = 4u;  // a bit for each of them
