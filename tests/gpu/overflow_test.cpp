@@ -172,6 +172,30 @@ INSTANTIATE_TEST_SUITE_P(Of, Growing, ::testing::ValuesIn(growing_methods()),
 INSTANTIATE_TEST_SUITE_P(Of, Overflow, ::testing::ValuesIn(all_short_lists()),
                          [](const auto& test) { return test_name(test.param.method->name); });
 
+// Where a few MiB hold every light in every cell.
+TEST(SmallProblems, DoNotOverflow) {
+  constexpr std::uint32_t SMALL_WIDTH = 320;
+  constexpr std::uint32_t SMALL_HEIGHT = 180;
+  constexpr std::uint32_t LIGHTS = 600;
+  const TestScene& scene = builtin_test_scene("corridor");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, SMALL_WIDTH, SMALL_HEIGHT, LIGHTS);
+  std::vector<Light> everywhere(LIGHTS);
+  for (std::uint32_t i = 0; i < LIGHTS; ++i) everywhere[i].position = {static_cast<float>(i) / LIGHTS, 1.0F, 0.0F};
+  renderer.set_frame(view_of(find_camera(scene.scene, ""), SMALL_WIDTH, SMALL_HEIGHT, "camera"), pack(everywhere));
+  const std::pair<std::string_view, std::vector<std::string>> cases[] = {
+      {"lamplight", {}}, {"lamplight", {"cells=list"}}, {"clustered", {}},
+      {"tiled", {}},     {"stewart-half-z", {}},        {"primal", {}}};
+  for (const auto& [name, settings] : cases) {
+    SCOPED_TRACE(fmt::format("{} {}", name, fmt::join(settings, " ")));
+    const Candidate candidate{.method = take(find_method(name)), .settings = settings, .light_capacity = LIGHTS};
+    Lighting& lighting = kept_lighting(renderer, candidate, ShadingPath::deferred);
+    EXPECT_EQ(renderer.cull(lighting).counters.overflowed_cells, 0);
+    const std::vector<gpu::Visit> visits = renderer.visit_all(lighting);
+    EXPECT_EQ(std::ranges::max(visits, {}, &gpu::Visit::visited).visited, LIGHTS);
+  }
+  for (const std::string& message : test_context().take_messages()) ADD_FAILURE() << message;
+}
+
 // With room for a million lights, a tile's bits in all tiles would be larger than a plan allows.
 TEST_F(LitCorridor, ClustersThatOverflowWithoutBitsWalkEveryLight) {
   constexpr std::uint32_t LARGE_WIDTH = 480;

@@ -17,8 +17,10 @@ struct Planned {
 
 Planned planned(std::string_view name, const std::vector<std::string>& settings, std::uint32_t lights = 4096) {
   const Method& method = *find_method(name).value();
+  // So large that lists do not hold every light in every cell by default.
   Problem problem{
-      .width = 640, .height = 360, .light_capacity = lights, .options = resolve_options(method, settings).value()};
+      .width = 1920, .height = 1080, .light_capacity = lights, .options = resolve_options(method, settings).value()};
+  problem.traits.max_storage_buffer_bytes = ~0U;
   Plan plan = make_plan(method, problem).value();
   return {method, std::move(problem), std::move(plan)};
 }

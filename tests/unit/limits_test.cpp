@@ -207,6 +207,65 @@ TEST(CellLimits, EveryCellOfThePlannersLargestPicturesHasANumber) {
   EXPECT_LE(most, 1ULL << shared::HIT_CELL_BITS);
 }
 
+/// Lists that a plan keeps: of all its cells, or of each.
+std::uint64_t entries_of(const Plan& plan, std::string_view option) {
+  const auto found = std::ranges::find(plan.capacities, option, &Capacity::option);
+  return found == plan.capacities.end() ? ~0ULL : found->entries;
+}
+
+TEST_P(Limits, SmallProblemsHaveRoomForEveryLightInEveryCell) {
+  constexpr std::uint64_t SMALL = 5U << 18;
+  const Method& method = *GetParam();
+  std::uint32_t checked = 0;
+  for (const glm::uvec2 size : {glm::uvec2(1, 1), {320, 180}, {640, 360}, {4000, 3}, {1920, 1080}})
+    for (const std::uint32_t lights : {1U, 129U, 600U, 1400U, 5000U, 65536U}) {
+      const Plan plan = make_plan(method, problem_of(method, size.x, size.y, lights, test::LARGE_DEVICE)).value();
+      if (plan.cells * lights > SMALL) continue;
+      SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + ", " + std::to_string(lights) + " lights");
+      ++checked;
+      EXPECT_GE(entries_of(plan, "capacity"), std::min(lights, 2048U));
+      EXPECT_GE(entries_of(plan, "mean_capacity"), plan.cells * std::min(lights, 2048U));
+      if (entries_of(plan, "mean_cells") == ~0ULL) continue;
+      const std::uint64_t cell_bytes = std::ranges::find(plan.buffers, "cells", &BufferDesc::name)->bytes;
+      const std::uint64_t pieces = (lights + shared::PIECE - 1) / shared::PIECE;
+      EXPECT_GE(entries_of(plan, "mean_cells"), cell_bytes / sizeof(shared::LightCell) * pieces * shared::PIECE);
+    }
+  EXPECT_GT(checked, 4U);
+}
+
+TEST(SmallProblems, TakeNoMoreThanAskedForBelowADefault) {
+  const auto entries = [](std::string_view name, std::string_view option, const std::string& value) {
+    const Method& method = *find_method(name).value();
+    Problem problem = problem_of(method, 320, 180, 600, test::LARGE_DEVICE);
+    std::vector<std::string> settings{std::string(option) + "=" + value};
+    if (name == "tiled" && option == "mean_capacity") settings.emplace_back("order=type");
+    problem.options = resolve_options(method, settings).value();
+    return entries_of(make_plan(method, problem).value(), option);
+  };
+  EXPECT_EQ(entries("clustered", "mean_capacity", "511"), 5U * 3 * 24 * 511);
+  EXPECT_EQ(entries("clustered", "mean_capacity", "512"), 5U * 3 * 24 * 600);
+  EXPECT_EQ(entries("tiled", "capacity", "511"), 511U);
+  EXPECT_EQ(entries("tiled", "capacity", "512"), 600U);
+  EXPECT_EQ(entries("tiled", "mean_capacity", "127"), 20U * 12 * 127);
+  EXPECT_EQ(entries("tiled", "mean_capacity", "128"), 20U * 12 * 600);
+  EXPECT_EQ(entries("lamplight", "mean_capacity", "31"), 20U * 12 * 31 + 4 * 600);
+  EXPECT_EQ(entries("lamplight", "mean_capacity", "32"), 20U * 12 * 600);
+}
+
+// What large problems took before small ones had room for everything.
+TEST(SmallProblems, LeaveLargeOnesAsTheyAre) {
+  const auto entries = [](std::string_view name, std::string_view option, std::uint32_t lights) {
+    const Method& method = *find_method(name).value();
+    return entries_of(make_plan(method, problem_of(method, 1920, 1080, lights, test::LARGE_DEVICE)).value(), option);
+  };
+  EXPECT_EQ(entries("lamplight", "mean_capacity", 4096), 8160U * 32 + 4 * 4096);
+  EXPECT_EQ(entries("lamplight", "mean_capacity", 65536), 8160U * 32 + 4 * 65536);
+  EXPECT_EQ(entries("clustered", "mean_capacity", 65536), 30U * 17 * 24 * 512);
+  EXPECT_EQ(entries("tiled", "capacity", 4096), 512U);
+  EXPECT_EQ(entries("primal", "capacity", 4096), 1024U);
+  EXPECT_EQ(entries("primal", "mean_capacity", 4096), 2040U * 128);
+}
+
 // Below that no light can miss its place: needles may be in every cell.
 TEST(LamplightMemory, FewLightsHaveRoomInEveryCell) {
   const Method& method = *find_method("lamplight").value();

@@ -64,9 +64,13 @@ std::uint32_t words_of_a_tile(const Problem& problem, const parts::TileGrid& til
   return bytes <= std::min(MOST_BIT_BYTES, problem.traits.max_storage_buffer_bytes) ? words : 0;
 }
 
+constexpr std::uint32_t MEAN_CAPACITY = 512;  // default of the option
+
 /// Of the shared list: no cluster can list more than every light.
 std::uint64_t list_entries(const Problem& problem, std::uint64_t clusters) {
-  return clusters * std::min<std::uint64_t>(problem.options.integer("mean_capacity"), parts::capacity(problem));
+  const std::uint64_t mean = problem.options.integer("mean_capacity");
+  const std::uint64_t worst = clusters * parts::capacity(problem);
+  return mean >= MEAN_CAPACITY && worst <= parts::SMALL_LISTS ? worst : std::min(clusters * mean, worst);
 }
 
 /// Each cluster a range of one shared list.
@@ -128,7 +132,8 @@ std::vector<OptionSpec> clustered_options(
       {.key = "container", .help = "what a cluster keeps", .fallback = "list", .choices = {"list", "bits"}},
       parts::walk_option(),
       {.key = "mean_capacity",
-       .help = "container=list: lights a cluster, on average, that the shared list has room for",
+       .help = "container=list: lights a cluster, on average, that the shared list has room for; from 512 on, all "
+               "lights where these are few",
        .fallback = "512",
        .min = 1,
        .max = MAX_LIGHTS}};

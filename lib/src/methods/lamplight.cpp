@@ -361,7 +361,8 @@ std::vector<OptionSpec> lamplight_options() {
            .min = 0,
            .max = 4096},
           {.key = "mean_capacity",
-           .help = "container=list: lights a tile, on average, that the lists have room for",
+           .help = "container=list: lights a tile, on average, that the lists have room for; from 32 on, all lights "
+                   "where these are few",
            .fallback = "32",
            .min = 1,
            .max = MAX_LIGHTS}};

@@ -23,7 +23,7 @@ constexpr std::uint64_t CELL_BITS_BYTES = 5U << 20;          // of all cells, at
 constexpr std::uint64_t SPARSE_CELL_BITS_BYTES = 17U << 20;  // likewise, with depth buffer and at most SPARSE_LIGHTS
 constexpr std::uint64_t MEAN_CAPACITY = 32;                  // default of the option
 constexpr std::uint64_t LIST_LIGHTS = 4;          // entries for each light that are room as well, within LIST_BUDGET
-constexpr std::uint64_t LIST_BUDGET = 5U << 18;   // entries, 5 MiB: what small pictures leave of it is room as well
+constexpr std::uint64_t LIST_BUDGET = 5U << 18;   // entries, 5 MiB: what pictures leave of it is room as well
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // an entry's place has 31 bits
 // A hit's place holds any cell, and beside it any rank in a block.
 constexpr std::uint32_t LEAST_CELL_PX = LEAST_TILE_PX * MOST_CELL_TILES;  // in the largest picture
@@ -45,13 +45,31 @@ std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
                    bytes / s.row_bytes() / s.cell_rows, bytes / sizeof(shared::LightHit) / PIECE});
 }
 
+/// Entries of all lists together, if every light is in each of them.
+std::uint64_t worst_lists(const Problem& problem, const Sizes& s) {
+  return s.tiles.count() * s.slices * parts::capacity(problem);
+}
+
 /// With mean_cells=0 two a cell and no more.
 std::uint64_t wanted_pieces(const Problem& problem, const Sizes& s) {
   const std::uint64_t lights = parts::capacity(problem);
   const std::uint64_t room = lights * problem.options.integer("mean_cells");
   const std::uint64_t all = s.cell_count * ((lights + PIECE - 1) / PIECE);
-  const std::uint64_t few = room == 0 ? 0 : std::min(s.cell_bits ? FEW_BITS_PIECES : FEW_PIECES, all);
-  return (room + PIECE - 1) / PIECE + std::max(CELL_PIECES * s.cell_count, few);
+  const std::uint64_t few = s.cell_bits ? FEW_BITS_PIECES : FEW_PIECES;
+  const bool is_small = all <= few || worst_lists(problem, s) <= parts::SMALL_LISTS;
+  const std::uint64_t least = room == 0 ? 0 : is_small ? all : few;
+  return (room + PIECE - 1) / PIECE + std::max(CELL_PIECES * s.cell_count, least);
+}
+
+/// Lights in lists that there is room for.
+std::uint64_t wanted_entries(const Problem& problem, const Sizes& s) {
+  const std::uint64_t mean = problem.options.integer("mean_capacity");
+  const std::uint64_t worst = worst_lists(problem, s);
+  if (mean >= MEAN_CAPACITY && worst <= parts::SMALL_LISTS) return worst;
+  const std::uint64_t rows = s.tiles.count() * s.slices;
+  const std::uint64_t left = LIST_BUDGET - std::min(LIST_BUDGET, MEAN_CAPACITY * rows);
+  const std::uint64_t lights = parts::capacity(problem);
+  return std::min(rows * mean + std::min(LIST_LIGHTS * lights, left), worst);
 }
 
 /// Tiles, slices, and cells of them.
@@ -109,7 +127,6 @@ std::vector<std::uint32_t> with_slices(std::vector<std::uint32_t> constants, con
 
 Sizes sizes_of(const Problem& problem) {
   Sizes s = grid_of(problem);
-  const std::uint64_t lights = parts::capacity(problem);
   s.cell_bits = wants_cell_bits(problem, s);
   s.block = s.cell_bits ? WORD_LIGHTS : block_size(parts::capacity(problem));
   s.blocks = parts::divide_up(parts::capacity(problem), s.block);
@@ -117,11 +134,8 @@ Sizes sizes_of(const Problem& problem) {
   if (s.cell_bits) s.pieces = std::max(s.pieces, s.cell_count);  // each has its own
   s.entries = s.pieces * PIECE;
   if (s.bits) return s;
-  const std::uint64_t rows = s.tiles.count() * s.slices;
-  const std::uint64_t left = LIST_BUDGET - std::min(LIST_BUDGET, MEAN_CAPACITY * rows);
   s.listed = static_cast<std::uint32_t>(
-      std::min({rows * problem.options.integer("mean_capacity") + std::min(LIST_LIGHTS * lights, left), MOST_ENTRIES,
-                problem.traits.max_storage_buffer_bytes / 4}));
+      std::min({wanted_entries(problem, s), MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 4}));
   return s;
 }
 

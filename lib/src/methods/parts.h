@@ -39,6 +39,10 @@ struct TileGrid {
 /// Adds shared::Counters, zeroed every frame, and makes it the plan's.
 ResourceId add_counters(Plan& plan);
 
+/// Entries of lists, 5 MiB, that a plan has room for by default if every light in every cell comes to no more: small
+/// problems cannot overflow. Who sets a capacity below its default asks for less.
+constexpr std::uint64_t SMALL_LISTS = 5U << 18;
+
 /// Capacities whose need is in the counters: of one list shared by all cells, and of each cell's own.
 [[nodiscard]] Capacity shared_list(const Plan& plan, std::string_view option, std::uint64_t entries,
                                    std::uint64_t per_option);

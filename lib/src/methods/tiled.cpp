@@ -80,6 +80,27 @@ Pass cull_pass(const Problem& problem, const TiledAxes& axes, const parts::TileG
   return pass;
 }
 
+/// Entries of all lists together, if every light is in each of them, or as many as a list in shared memory can hold.
+std::uint64_t worst_lists(const Problem& problem, std::uint64_t cells) {
+  return cells * std::min(parts::capacity(problem), MOST_TILE_CAPACITY);
+}
+
+/// Of each list: for every light, where these are few and shared memory holds them.
+std::uint32_t list_capacity(const Problem& problem, TiledAxes axes, std::uint64_t cells) {
+  const std::uint32_t given = axes.capacity;
+  if (axes.bits) return given;
+  axes.capacity = std::max(given, std::min(parts::capacity(problem), MOST_TILE_CAPACITY));
+  const bool is_small = given >= TILE_CAPACITY && worst_lists(problem, cells) <= parts::SMALL_LISTS;
+  return is_small && shared_bytes(axes) <= problem.traits.shared_memory_bytes ? axes.capacity : given;
+}
+
+/// Of the list that all cells share.
+std::uint64_t shared_entries(const Problem& problem, const TiledAxes& axes, std::uint64_t cells) {
+  const std::uint64_t worst = worst_lists(problem, cells);
+  const bool is_small = axes.mean_capacity >= TILE_MEAN_CAPACITY && worst <= parts::SMALL_LISTS;
+  return is_small ? worst : std::min(cells * axes.mean_capacity, worst);
+}
+
 Buffers add_buffers(Plan& plan, const Problem& problem, const TiledAxes& axes, std::uint64_t tiles) {
   Buffers b{};
   b.bounds = axes.aos ? NO_RESOURCE : parts::add_light_bounds(plan, problem);
@@ -97,8 +118,8 @@ Buffers add_buffers(Plan& plan, const Problem& problem, const TiledAxes& axes, s
   if (axes.bits)
     b.lists = plan.add({.name = "tile bits", .bytes = cells * words * 4});
   else
-    b.lists = plan.add(
-        {.name = "tile lists", .bytes = typed ? cells * axes.mean_capacity * 4 : cells * (1 + axes.capacity) * 4});
+    b.lists = plan.add({.name = "tile lists",
+                        .bytes = typed ? shared_entries(problem, axes, cells) * 4 : cells * (1 + axes.capacity) * 4});
   b.splits = plan.add({.name = "tile splits", .bytes = tiles * 4});
   b.headers = typed ? plan.add({.name = "tile headers", .bytes = cells * 8}) : NO_RESOURCE;
   return b;
@@ -133,23 +154,24 @@ TiledAxes possible_axes(Plan& plan, const Problem& problem) {
 
 Plan plan_tiled(const Problem& problem) {
   Plan plan;
-  const TiledAxes axes = possible_axes(plan, problem);
+  TiledAxes axes = possible_axes(plan, problem);
   const parts::TileGrid tiles = parts::tile_grid(problem, axes.tile_px);
   plan.cells = tiles.count() * axes.ranges();
+  axes.capacity = list_capacity(problem, axes, plan.cells);
+  const std::uint64_t shared_list = shared_entries(problem, axes, plan.cells);
   plan.ordered = axes.order == shared::ORDER_INDEX;
   plan.approximate = axes.test == shared::TEST_CONE_APPROXIMATE;
   const Buffers buffers = add_buffers(plan, problem, axes, tiles.count());
   if (!axes.bits) plan.capacities = {parts::own_lists(plan, "capacity", axes.capacity)};
   if (axes.order == shared::ORDER_TYPE)
-    plan.capacities.push_back(parts::shared_list(plan, "mean_capacity", plan.cells * axes.mean_capacity, plan.cells));
+    plan.capacities.push_back(parts::shared_list(plan, "mean_capacity", shared_list, plan.cells));
   plan.passes = passes_before(axes, tiles, buffers);
   plan.passes.push_back(cull_pass(problem, axes, tiles, buffers));
   // Container bits: the last constant is the words of a cell; a shared list: its length.
-  const auto cells = static_cast<std::uint32_t>(plan.cells);
   if (axes.bits)
     plan.passes.back().constants.push_back(parts::divide_up(parts::capacity(problem), 32));
   else if (axes.order == shared::ORDER_TYPE)
-    plan.passes.back().constants.push_back(cells * axes.mean_capacity);
+    plan.passes.back().constants.push_back(static_cast<std::uint32_t>(shared_list));
   plan.lookup = look_up(plan, problem, axes, buffers);
   if (axes.bits || axes.tile_px * axes.tile_px > problem.traits.max_group_invocations) return plan;
   std::vector<Binding> fused_bindings = tile_bindings(buffers);

@@ -85,9 +85,15 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
        .help = "tile planes or cones: made anew each frame, or kept until size or projection changes",
        .fallback = "per-frame",
        .choices = {"per-frame", "cached"}},
-      {.key = "capacity", .help = "lights a tile's list has room for", .fallback = "512", .min = 1, .max = 2048},
+      {.key = "capacity",
+       .help = "lights a tile's list has room for; from 512 on, all lights where these are few",
+       .fallback = "512",
+       .min = 1,
+       .max = MOST_TILE_CAPACITY},
       {.key = "mean_capacity",
-       .help = "order=type: lights a tile, on average, that the shared list has room for",
+       .help =
+           "order=type: lights a tile, on average, that the shared list has room for; from 128 on, all lights where "
+           "these are few",
        .fallback = "128",
        .min = 1,
        .max = 2048}};

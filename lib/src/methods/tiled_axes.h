@@ -10,11 +10,16 @@
 
 namespace lamp {
 
+// Defaults of the options that size lists, and the largest that a list in shared memory may be.
+inline constexpr std::uint32_t TILE_CAPACITY = 512;
+inline constexpr std::uint32_t TILE_MEAN_CAPACITY = 128;
+inline constexpr std::uint32_t MOST_TILE_CAPACITY = 2048;
+
 /// The options of a tiled method, parsed.
 struct TiledAxes {
   std::uint32_t tile_px = 16;
-  std::uint32_t capacity = 512;       ///< lights a list has room for
-  std::uint32_t mean_capacity = 128;  ///< lights a cell, on average, that a shared list has room for
+  std::uint32_t capacity = TILE_CAPACITY;            ///< lights a list has room for
+  std::uint32_t mean_capacity = TILE_MEAN_CAPACITY;  ///< lights a cell, on average, that a shared list has room for
   std::uint32_t bounds = shared::BOUNDS_MINMAX;
   std::uint32_t test = shared::TEST_PLANES;
   std::uint32_t spot = shared::SPOT_SPHERE;
