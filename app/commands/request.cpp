@@ -35,6 +35,7 @@ bool parse_number(std::string_view text, Number& out) {
 std::string range_note(std::span<const Light> lights) {
   if (lights.empty()) return "";
   const auto [low, high] = std::ranges::minmax(lights, {}, &Light::range);
+  if (std::isinf(low.range)) return " (without range)";
   return fmt::format(" (range {:.2f} to {:.2f} m)", low.range, high.range);
 }
 
@@ -100,9 +101,10 @@ std::pair<float, float> parse_range(const std::string& text) {
       parse_number(std::string_view(text).substr(0, colon), low) &&
       parse_number(colon == std::string::npos ? std::string_view(text) : std::string_view(text).substr(colon + 1),
                    high);
-  if (!parsed || !(low > 0.0F) || !(high >= low) || !(high <= LONGEST_RANGE_M))
-    throw Error(
-        fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX <= {}", text, LONGEST_RANGE_M));
+  const bool without = std::isinf(low) && std::isinf(high);
+  if (!parsed || !(low > 0.0F) || !(high >= low) || !(high <= LONGEST_RANGE_M || without))
+    throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX <= {}, or inf", text,
+                            LONGEST_RANGE_M));
   return {low, high};
 }
 

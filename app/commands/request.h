@@ -27,7 +27,7 @@ struct Request {
   std::uint32_t lights = 4096;
   bool lights_given = false;  ///< on the command line: to a capture, lights are added when asked for
   float spots = 0.5F;
-  std::string range;         ///< "MIN:MAX", empty: automatic
+  std::string range;         ///< "MIN:MAX" or "inf", empty: automatic
   std::uint32_t decals = 0;  ///< the scene's own, then generated ones
   std::uint64_t seed = 1;
   std::string method = "auto";
@@ -88,7 +88,7 @@ struct Setup {
 
 /// "1280x720" to numbers, each 1 or more.
 [[nodiscard]] glm::uvec2 parse_size(const std::string& text);
-/// "MIN:MAX" or one number, in metres; 0, 0 when empty: automatic.
+/// "MIN:MAX" or one number, in metres; both infinite for "inf": no range; 0, 0 when empty: automatic.
 [[nodiscard]] std::pair<float, float> parse_range(const std::string& text);
 [[nodiscard]] ShadingPath parse_path(const std::string& text);
 [[nodiscard]] Brdf parse_brdf(const std::string& text);

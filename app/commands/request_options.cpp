@@ -27,8 +27,8 @@ void add_light_options(CLI::App& command, Request& r) {
       ->capture_default_str();
   command
       .add_option("--range", r.range,
-                  "range of the generated lights in metres, MIN:MAX or one number; default: such that about 24 of them "
-                  "reach a point")
+                  "range of the generated lights in metres, MIN:MAX or one number; inf: they have none and reach "
+                  "everything; default: such that about 24 of them reach a point")
       ->type_name("MIN:MAX")
       ->group("Lights");
   command.add_option("--seed", r.seed, "seed of the generated lights and decals; the same seed gives the same picture")

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "error.h"
@@ -46,8 +47,11 @@ Ranges wide_ranges(double sphere_m3, double count, float ratio) {
   return {.min = static_cast<float>(smallest), .max = static_cast<float>(smallest * ratio), .power = power};
 }
 
+bool without_range(const PlaceLights& how) { return std::isinf(how.min_range) && std::isinf(how.max_range); }
+
 Ranges ranges_of(const OpenAir& air, const PlaceLights& how) {
-  if (how.min_range != 0.0F || how.max_range != 0.0F) return {.min = how.min_range, .max = how.max_range};
+  const bool given = how.min_range != 0.0F || how.max_range != 0.0F;
+  if (given && !without_range(how)) return {.min = how.min_range, .max = how.max_range};
   const LightPlacement& placement = air.placement;
   const double count = std::max(how.count, 1U);
   const double cube = 3.0 * OVERLAP * air.volume() / count / (4.0 * std::numbers::pi);  // of the range
@@ -83,8 +87,10 @@ void check(const PlaceLights& how) {
   }
   const bool automatic = how.min_range == 0.0F && how.max_range == 0.0F;
   const bool is_range = how.min_range > 0.0F && how.min_range <= how.max_range && std::isfinite(how.max_range);
-  if (!automatic && !is_range) {
-    throw Error(fmt::format("range: expected 0 < min <= max, both finite, got {}:{}", how.min_range, how.max_range));
+  const bool none = without_range(how) && how.min_range > 0.0F;
+  if (!automatic && !none && !is_range) {
+    throw Error(fmt::format("range: expected 0 < min <= max, both finite or both infinite, got {}:{}", how.min_range,
+                            how.max_range));
   }
   if (how.frames == 0) throw Error("frames: a path must have at least 1 frame, got 0");
 }
@@ -147,6 +153,7 @@ Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& range
   if (light.type == LightType::spot) light.range *= ranges.spot_reach;
   // About 9 lux at a third of the range, whatever the range.
   light.intensity = light.range * light.range;
+  if (without_range(how)) light.range = std::numeric_limits<float>::infinity();
   return light;
 }
 

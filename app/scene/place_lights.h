@@ -14,7 +14,7 @@ struct PlaceLights {
   std::uint32_t count = 0;
   float spots = 0.5F;      ///< fraction of the lights that are spots, 0 .. 1
   float min_range = 0.0F;  ///< m, > 0; both 0: chosen so that a point of open air lies in about 24 lights' ranges
-  float max_range = 0.0F;  ///< m, >= min_range, finite
+  float max_range = 0.0F;  ///< m, >= min_range, finite; both infinite: as with automatic ranges, but without them
   std::uint64_t seed = 1;
   std::uint32_t frame = 0;     ///< of a flight: lights move along their paths
   std::uint32_t frames = 300;  ///< a path closes after so many frames, > 0

@@ -286,6 +286,18 @@ TEST(PlaceLights, PathsAreSmoothAndClosed) {
   EXPECT_GT(moving, 180);
 }
 
+TEST(PlaceLights, WithoutRangeTheyAreTheSameLightsOtherwise) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const Scene scene = closed_room();
+  const auto with = place_lights(scene, {.count = 50});
+  auto without = place_lights(scene, {.count = 50, .min_range = infinity, .max_range = infinity});
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    EXPECT_EQ(without[i].range, infinity);
+    without[i].range = with[i].range;
+    EXPECT_TRUE(same(with[i], without[i]));
+  }
+}
+
 // The mean number of lights whose range holds the middle of a cell of air.
 double overlap(const Scene& scene, std::uint32_t count) {
   const auto air = lamp::app::find_open_air(scene);
