@@ -39,14 +39,14 @@ struct Group {
 struct Limits {
   std::optional<std::uint32_t> frames;
   std::optional<std::uint32_t> warm_up;
-  double scale = 1.0;                ///< of all sizes, each side; before max_pixels
-  std::uint32_t most_frames = ~0U;   ///< of a series without `frames` from the command line; of a flight 12 times
-                                     ///< as many
-  std::uint32_t max_lights = ~0U;    ///< groups with more are left out
-  std::uint64_t max_pixels = ~0ULL;  ///< likewise
-  std::uint64_t most_pairs = ~0ULL;  ///< of pixel and light that brute force can walk here; beyond, lists alone are
-                                     ///< checked, and nothing where there are too many for the oracle as well
-  std::uint32_t most_walked = ~0U;   ///< lights that brute force can walk at a pixel; beyond, likewise
+  double scale = 1.0;                 ///< of all sizes, each side; before max_pixels
+  std::uint32_t most_frames = ~0U;    ///< of a series without `frames` from the command line; of a flight 12 times
+                                      ///< as many
+  std::uint32_t max_lights = ~0U;     ///< groups with more are left out
+  std::uint64_t max_pixels = ~0ULL;   ///< likewise
+  std::uint64_t most_pairs = ~0ULL;   ///< of pixel and light that brute force can walk here; beyond, lists alone are
+                                      ///< checked, and nothing where there are too many for the oracle as well
+  std::uint64_t most_walked = ~0ULL;  ///< lights that brute force can walk at a pixel; beyond, likewise
   VerifierChoice verifier = VerifierChoice::oracle;
   bool every_list = false;  ///< where the GPU verifies: the lists of every row
 };

@@ -177,7 +177,7 @@ Exit bench(const BenchOptions& o) {
                                              .max_lights = o.max_lights,
                                              .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
                                              .most_pairs = brute_force_pairs(device.context()),
-                                             .most_walked = device.context().device().traits.max_loop_rounds,
+                                             .most_walked = brute_force_lights(device.context()),
                                              .verifier = parse_verifier(o.verifier, device.context()),
                                              .every_list = !device.software()});
   check_groups(from_suite ? o.request.scene : "lamp bench", expansion.groups);

@@ -135,6 +135,11 @@ std::uint64_t brute_force_pairs(const Context& context) {
   return context.row().kind == "CPU" ? 3'000'000'000 : 200'000'000'000;
 }
 
+std::uint64_t brute_force_lights(const Context& context) {
+  const Problem problem{.width = 1, .height = 1, .traits = context.device().traits};
+  return take(make_plan(parse_method("all"), problem)).lookup.most_walked;
+}
+
 const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
 
 bool is_auto(std::string_view method) { return method == "auto"; }

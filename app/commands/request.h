@@ -100,6 +100,8 @@ void add_verifier_option(CLI::App& command, std::string& verifier);
 /// Pairs of pixel and light that brute force walks in about a minute on a software device, and on a GPU in the second
 /// or two after which a desktop takes the device away.
 [[nodiscard]] std::uint64_t brute_force_pairs(const Context& context);
+/// Lights that brute force surely walks at a pixel: a device may end a thread's loops.
+[[nodiscard]] std::uint64_t brute_force_lights(const Context& context);
 /// A method of the table, by its name.
 [[nodiscard]] const Method& parse_method(const std::string& text);
 /// Whether a method's name asks for whatever suits best.

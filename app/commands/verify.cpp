@@ -254,7 +254,7 @@ Exit verify(const VerifyOptions& o) {
     candidates.emplace_back(session.lighting(*chosen.method, chosen.options, path), chosen.options, setup.view.width());
   progress("verify picture: brute force");
   std::optional<HdrImage> reference;
-  const bool possible = setup.lights.size() <= session.context().device().traits.max_loop_rounds;
+  const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
   if (possible && (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context()))) {
     Lighting brute = session.lighting(parse_method("all"), {}, path);
     reference = session.renderer().render(brute).image;

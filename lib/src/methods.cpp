@@ -36,17 +36,26 @@ Result<const Method*> find_method(std::string_view name) {
 
 namespace {
 
+/// Brute force's shading takes lights in groups of 64, which cost two rounds each besides a round for every light.
+/// Where a subgroup walks one cell at a time, a thread goes through the rounds of all cells of its subgroup.
+std::uint64_t most_walked(std::string_view lookup, const DeviceTraits& traits) {
+  const std::uint64_t rounds = traits.max_loop_rounds;
+  if (lookup == "all") return rounds - rounds / 32 - 1;
+  if (lookup.ends_with("_lists_scalar")) return rounds / WALK_ROUNDS / traits.subgroup_size;
+  return rounds / WALK_ROUNDS;
+}
+
 /// A device that ends long loops cannot walk every light: an error where every pixel does, a note where one may.
 std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
-  const std::uint32_t rounds = problem.traits.max_loop_rounds;
-  const std::string ends = "the device ends a thread's loops after " + std::to_string(rounds) + " rounds";
-  if (plan.lookup.name == "all") {
-    if (problem.light_capacity <= rounds) return std::nullopt;
+  if (problem.traits.max_loop_rounds == ~0U) return std::nullopt;
+  const std::string ends =
+      "the device ends a thread's loops after " + std::to_string(problem.traits.max_loop_rounds) + " rounds";
+  if (plan.lookup.most_walked == ~0ULL) plan.lookup.most_walked = most_walked(plan.lookup.name, problem.traits);
+  if (problem.light_capacity <= plan.lookup.most_walked) return std::nullopt;
+  if (plan.lookup.name == "all")
     return Error{"look-up all", "walks " + std::to_string(problem.light_capacity) + " lights, but " + ends};
-  }
-  const std::uint64_t most = plan.lookup.most_walked != 0 ? plan.lookup.most_walked : rounds / WALK_ROUNDS;
-  if (problem.light_capacity > most)
-    plan.notes.push_back("a pixel that walks more than " + std::to_string(most) + " lights can lose some: " + ends);
+  plan.notes.push_back("a pixel that walks more than " + std::to_string(plan.lookup.most_walked) +
+                       " lights can lose some: " + ends);
   return std::nullopt;
 }
 

@@ -92,7 +92,7 @@ Lighting make_lighting(const Renderer& renderer, const Candidate& candidate, Sha
 Lighting& kept_lighting(const Renderer& renderer, const Candidate& candidate, ShadingPath path) {
   if (kept.empty()) at_context_end([] { kept.clear(); });
   // Brute force has no buffers of its own, so one lighting does for any number of lights that tests have.
-  constexpr std::uint32_t MANY = (1U << 16) - 1;  // llvmpipe walks no more
+  constexpr std::uint32_t MANY = 60'000;  // llvmpipe walks few more
   const std::uint32_t capacity = candidate.method == &brute_force() ? MANY : candidate.light_capacity;
   const std::string key = fmt::format(
       "{} {} {}x{} {} {} {}", candidate.method->name, fmt::join(candidate.settings, " "), renderer.targets().width,

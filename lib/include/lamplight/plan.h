@@ -105,8 +105,8 @@ struct LookUp {
   std::string name;
   std::vector<std::uint32_t> constants;  ///< specialization constants LOOKUP_CONSTANT + 0, 1, ...
   std::vector<Binding> bindings;         ///< set 0, bindings LOOKUP_BINDING + 0, 1, ...; read
-  /// Lights that a pixel can walk where the device ends loops; 0: the usual, one in WALK_ROUNDS rounds.
-  std::uint64_t most_walked = 0;
+  /// Lights that a pixel surely can walk. Where a device ends loops and the method says nothing, `make_plan` does.
+  std::uint64_t most_walked = ~0ULL;
 };
 
 /// Rounds of a look-up's loops for each light, at most: two loops, one in the other.
