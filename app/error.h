@@ -9,8 +9,8 @@
 
 namespace lamp::app {
 
-/// Exit codes of `lamp`.
-enum class Exit : int { done = 0, check_failed = 1, bad_input = 2, no_device = 3 };
+/// Exit codes of `lamp`. `unchecked`: no check failed, but one could not be made.
+enum class Exit : int { done = 0, check_failed = 1, bad_input = 2, no_device = 3, unchecked = 4 };
 
 /// One line: what, where, what was expected ("scene.gltf: light 3: range must be > 0, got -1").
 class Error : public std::runtime_error {

@@ -45,7 +45,8 @@ Exit run(int argc, char** argv) {
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png\n"
       "  lamp verify blocks --method tiled\n"
-      "Exit codes: 0 done, 1 a check failed, 2 bad input or output that cannot be written, 3 no usable device");
+      "Exit codes: 0 done, 1 a check failed, 2 bad input or output that cannot be written, 3 no usable device,\n"
+      "4 a check could not be made");
   const std::vector<std::pair<const char*, Run>> commands{
       {"render", lamp::app::add_render(app)},
       {"verify", lamp::app::add_verify(app)},

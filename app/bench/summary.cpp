@@ -153,11 +153,12 @@ std::string kind_of(const json& result) {
 
 /// "12 missed no light and gave brute force's picture; 1 may miss lights, as published".
 std::string verdict_words(const json& results) {
-  constexpr std::array<std::pair<const char*, const char*>, 6> KINDS{
+  constexpr std::array<std::pair<const char*, const char*>, 7> KINDS{
       {{"exact", "missed no light and gave brute force's picture"},
        {"lists", "missed no light (too many for brute force, so their pictures were not compared)"},
        {"approximate", "may miss lights, as published"},
        {"unverified", "were not verified"},
+       {"could not check", "could not be checked on this device, and have their times"},
        {"wrong", "were wrong and got no time"},
        {"impossible", "could not run here"}}};
   std::string words;

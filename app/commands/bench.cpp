@@ -20,6 +20,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "image/write_file.h"
+#include "render/judgement.h"
 #include "scene/builtin.h"
 #include "system/print.h"
 #include "system/signals.h"
@@ -141,16 +142,14 @@ int measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gro
   return StopRequest::signal();
 }
 
-/// One line for each result that is not right or has no times; how many are wrong.
-std::size_t print_wrong(const json& results) {
-  std::size_t wrong = 0;
+/// One line for each result that is not right, has no times or could not be checked.
+void print_faults(const json& results) {
   for (const json& entry : results["results"]) {
-    if (entry["verdict"] != "wrong" && entry["verdict"] != "impossible" && !entry.value("clock_moved", false)) continue;
-    print_out("{}: {}: {}\n", entry["key"].get<std::string>(), entry["verdict"].get<std::string>(),
-              entry["reason"].get<std::string>());
-    wrong += entry["verdict"] == "wrong" ? 1 : 0;
+    const std::string verdict = entry["verdict"];
+    const bool is_fault = verdict == "wrong" || verdict == "impossible" || verdict == name_of(Verdict::unchecked);
+    if (is_fault || entry.value("clock_moved", false))
+      print_out("{}: {}: {}\n", entry["key"].get<std::string>(), verdict, entry["reason"].get<std::string>());
   }
-  return wrong;
 }
 
 /// Throws Error for what is meant neither as a suite nor as a scene.
@@ -202,13 +201,19 @@ Exit bench(const BenchOptions& o) {
   write_text(folder / "results.csv", results_csv(results));
   const ReportRun run{.results = results, .file = folder / "results.json"};
   write_text(folder / "report.html", report_html({&run, 1}));
-  const std::size_t wrong = print_wrong(results);
+  print_faults(results);
+  const auto count = [&](std::string_view verdict) {
+    return std::ranges::count(results["results"], verdict, [](const json& entry) { return entry["verdict"]; });
+  };
+  const auto wrong = count("wrong");
+  const auto unchecked = count(name_of(Verdict::unchecked));
   if (const std::string words = regret_words(results); !words.empty()) print_out("{}\n", words);
-  print_out("{} configurations measured, {} wrong, {} beyond the limits: {}\n", results["results"].size(), wrong,
-            expansion.left_out, (folder / "report.html").string());
+  print_out("{} configurations measured, {} wrong, {} could not be checked, {} beyond the limits: {}\n",
+            results["results"].size(), wrong, unchecked, expansion.left_out, (folder / "report.html").string());
   if (!complete) print_out("stopped before its end; the same command goes on\n");
   if (signal != 0) throw Interrupted{signal};
-  return wrong == 0 ? Exit::done : Exit::check_failed;
+  if (wrong != 0) return Exit::check_failed;
+  return unchecked != 0 ? Exit::unchecked : Exit::done;
 }
 
 /// Options that speak of a scene: a suite says its own.
@@ -268,8 +273,8 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
       "  lamp bench atrium --lights 16384 --size 1920x1080 --out out/atrium\n"
       "  lamp bench my_suite.json --out out/mine\n"
       "  lamp bench stewart-1.6 --scale 0.25 --max-lights 1024 --out out/small\n"
-      "Exit code 1: a method's output was wrong. After Ctrl-C it writes what it has measured; the same command goes "
-      "on.");
+      "Exit code 1: a method's output was wrong. 4: none was wrong, but one could not be checked, because the device "
+      "ends its walks; it has its times. After Ctrl-C it writes what it has measured; the same command goes on.");
   for (const char* argument : arguments)
     o->command_line += (o->command_line.empty() ? "" : " ") + shell_quoted(argument);
   return [o, command] {

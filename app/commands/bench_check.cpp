@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::uint32_t ALIGNED_PX = 32;  // the largest tile: a band that cuts tiles would judge their lists by a part
 
+// Of truths that are kept from entry to entry: 2 GiB. Longer ones are made again for each.
+constexpr std::uint64_t KEPT_LIGHTS = 1U << 29;
+
 /// The rows to check: all, or a band in the middle.
 Rows checked_rows(const Verify& verify, std::uint32_t height) {
   if (verify.what != Verify::What::rows || verify.rows >= height) return {0, height};
@@ -24,25 +27,6 @@ Rows checked_rows(const Verify& verify, std::uint32_t height) {
 HdrImage cropped(const HdrImage& image, const Rows& rows) {
   const auto begin = image.pixels.begin() + static_cast<std::ptrdiff_t>(std::size_t{rows.first} * image.width);
   return {image.width, rows.count, {begin, begin + static_cast<std::ptrdiff_t>(std::size_t{rows.count} * image.width)}};
-}
-
-/// Truths of the rows, in bands whose lists fit a buffer of the device.
-std::vector<Truth> truths_of(const BenchFrame& frame, std::span<const float> depth, const Rows& rows,
-                             std::uint64_t max_buffer_bytes) {
-  std::vector<Truth> truths;
-  constexpr std::uint64_t BAND_PIXELS = 1U << 19;
-  auto step = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, BAND_PIXELS / frame.view.width()));
-  for (std::uint32_t row = rows.first; row < rows.first + rows.count;) {
-    step = std::min(step, rows.first + rows.count - row);
-    Truth band = truth({.view = frame.view, .depth = depth, .lights = frame.lights, .first_row = row, .rows = step});
-    if (band.lights.size() * sizeof(std::uint32_t) > max_buffer_bytes && step > 1) {
-      step = (step + 1) / 2;
-      continue;
-    }
-    row += step;
-    truths.push_back(std::move(band));
-  }
-  return truths;
 }
 
 }  // namespace
@@ -73,10 +57,24 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
 void Checker::need_truths() {
   if (group_.verify.verifier == Verifier::gpu) {
     if (!verifier_) verifier_.emplace(renderer_, frame_.lights, group_.verify.every_list ? Rows{} : rows_);
-  } else if (truths_.empty()) {
-    truths_ =
-        truths_of(frame_, renderer_.read_depth(), rows_, device_.context().device().traits.max_storage_buffer_bytes);
+  } else if (depth_.empty()) {
+    depth_ = renderer_.read_depth();
   }
+}
+
+void Checker::for_each_truth(const std::function<void(const Truth&)>& use) {
+  for (const Truth& truth : truths_) use(truth);
+  if (!truths_.empty()) return;
+  std::uint64_t lights = 0;
+  std::vector<Truth> kept;
+  lamp::app::for_each_truth(
+      {.view = frame_.view, .depth = depth_, .lights = frame_.lights, .first_row = rows_.first, .rows = rows_.count},
+      [&](const Truth& truth) {
+        use(truth);
+        lights += truth.lights.size();
+        if (lights <= KEPT_LIGHTS) kept.push_back(truth);
+      });
+  if (lights <= KEPT_LIGHTS) truths_ = std::move(kept);
 }
 
 const HdrImage& Checker::reference(ShadingPath path) {
@@ -96,23 +94,18 @@ Findings Checker::find(Lighting& lighting) {
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
   if (verifier_) return verifier_->check(lighting, which);
   Verification verification(frame_.view.width());
-  for (const Truth& truth : truths_) verification.add(truth, renderer_.visit(lighting, truth, which));
+  for_each_truth([&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which)); });
   return verification.findings();
 }
 
-std::string Checker::fault(const Lighting& lighting, const Plan& plan, const Checked& checked) {
-  if (checked.findings && checked.findings->missed != 0)
-    return fmt::format("misses {} pairs of pixel and light, the first: {}", checked.findings->missed,
-                       checked.findings->first_miss);
-  if (checked.findings && checked.findings->repeated != 0)
-    return fmt::format("walks {} lights again at a pixel that they reach", checked.findings->repeated);
-  if (checked.findings && plan.ordered && checked.findings->unordered) return "a list does not ascend";
-  if (!checked.difference) return "";
-  const bool ascending = plan.ordered && lighting.info().path != ShadingPath::standard_deferred;
-  const float allowed =
-      ascending ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(reference(lighting.info().path)));
-  if (*checked.difference <= allowed) return "";
-  return fmt::format("the picture differs from brute force by {:.3g}, allowed {:.3g}", *checked.difference, allowed);
+Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked) {
+  Plan plan = lighting.runner().plan();
+  if (!checked.findings) plan.ordered = plan.approximate = false;  // light volumes: no lists
+  std::optional<PictureDifference> difference;
+  if (checked.difference)
+    difference = {.max_abs = *checked.difference,
+                  .tolerance = picture_tolerance(plan, reference(lighting.info().path))};
+  return judge(plan, checked.findings.value_or(Findings{}), difference);
 }
 
 Checked Checker::check(Lighting& lighting) {
@@ -124,12 +117,13 @@ Checked Checker::check(Lighting& lighting) {
   if (!by_volumes) checked.findings = find(lighting);
   if (group_.verify.compares_pictures)
     checked.difference = max_abs_difference(cropped(checked.rendered.image, rows_), reference(lighting.info().path));
-  const Plan& plan = lighting.runner().plan();
-  checked.verdict = plan.approximate && !by_volumes ? "approximate" : "exact";
-  if (checked.verdict == "approximate") return checked;
-  if (std::string why = fault(lighting, plan, checked); !why.empty()) {
-    checked.verdict = "wrong";
-    checked.reason = std::move(why);
+  Judgement judgement = judge_output(lighting, checked);
+  const bool approximate = lighting.runner().plan().approximate && !by_volumes;
+  if (judgement.verdict < Verdict::unchecked) {
+    checked.verdict = approximate ? "approximate" : "exact";
+  } else {
+    checked.verdict = judgement.verdict == Verdict::failed ? "wrong" : name_of(judgement.verdict);
+    checked.reason = std::move(judgement.reason);
   }
   return checked;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,13 +10,14 @@
 
 #include "commands/bench_device.h"
 #include "render/gpu_verifier.h"
+#include "render/judgement.h"
 
 namespace lamp::app {
 
 /// What was found about one entry.
 struct Checked {
-  std::string verdict;  ///< exact, approximate, wrong, unverified, impossible
-  std::string reason;   ///< of wrong, unverified and impossible; what was not checked
+  std::string verdict;  ///< exact, approximate, wrong, could not check, unverified, impossible
+  std::string reason;   ///< of all but exact and approximate; what was not checked
   std::optional<Findings> findings;
   std::optional<float> difference;  ///< from brute force's picture
   Rendered rendered;                ///< the frame that was checked
@@ -33,15 +35,17 @@ class Checker {
   [[nodiscard]] Findings find(Lighting& lighting);
   /// Uses the depth that was rendered last: the same for every entry.
   void need_truths();
-  /// What is wrong, or nothing.
-  [[nodiscard]] std::string fault(const Lighting& lighting, const Plan& plan, const Checked& checked);
+  /// The oracle's.
+  void for_each_truth(const std::function<void(const Truth&)>& use);
+  [[nodiscard]] Judgement judge_output(const Lighting& lighting, const Checked& checked);
 
   BenchDevice& device_;
   const Group& group_;
   Renderer& renderer_;
   const BenchFrame& frame_;
   Rows rows_;
-  std::vector<Truth> truths_;
+  std::vector<float> depth_;
+  std::vector<Truth> truths_;  ///< of all rows, where they are few enough to be kept
   std::optional<GpuVerifier> verifier_;
   std::optional<HdrImage> forward_, deferred_;
 };

@@ -63,7 +63,7 @@ Shown show(Renderer& renderer, Lighting& lighting, std::uint32_t factor) {
   Shown shown{.picture = shrunk(tone_map(image, automatic_exposure(image)), factor)};
   if (lighting.info().path == ShadingPath::standard_deferred) return shown;
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
-  const std::vector<gpu::Visit> visits = renderer.visit_all(lighting, which);
+  const std::vector<Visit> visits = renderer.visit_all(lighting, which);
   shown.counts = shrunk(walked_lights(visits), targets.width, targets.height, factor);
   return shown;
 }

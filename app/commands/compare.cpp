@@ -38,14 +38,12 @@ Side measure(const CompareOptions& o, Session& session, const Setup& setup, cons
   Lighting lighting = session.lighting(*chosen.method, chosen.options, parse_path(o.request.path));
   session.renderer().wake(lighting);
   Rendered rendered = session.renderer().render(lighting);
-  const std::vector<gpu::Visit> visits = visit_all(session, lighting);
+  const std::vector<Visit> visits = visit_all(session, lighting);
   HdrImage image = rendered.image;
   Side side{.stats = make_stats(o.request, session, lighting, setup, std::move(rendered), 1),
             .image = std::move(image),
             .counts = walked_lights(visits)};
-  Verification verification(setup.view.width());
-  verification.add(empty_truth(setup.view.width(), setup.view.height()), visits);
-  side.stats.findings = verification.findings();
+  set_walked(side.stats, visits);
   return side;
 }
 
@@ -63,6 +61,7 @@ void print_side(const Side& side) {
   print_out("{:<24} {:>14} {:>9.1f} {:>9} {:>10} {:>10.3f} {:>10.3f}\n", side.stats.method, f.evaluations,
             f.list_mean(), f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
             side.stats.rendered.shade_ms);
+  for (const std::string& note : side.stats.notes) print_out("  note: {}\n", note);
 }
 
 Exit compare_panels(const CompareOptions& o) {

@@ -84,11 +84,15 @@ std::vector<Row> measure(Session& session, const Setup& setup) {
   for (const std::vector<std::string>& options : tests()) rows.push_back(make_row(session, setup, options));
   static_cast<void>(session.renderer().render(rows.front().lighting));  // for its depth
   const std::vector<float> depth = session.renderer().read_depth();
-  for_each_truth(setup.view, depth, setup.lights, session.context().device().traits.max_storage_buffer_bytes,
+  for_each_truth({.view = setup.view, .depth = depth, .lights = setup.lights, .rows = setup.view.height()},
                  [&](const Truth& truth) {
                    for (Row& row : rows) row.verification.add(truth, session.renderer().visit(row.lighting, truth));
                  });
   return rows;
+}
+
+Judgement judgement_of(const Row& row) {
+  return judge(row.lighting.runner().plan(), row.verification.findings(), std::nullopt);
 }
 
 void print_rows(std::span<const Row> rows, bool json) {
@@ -96,15 +100,17 @@ void print_rows(std::span<const Row> rows, bool json) {
   if (!json) print_out("{:<62} {:>8} {:>8} {:>8} {:>8}\n", "test", "excess", "waste", "mean", "missed");
   for (const Row& row : rows) {
     const Findings f = row.verification.findings();
-    if (json)
-      array.push_back({{"options", row.options},
-                       {"excess", f.excess().value()},
-                       {"waste", f.waste()},
-                       {"list_mean", f.list_mean()},
-                       {"missed", f.missed}});
-    else
-      print_out("{:<62} {:>8.2f} {:>8.2f} {:>8.1f} {:>8}\n", row.options, f.excess().value(), f.waste(), f.list_mean(),
-                f.missed);
+    const Judgement judgement = judgement_of(row);
+    if (!json) {
+      print_out("{:<62} {:>8} {:>8.2f} {:>8.1f} {:>8}\n", row.options,
+                f.excess() ? fmt::format("{:.2f}", *f.excess()) : "-", f.waste(), f.list_mean(), f.missed);
+      if (!judgement.reason.empty()) print_out("  {}: {}\n", name_of(judgement.verdict), judgement.reason);
+      continue;
+    }
+    nlohmann::json one{{"options", row.options}, {"waste", f.waste()},         {"list_mean", f.list_mean()},
+                       {"missed", f.missed},     {"reason", judgement.reason}, {"verdict", name_of(judgement.verdict)}};
+    if (f.excess()) one["excess"] = *f.excess();
+    array.push_back(std::move(one));
   }
   if (json) print_out("{}\n", array.dump(2));
 }
@@ -148,9 +154,9 @@ Exit draw_panels(const Request& request, const std::filesystem::path& out, bool 
   const LdrImage panels = panels_of(session);
   write_output(out, [&](const auto& file) { write_png(file, panels); });
   if (!json) print_out("panels: {}\n", out.string());
-  const bool missed = std::ranges::any_of(
-      rows, [](Row& r) { return r.verification.findings().missed != 0 && !r.lighting.runner().plan().approximate; });
-  return missed ? Exit::check_failed : Exit::done;
+  Verdict worst = Verdict::ok;
+  for (const Row& row : rows) worst = std::max(worst, judgement_of(row).verdict);
+  return exit_of(worst);
 }
 
 }  // namespace lamp::app

@@ -18,14 +18,12 @@ namespace lamp::app {
 
 namespace fs = std::filesystem;
 
-std::vector<gpu::Visit> visit_all(Session& session, Lighting& lighting) {
-  return session.renderer().visit_all(lighting);
-}
+std::vector<Visit> visit_all(Session& session, Lighting& lighting) { return session.renderer().visit_all(lighting); }
 
-std::vector<std::uint32_t> walked_lights(std::span<const gpu::Visit> visits) {
+std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {
   std::vector<std::uint32_t> counts;
   counts.reserve(visits.size());
-  for (const gpu::Visit& visit : visits) counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
+  for (const Visit& visit : visits) counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
   return counts;
 }
 

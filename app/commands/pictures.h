@@ -15,10 +15,10 @@
 namespace lamp::app {
 
 /// Visits of the whole picture, checked against nothing.
-[[nodiscard]] std::vector<gpu::Visit> visit_all(Session& session, Lighting& lighting);
+[[nodiscard]] std::vector<Visit> visit_all(Session& session, Lighting& lighting);
 
 /// Lights walked at each pixel; SKY_CELL for sky.
-[[nodiscard]] std::vector<std::uint32_t> walked_lights(std::span<const gpu::Visit> visits);
+[[nodiscard]] std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits);
 
 struct HeatmapRequest {
   std::string title;

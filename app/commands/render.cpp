@@ -86,13 +86,6 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
     if (!file.empty()) line(label, file);
 }
 
-/// What the heat map shows, as findings without a truth.
-Findings walked(std::span<const gpu::Visit> visits, std::uint32_t width, std::uint32_t height) {
-  Verification verification(width);
-  verification.add(empty_truth(width, height), visits);
-  return verification.findings();
-}
-
 /// Samples a pixel. A captured frame has what its depth buffer has, one.
 std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
   if (!scene.captured) return o.samples == 0 ? 4 : o.samples;
@@ -119,13 +112,13 @@ Exit render(const RenderOptions& o) {
   session.renderer().wake(lighting);
   Rendered rendered = render_samples(session.renderer(), lighting, setup.lights, setup.decals,
                                      {.samples = samples, .frames = frames, .warm_up = warm_up});
-  const std::vector<gpu::Visit> visits = visit_all(session, lighting);
+  const std::vector<Visit> visits = visit_all(session, lighting);
   const HdrImage image = std::move(rendered.image);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
   Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
-  stats.findings = walked(visits, setup.view.width(), setup.view.height());
+  set_walked(stats, visits);
   const std::vector<std::uint32_t> counts = walked_lights(visits);
   const std::string title = fmt::format("{}, {} lights", chosen.method->name, stats.lights);
   const auto write_map = [&](const std::string& name, const LdrImage* below) {

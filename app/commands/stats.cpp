@@ -79,6 +79,17 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
                     lighting, std::move(rendered));
 }
 
+void set_walked(Stats& stats, std::span<const Visit> visits) {
+  Verification verification(stats.width);
+  verification.add(empty_truth(stats.width, stats.height), visits);
+  stats.findings = verification.findings();
+  if (stats.findings->unfollowed != 0)
+    stats.notes.push_back(fmt::format(
+        "the device ended the walks of {} pixels before their end, the first: {}; a heat map shows what they "
+        "had until then, other numbers leave them out",
+        stats.findings->unfollowed, stats.findings->first_unfollowed));
+}
+
 nlohmann::json to_json(const Stats& s) {
   nlohmann::json json{{"device", s.device},
                       {"driver", s.driver},
@@ -98,6 +109,8 @@ nlohmann::json to_json(const Stats& s) {
                       {"bytes", nlohmann::json::object()},
                       {"cells", s.cells},
                       {"notes", s.notes},
+                      {"approximate", s.approximate},
+                      {"ordered", s.ordered},
                       {"overflowed_cells", s.rendered.counters.overflowed_cells}};
   for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
   for (const auto& [key, value] : s.fits_with) json["fits_with"][key] = value;
@@ -117,15 +130,17 @@ nlohmann::json to_json(const Stats& s) {
     json["evaluations"] = f.evaluations;
     json["list_mean"] = f.list_mean();
     json["list_max"] = f.list_max;
+    json["unfollowed"] = f.unfollowed;
     if (s.verifier) {
-      json.update(
-          {{"verifier", name_of(*s.verifier)}, {"missed", f.missed}, {"useful", f.useful}, {"waste", f.waste()}});
+      json.update({{"verifier", name_of(*s.verifier)}, {"missed", f.missed}, {"useful", f.useful}});
+      json["waste"] = f.waste();
       if (f.excess()) json["excess"] = *f.excess();
       if (s.verifier == Verifier::gpu) json["repeated"] = f.repeated;
       if (f.changed_runs) json["changed_runs"] = *f.changed_runs;
     }
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
+  if (s.judgement) json.update({{"verdict", name_of(s.judgement->verdict)}, {"reason", s.judgement->reason}});
   if (s.decal_findings)
     json.update({{"decals_missed", s.decal_findings->missed},
                  {"decal_evaluations", s.decal_findings->evaluations},

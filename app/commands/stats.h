@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands/request.h"
-#include "render/verification.h"
+#include "render/judgement.h"
 
 namespace lamp::app {
 
@@ -30,6 +30,7 @@ struct Stats {
   std::optional<Findings> decal_findings;  ///< of decals, where there are some and they were held against a truth
   bool ordered = true;                     ///< the plan's lists ascend
   bool approximate = false;                ///< the plan may miss lights
+  std::optional<Judgement> judgement;      ///< of the findings and the picture
   std::optional<Verifier> verifier;        ///< whose truth the findings were held against, if any
   std::optional<float> image_max_abs_diff;
   std::optional<float> image_tolerance;  ///< how large it may be
@@ -49,6 +50,9 @@ struct StatsInfo {
 /// Fills what request, session and lighting know.
 [[nodiscard]] Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup,
                                Rendered rendered, std::uint32_t frames);
+
+/// Takes over what was walked without a truth. Where the device ended walks, a note says so.
+void set_walked(Stats& stats, std::span<const Visit> visits);
 
 /// "mean_cells=3, mean_capacity=40".
 [[nodiscard]] std::string words_of(std::span<const std::pair<std::string, std::string>> settings);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -10,7 +9,7 @@
 #include "commands/auto_method.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/stats.h"
+#include "commands/verify_rows.h"
 #include "render/gpu_verifier.h"
 #include "system/print.h"
 
@@ -70,8 +69,8 @@ void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& ca
 }
 
 void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
-  for_each_truth(setup.view, session.renderer().read_depth(), setup.lights,
-                 session.context().device().traits.max_storage_buffer_bytes,
+  const std::vector<float> depth = session.renderer().read_depth();
+  for_each_truth({.view = setup.view, .depth = depth, .lights = setup.lights, .rows = setup.view.height()},
                  [&](const Truth& truth) { visit_band(session, truth, candidates); });
   for (Candidate& candidate : candidates) {
     candidate.findings = candidate.separate.findings();
@@ -118,62 +117,21 @@ void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& c
   for_each_truth({.view = setup.view,
                   .depth = depth,
                   .lights = {},
+                  .rows = setup.view.height(),
                   .boxes = boxes,
                   .first_id = static_cast<std::uint32_t>(setup.lights.size())},
-                 session.context().device().traits.max_storage_buffer_bytes,
                  [&](const Truth& truth) { visit_decals(session, truth, candidates); });
 }
 
 /// Makes lists again and again, and counts how often they are not the first's.
 std::uint32_t changed_runs(Session& session, Candidate& candidate, std::uint32_t runs) {
-  const std::vector<gpu::Visit> first = session.renderer().visit_all(candidate.lighting);
+  const std::vector<Visit> first = session.renderer().visit_all(candidate.lighting);
   std::uint32_t changed = 0;
   for (std::uint32_t run = 1; run < runs; ++run) {
     progress(fmt::format("verify run {} of {}: {}", run + 1, runs, candidate.lighting.info().method->name));
     if (!same_lists(session.renderer().visit_all(candidate.lighting), first)) ++changed;
   }
   return changed;
-}
-
-/// A row of the table.
-struct Row {
-  Stats stats;
-  bool good = false;
-};
-
-/// "-" where there is no number.
-template <class Number>
-std::string number_or_dash(const char* format, const std::optional<Number>& number) {
-  return number ? fmt::format(fmt::runtime(format), *number) : "-";
-}
-
-void print_decals(const Stats& s) {
-  const Findings& f = *s.decal_findings;
-  print_out("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
-  if (!f.first_miss.empty()) print_out("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
-}
-
-void print_table(std::span<const Row> rows) {
-  print_out("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed", "evaluations",
-            "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
-  for (const auto& [s, good] : rows) {
-    const Findings& f = *s.findings;
-    const std::uint64_t missed = f.missed + (s.decal_findings ? s.decal_findings->missed : 0);
-    const char* verdict = !good ? "FAILED" : s.approximate && missed != 0 ? "approximate" : "ok";
-    print_out("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
-              f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
-              s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
-              verdict);
-    for (const std::string& note : s.notes) print_out("  note: {}\n", note);
-    if (s.rendered.counters.overflowed_cells != 0) print_out("  {}\n", overflow_words(s));
-    if (!f.first_miss.empty()) print_out("  first miss: {}\n", f.first_miss);
-    if (f.repeated != 0) print_out("  {} reaching lights walked again\n", f.repeated);
-    if (f.changed_runs.value_or(0) != 0) print_out("  {} of the repeated runs had other lists\n", *f.changed_runs);
-    if (s.decal_findings) print_decals(s);
-    if (s.ordered && f.unordered) print_out("  a list does not ascend\n");
-    if (s.image_max_abs_diff && !s.approximate && !(*s.image_max_abs_diff <= *s.image_tolerance))
-      print_out("  the picture may differ by {:.3g}\n", *s.image_tolerance);
-  }
 }
 
 float picture_difference(Session& session, Candidate& candidate, const HdrImage& picture, const HdrImage& reference) {
@@ -187,44 +145,73 @@ float picture_difference(Session& session, Candidate& candidate, const HdrImage&
 }
 
 /// Without a reference, pictures are not compared.
-Row make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
-             const std::optional<HdrImage>& reference) {
+Stats make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
+               const std::optional<HdrImage>& reference) {
   if (o.runs > 1) candidate.findings.changed_runs = changed_runs(session, candidate, o.runs);
   progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
   session.renderer().wake(candidate.lighting);
   Rendered rendered = session.renderer().render(candidate.lighting);
   const Plan& plan = candidate.lighting.runner().plan();
-  PictureDifference difference;
+  std::optional<PictureDifference> difference;
   if (reference)
     difference = {.max_abs = picture_difference(session, candidate, rendered.image, *reference),
                   .tolerance = picture_tolerance(plan, *reference)};
-  Row row{.stats = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1),
-          .good = keeps_promises(plan, candidate.findings, difference)};
+  Stats row = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1);
+  row.judgement = judge(plan, candidate.findings, difference);
   if (!setup.decals.empty()) {
-    row.stats.decal_findings = decal_findings_of(candidate);
-    row.good = row.good && keeps_promises(plan, *row.stats.decal_findings, difference);
+    row.decal_findings = decal_findings_of(candidate);
+    row.judgement = worse_of(*row.judgement, judge(plan, *row.decal_findings, std::nullopt, "decal"));
   }
-  if (reference) {
-    row.stats.image_max_abs_diff = difference.max_abs;
-    row.stats.image_tolerance = difference.tolerance;
+  if (difference) {
+    row.image_max_abs_diff = difference->max_abs;
+    row.image_tolerance = difference->tolerance;
   }
-  row.stats.findings = candidate.findings;
+  row.findings = candidate.findings;
   return row;
 }
 
-void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, std::span<const Row> rows) {
-  if (o.json) {
-    nlohmann::json array = nlohmann::json::array();
-    for (const Row& row : rows) array.push_back(to_json(row.stats));
-    print_out("{}\n", array.dump(2));
-    return;
+/// Of a method that this device has no way to run.
+Stats refused_row(const VerifyOptions& o, Session& session, const Setup& setup, const Method& method,
+                  const Error& error) {
+  const DeviceRow& device = session.context().row();
+  return {.device = device.name,
+          .driver = device.driver,
+          .scene = o.request.scene,
+          .method = std::string(method.name),
+          .path = o.request.path,
+          .width = setup.view.width(),
+          .height = setup.view.height(),
+          .lights = setup.lights.size(),
+          .decals = setup.decals.size(),
+          .ordered = method.ordered,
+          .approximate = method.approximate,
+          .judgement = Judgement{Verdict::unchecked, error.what()}};
+}
+
+/// Those that this device can run. Others get a row, or an error if they were named.
+std::vector<Candidate> make_candidates(const VerifyOptions& o, Session& session, const Setup& setup,
+                                       std::span<const std::string> wanted, std::vector<Stats>& refused) {
+  std::vector<Candidate> candidates;
+  for (const MethodChoice& chosen : chosen_methods(session, setup, o.request, wanted, o.json)) {
+    try {
+      candidates.emplace_back(session.lighting(*chosen.method, chosen.options, parse_path(o.request.path)),
+                              chosen.options, setup.view.width());
+    } catch (const Error& error) {
+      if (!o.methods.empty()) throw;
+      refused.push_back(refused_row(o, session, setup, *chosen.method, error));
+    }
   }
+  if (candidates.empty()) throw Error(refused.front().judgement->reason);
+  return candidates;
+}
+
+void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, std::span<const Stats> rows) {
+  if (o.json) return print_json(rows);
   const DeviceRow& device = session.context().row();
   print_out("{} ({}), {} {}x{}, {} lights: {}\n", device.name, device.driver, o.request.scene, setup.view.width(),
             setup.view.height(), setup.lights.size(), setup.lights_note);
-  if (!rows.empty() && rows.front().stats.verifier == Verifier::gpu) print_out("truth by the GPU verifier\n");
-  if (!rows.empty() && !rows.front().stats.image_max_abs_diff)
-    print_out("pictures not compared: too many lights for brute force\n");
+  if (rows.front().verifier == Verifier::gpu) print_out("truth by the GPU verifier\n");
+  if (!rows.front().image_max_abs_diff) print_out("pictures not compared: too many lights for brute force\n");
   print_table(rows);
 }
 
@@ -249,9 +236,8 @@ Exit verify(const VerifyOptions& o) {
   const std::uint64_t pairs = pairs_of(setup);
   const Verifier verifier = verifier_of(o, setup, session.context());
 
-  std::vector<Candidate> candidates;
-  for (const MethodChoice& chosen : chosen_methods(session, setup, o.request, wanted, o.json))
-    candidates.emplace_back(session.lighting(*chosen.method, chosen.options, path), chosen.options, setup.view.width());
+  std::vector<Stats> refused;
+  std::vector<Candidate> candidates = make_candidates(o, session, setup, wanted, refused);
   progress("verify picture: brute force");
   std::optional<HdrImage> reference;
   const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
@@ -267,14 +253,17 @@ Exit verify(const VerifyOptions& o) {
     find_by_oracle(session, setup, candidates);
   find_decals(session, setup, candidates);
 
-  std::vector<Row> rows;
+  std::vector<Stats> rows;
   for (Candidate& candidate : candidates) {
     rows.push_back(make_row(o, session, setup, candidate, reference));
-    rows.back().stats.verifier = verifier;
+    rows.back().verifier = verifier;
   }
+  rows.insert(rows.end(), refused.begin(), refused.end());
   progress("");
   print_rows(o, session, setup, rows);
-  return std::ranges::all_of(rows, &Row::good) ? Exit::done : Exit::check_failed;
+  Verdict worst = Verdict::ok;
+  for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
+  return exit_of(worst);
 }
 
 }  // namespace
@@ -305,7 +294,8 @@ Run add_verify(CLI::App& app) {
       "  lamp verify atrium --lights 8192\n"
       "  lamp verify atrium --decals 64\n"
       "  lamp verify one-tile --lights 65536 --method lamplight --runs 100\n"
-      "  lamp verify blocks --method tiled --option tile=8 --projection orthographic");
+      "  lamp verify blocks --method tiled --option tile=8 --projection orthographic\n"
+      "Exit code 1: a method failed. 4: none failed, but one could not be checked on this device.");
   return [o] { return verify(*o); };
 }
 

@@ -232,7 +232,7 @@ std::string GpuVerifier::name_miss(Lighting& lighting, Passes which, std::uint32
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (reach(lights_[i], position) == Reach::inside) truth.lights.push_back(i);
   truth.offsets.resize(view.width() + 1, static_cast<std::uint32_t>(truth.lights.size()));
-  const gpu::Visit visit = renderer_.visit(lighting, truth, which)[x];
+  const Visit visit = renderer_.visit(lighting, truth, which)[x];
   if (visit.missed == 0) return fmt::format("pixel ({}, {}): a light that the oracle does not find missing", x, y);
   return fmt::format("pixel ({}, {}): light {}", x, y, visit.first_missed);
 }

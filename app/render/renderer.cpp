@@ -30,10 +30,15 @@ vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uin
                                       .memory = vulkan::MemoryUse::readback}));
 }
 
-/// Where there are lights alone, no id is passed over: one that no light has is disorder or excess, and shall show.
-EntityRange visited_ids(const EntityRanges& entities, Renderer::Kind kind) {
-  if (kind == Renderer::Kind::decals) return entities.boxes;
-  return entities.boxes.count() == 0 ? EntityRange{0, ~0U} : entities.lights;
+bool is_fused(const PixelPass& pass) {
+  return pass.lighting != nullptr && pass.which == vulkan::PlanRunner::Passes::fused;
+}
+
+/// A fused look-up's group is its tile.
+glm::uvec2 group_of(const PixelPass& pass) {
+  if (!is_fused(pass)) return glm::uvec2(16);
+  const FusedLookUp& fused = *pass.lighting->runner().plan().fused;
+  return {fused.group_width, fused.group_height};
 }
 
 void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) {
@@ -49,12 +54,6 @@ std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
 }
 
 }  // namespace
-
-Truth empty_truth(std::uint32_t width, std::uint32_t height) {
-  Truth truth{.rows = height};
-  truth.offsets.assign(std::size_t{width} * height + 1, 0);
-  return truth;
-}
 
 Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
                    std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity)
@@ -230,7 +229,7 @@ CapturedFrame Renderer::capture(Lighting* decals) {
                         .emission = read_texels<glm::u16vec4>(targets_->emission)});
 }
 
-vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const {
+vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
   vulkan::PipelineInfo info{.name = std::string(pass.shader),
                             .push_constant_bytes = static_cast<std::uint32_t>(pass.push.size() * sizeof(pass.push[0]))};
   info.bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
@@ -239,9 +238,9 @@ vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass, glm::uvec2 grou
   if (pass.lighting == nullptr)
     return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv(pass.shader)));
   const vulkan::PlanRunner& runner = pass.lighting->runner();
-  const bool fused = pass.which == vulkan::PlanRunner::Passes::fused;
-  const LookUp& lookup = fused ? runner.plan().fused->lookup : runner.plan().lookup;
+  const LookUp& lookup = is_fused(pass) ? runner.plan().fused->lookup : runner.plan().lookup;
   info.constants = runner.lookup({}, pass.which).constants;
+  const glm::uvec2 group_px = group_of(pass);
   info.constants.push_back({0, group_px.x});
   info.constants.push_back({1, group_px.y});
   for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
@@ -250,20 +249,23 @@ vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass, glm::uvec2 grou
                                         shaders_.spirv(fmt::format("{}@{}", pass.shader, lookup.name))));
 }
 
-void Renderer::run(const PixelPass& pass) {
+void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const bool fused = pass.lighting != nullptr && pass.which == vulkan::PlanRunner::Passes::fused;
-  glm::uvec2 group_px(16);
-  if (fused)
-    group_px = {pass.lighting->runner().plan().fused->group_width, pass.lighting->runner().plan().fused->group_height};
-  const std::uint32_t rows = fused || pass.rows.count == 0 ? targets_->height : pass.rows.count;
-  const vulkan::Pipeline pipeline = pixel_pipeline(pass, group_px);
+  const glm::uvec2 group_px = group_of(pass);
+  const std::uint32_t rows = is_fused(pass) || pass.rows.count == 0 ? targets_->height : pass.rows.count;
   const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
 
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     if (pass.prepares) data_.record_upload(recorder);
     if (pass.prepares && pass.lighting != nullptr) pass.lighting->runner().record(recorder, inputs, pass.which);
+    for (const PixelPass::Storage& storage : pass.storage) {
+      if (!storage.zeroed) continue;
+      recorder.barrier({{.resource = storage.resource,
+                         .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                         .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
+      vkCmdFillBuffer(commands, storage.resource.buffer, 0, VK_WHOLE_SIZE, 0);
+    }
     std::vector<vulkan::Bound> bound{{0, data_.frame()}, {1, targets_->depth.sampled()}};
     std::vector<vulkan::Use> uses{reads(data_.frame(), COMPUTE), reads(targets_->depth.sampled(), COMPUTE)};
     for (const PixelPass::Storage& storage : pass.storage) {
@@ -285,41 +287,6 @@ void Renderer::run(const PixelPass& pass) {
       if ((storage.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) != 0)
         recorder.barrier({host_reads(storage.resource)});
   });
-}
-
-std::vector<gpu::Visit> Renderer::visit(Lighting& lighting, const Truth& truth, vulkan::PlanRunner::Passes which,
-                                        Kind kind) {
-  const std::size_t pixels = std::size_t{targets_->width} * truth.rows;
-  const vulkan::Buffer offsets =
-      upload_buffer(context_, "truth offsets", bytes_of(truth.offsets), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer lights =
-      upload_buffer(context_, "truth lights", bytes_of(truth.lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer found =
-      readback(context_.device(), "visits", std::max<std::size_t>(1, pixels) * sizeof(gpu::Visit));
-  const EntityRange ids = visited_ids(data_.entities(), kind);
-  run({.shader = "visit",
-       .lighting = &lighting,
-       .which = which,
-       .storage = {{2, vulkan::Resource::storage(offsets.handle())},
-                   {3, vulkan::Resource::storage(lights.handle())},
-                   {4, vulkan::Resource::storage(found.handle()), VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}},
-       .push = {truth.first_row, truth.rows, ids.first, ids.end}});
-  for (const vulkan::Buffer* buffer : {&offsets, &lights, &found}) forget(*buffer);
-  return copy_out<gpu::Visit>(found, pixels);
-}
-
-std::vector<gpu::Visit> Renderer::visit_all(Lighting& lighting, vulkan::PlanRunner::Passes which) {
-  const std::uint64_t row_bytes = targets_->width * sizeof(gpu::Visit);
-  const auto step = static_cast<std::uint32_t>(
-      std::clamp<std::uint64_t>(context_.device().traits.max_storage_buffer_bytes / row_bytes, 1, targets_->height));
-  std::vector<gpu::Visit> visits;
-  for (std::uint32_t row = 0; row < targets_->height; row += step) {
-    Truth band = empty_truth(targets_->width, std::min(step, targets_->height - row));
-    band.first_row = row;
-    const std::vector<gpu::Visit> found = visit(lighting, band, which);
-    visits.insert(visits.end(), found.begin(), found.end());
-  }
-  return visits;
 }
 
 }  // namespace lamp::app

@@ -12,6 +12,7 @@
 #include "oracle/reference.h"
 #include "render/frame_times.h"
 #include "render/lighting.h"
+#include "render/visit.h"
 
 namespace lamp::app {
 
@@ -47,6 +48,7 @@ struct PixelPass {
     std::uint32_t binding = 0;
     vulkan::Resource resource;
     VkAccessFlags2 access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+    bool zeroed = false;  ///< before the dispatch; the buffer is one that transfers write
   };
   std::vector<Storage> storage;
   Rows rows;                        ///< dispatched; 0 rows: all. A fused look-up's are always all
@@ -101,16 +103,19 @@ class Renderer {
   /// Culls the last frame's depth and walks the look-up of every pixel of the truth's rows. With `Passes::fused`, the
   /// look-up that culls in the shader. The truth is of the lights, or of the decals alone.
   enum class Kind : std::uint8_t { lights, decals };
-  [[nodiscard]] std::vector<gpu::Visit> visit(Lighting& lighting, const Truth& truth,
-                                              vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate,
-                                              Kind kind = Kind::lights);
+  [[nodiscard]] std::vector<Visit> visit(Lighting& lighting, const Truth& truth,
+                                         vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate,
+                                         Kind kind = Kind::lights);
 
   /// The same of every pixel, against nothing: for heat maps.
-  [[nodiscard]] std::vector<gpu::Visit> visit_all(
-      Lighting& lighting, vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
+  [[nodiscard]] std::vector<Visit> visit_all(Lighting& lighting,
+                                             vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
 
   /// Submits a pass and waits for it. Who destroys its buffers says so with `forget`.
-  void run(const PixelPass& pass);
+  void run(const PixelPass& pass) { run(pass, pixel_pipeline(pass)); }
+  /// The same with the pass's pipeline: for passes that differ in rows and constants alone.
+  void run(const PixelPass& pass, const vulkan::Pipeline& pipeline);
+  [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass) const;
   void forget(const vulkan::Buffer& buffer) { tracker_.forget(buffer.handle()); }
 
   [[nodiscard]] const Targets& targets() const { return *targets_; }
@@ -126,7 +131,6 @@ class Renderer {
   [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
   void record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights);
   [[nodiscard]] LightingFrame lighting_frame() const;
-  [[nodiscard]] vulkan::Pipeline pixel_pipeline(const PixelPass& pass, glm::uvec2 group_px) const;
   template <class Texel>
   [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);
 

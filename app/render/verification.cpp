@@ -9,10 +9,16 @@
 #include <cmath>
 #include <limits>
 
+#include "render/shaders/sky_cell.h"
+
 namespace lamp::app {
 namespace {
 
 constexpr std::uint64_t BAND_PIXELS = 1U << 19;
+
+// Lights of a band's lists: 1 GiB, and as much again while they are made. The next band may have four times the rows of
+// one whose lists take less than a sixteenth.
+constexpr std::uint64_t BAND_LIGHTS = 1U << 28;
 
 double ratio(std::uint64_t above, std::uint64_t below) {
   if (below != 0) return static_cast<double>(above) / static_cast<double>(below);
@@ -41,8 +47,8 @@ Verifier chosen(VerifierChoice choice, std::uint64_t pairs) {
   return choice == VerifierChoice::gpu ? Verifier::gpu : Verifier::oracle;
 }
 
-bool same_lists(std::span<const gpu::Visit> a, std::span<const gpu::Visit> b) {
-  const auto same = [](const gpu::Visit& x, const gpu::Visit& y) { return x.visited == y.visited && x.hash == y.hash; };
+bool same_lists(std::span<const Visit> a, std::span<const Visit> b) {
+  const auto same = [](const Visit& x, const Visit& y) { return x.visited == y.visited && x.hash == y.hash; };
   return std::ranges::equal(a, b, same);
 }
 
@@ -52,15 +58,21 @@ Findings of_both(Findings separate, const Findings& fused) {
   separate.unordered = separate.unordered || fused.unordered;
   separate.repeated = std::max(separate.repeated, fused.repeated);
   if (separate.first_miss.empty()) separate.first_miss = fused.first_miss;
+  separate.unfollowed = std::max(separate.unfollowed, fused.unfollowed);
+  if (separate.first_unfollowed.empty()) separate.first_unfollowed = fused.first_unfollowed;
   return separate;
 }
 
-void Verification::add(const Truth& truth, std::span<const gpu::Visit> visits) {
+void Verification::add(const Truth& truth, std::span<const Visit> visits) {
   assert(visits.size() + 1 == truth.offsets.size() && "visit the rows that the truth speaks of");
   std::uint64_t last_cell = ~0ULL;
   std::size_t unique_end = cell_lights_.size();
   for (std::size_t pixel = 0; pixel < visits.size(); ++pixel) {
     if (visits[pixel].cell == gpu::SKY_CELL) continue;
+    if (visits[pixel].ended) {
+      if (sums_.unfollowed++ == 0) sums_.first_unfollowed = words_of_pixel(truth, pixel);
+      continue;
+    }
     add_pixel(truth, pixel, visits[pixel]);
     if (visits[pixel].cell != last_cell)
       cell_lengths_.push_back(std::uint64_t{visits[pixel].cell} << 32 | visits[pixel].visited);
@@ -74,81 +86,45 @@ void Verification::add(const Truth& truth, std::span<const gpu::Visit> visits) {
   sort_unique(cell_lengths_);
 }
 
-void Verification::add_pixel(const Truth& truth, std::size_t pixel, const gpu::Visit& visit) {
+std::string Verification::words_of_pixel(const Truth& truth, std::size_t pixel) const {
+  return fmt::format("pixel ({}, {})", pixel % width_, truth.first_row + pixel / width_);
+}
+
+void Verification::add_pixel(const Truth& truth, std::size_t pixel, const Visit& visit) {
   sums_.missed += visit.missed;
   sums_.evaluations += visit.visited;
   sums_.useful += truth.offsets[pixel + 1] - truth.offsets[pixel];
   sums_.list_max = std::max(sums_.list_max, visit.visited);
   sums_.unordered = sums_.unordered || visit.unordered != 0;
   if (visit.missed != 0 && sums_.first_miss.empty())
-    sums_.first_miss =
-        fmt::format("pixel ({}, {}): light {}", pixel % width_, truth.first_row + pixel / width_, visit.first_missed);
+    sums_.first_miss = fmt::format("{}: light {}", words_of_pixel(truth, pixel), visit.first_missed);
   for (std::uint32_t i = truth.offsets[pixel]; i < truth.offsets[pixel + 1]; ++i)
     cell_lights_.push_back(std::uint64_t{visit.cell} << 32 | truth.lights[i]);
 }
 
 Findings Verification::findings() const {
   Findings findings = sums_;
-  findings.truth_sum = cell_lights_.size();
+  if (sums_.unfollowed == 0) findings.truth_sum = cell_lights_.size();
   findings.cells_seen = cell_lengths_.size();
   for (const std::uint64_t key : cell_lengths_) findings.list_sum += key & 0xffffffffU;
   return findings;
 }
 
-void for_each_truth(const View& view, std::span<const float> depth, std::span<const shared::Light> lights,
-                    std::uint64_t max_buffer_bytes, const std::function<void(const Truth&)>& use) {
-  for_each_truth({.view = view, .depth = depth, .lights = lights}, max_buffer_bytes, use);
-}
-
-void for_each_truth(const TruthQuery& of, std::uint64_t max_buffer_bytes,
-                    const std::function<void(const Truth&)>& use) {
-  const View& view = of.view;
-  const auto rows_at_most = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, BAND_PIXELS / view.width()));
-  std::uint32_t rows = std::min(rows_at_most, view.height());
-  for (std::uint32_t row = 0; row < view.height();) {
-    rows = std::min(rows, view.height() - row);
-    TruthQuery query = of;
-    query.first_row = row;
-    query.rows = rows;
+void for_each_truth(const TruthQuery& of, const std::function<void(const Truth&)>& use) {
+  const std::uint64_t width = of.view.width();
+  const std::uint64_t row_pairs = std::max<std::uint64_t>(1, width * (of.lights.size() + of.boxes.size()));
+  const std::uint64_t certain_rows = std::max<std::uint64_t>(1, BAND_LIGHTS / row_pairs);
+  const std::uint64_t most_rows =
+      std::max<std::uint64_t>(1, std::min(BAND_PIXELS / width, std::uint64_t{~0U} / row_pairs));
+  TruthQuery query = of;
+  const std::uint32_t end = of.first_row + of.rows;
+  for (std::uint64_t rows = std::min(certain_rows, most_rows); query.first_row < end; query.first_row += query.rows) {
+    query.rows = static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, end - query.first_row));
     const Truth band = truth(query);
-    if (band.lights.size() * sizeof(std::uint32_t) > max_buffer_bytes && rows > 1) {
-      rows = (rows + 1) / 2;
-      continue;
-    }
     use(band);
-    row += rows;
+    const bool sparse = band.lights.size() < BAND_LIGHTS / 16;
+    rows = std::min(sparse ? 4 * rows : certain_rows, most_rows);
   }
-}
-
-float largest_value(const HdrImage& image) {
-  float largest = 0.0F;
-  for (const glm::vec4& pixel : image.pixels) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
-  return largest;
-}
-
-float picture_tolerance(const Plan& plan, const HdrImage& reference) {
-  return plan.ordered ? 0.0F : UNORDERED_TOLERANCE * (1.0F + largest_value(reference));
-}
-
-bool keeps_promises(const Plan& plan, const Findings& findings, const PictureDifference& difference) {
-  if (plan.ordered && findings.unordered) return false;
-  if (findings.repeated != 0) return false;
-  if (plan.ordered && findings.changed_runs.value_or(0) != 0) return false;
-  if (plan.approximate) return true;
-  return findings.missed == 0 && std::isfinite(difference.max_abs) && difference.max_abs <= difference.tolerance;
-}
-
-float max_abs_difference(const HdrImage& a, const HdrImage& b) {
-  assert(a.pixels.size() == b.pixels.size() && "compare pictures of one size");
-  float largest = 0.0F;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const glm::vec4 difference = glm::abs(a.pixels[i] - b.pixels[i]);
-    for (int c = 0; c < 4; ++c) {
-      if (std::isnan(difference[c])) return std::numeric_limits<float>::infinity();
-      largest = std::max(largest, difference[c]);
-    }
-  }
-  return largest;
 }
 
 }  // namespace lamp::app

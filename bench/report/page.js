@@ -96,7 +96,7 @@ function tile(text, value, kind = '') {
 function tiles(run) {
   const count = verdict => run.results.filter(r => r.verdict === verdict).length;
   const made = [tile('device', run.run.device, 'text'), tile('configurations', run.results.length), tile('verified exact', count('exact'))];
-  for (const [verdict, text] of [['approximate', 'approximate'], ['unverified', 'not verified'], ['wrong', 'wrong'], ['impossible', 'could not run']])
+  for (const [verdict, text] of [['approximate', 'approximate'], ['unverified', 'not verified'], ['could not check', 'could not check'], ['wrong', 'wrong'], ['impossible', 'could not run']])
     if (count(verdict)) made.push(tile(text, count(verdict), verdict === 'wrong' ? 'wrong' : ''));
   return el('div', {class: 'tiles'}, ...made);
 }

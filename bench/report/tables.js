@@ -65,7 +65,7 @@ function resultTable(results) {
   return table([
     {name: 'what', text: true, value: r => r.label}, ...parameters,
     {name: 'output', text: true, title: 'held against the oracle and brute force in this run', value: r => r.verdict,
-     show: r => el('span', {class: r.verdict, title: r.reason || null}, r.verdict)},
+     show: r => el('span', {class: r.verdict.replaceAll(' ', '-'), title: r.reason || null}, r.verdict)},
     ...(results.some(r => r.verified !== results[0].verified) ?
       [{name: 'checked', text: true, title: 'what of the picture was held against the oracle and brute force', value: r => r.verified}] : []),
     timeColumn('cull, ms', 'cull'), timeColumn('shade, ms', 'shade'), timeColumn('both, ms', 'cull+shade'), timeColumn('frame, ms', 'frame'),

@@ -127,6 +127,22 @@ TEST_F(Bench, AMethodWhoseOutputIsWrongGetsNoTime) {
   EXPECT_TRUE(wrong.at("stats").at("passes").empty());
 }
 
+// A method whose walks a software device ends may be right: it keeps its times.
+TEST_F(Bench, WhatCouldNotBeCheckedKeepsItsTimesAndSaysSo) {
+  const Outcome outcome = lamp({"bench", "plane", "--size", "16x9", "--lights", "66000", "--method", "tiled",
+                                "--option", "capacity=16", "--frames", "1", "--warm-up", "0", "--out", "out"});
+  if (outcome.exit_code == 0) GTEST_SKIP() << "the device ends no loops";
+  EXPECT_EQ(outcome.exit_code, UNCHECKED) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("0 wrong, 1 could not be checked"), std::string::npos) << outcome.out;
+  const json result = results().at("results")[0];
+  EXPECT_EQ(result.at("verdict"), "could not check");
+  EXPECT_TRUE(result.at("reason").get<std::string>().starts_with("the device ended the light walks of "));
+  EXPECT_FALSE(result.at("times").is_null());
+  EXPECT_NE(read("out/results.csv").find(",could not check,"), std::string::npos);
+  EXPECT_NE(read("out/report.html").find("1 could not be checked on this device, and have their times"),
+            std::string::npos);
+}
+
 TEST_F(Bench, ASceneWithOptionsOfTheCommandLine) {
   (void)output_of({"bench", "plane", "--size", "32x18", "--lights", "8", "--method", "tiled", "--option", "tile=8",
                    "--frames", "2", "--out", "out"});

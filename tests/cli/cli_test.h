@@ -16,7 +16,9 @@
 
 namespace lamp::cli {
 
-inline constexpr int BAD_INPUT = 2;  ///< the exit code
+// Exit codes.
+inline constexpr int BAD_INPUT = 2;
+inline constexpr int UNCHECKED = 4;
 
 /// What a run of `lamp` left.
 struct Outcome {

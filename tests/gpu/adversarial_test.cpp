@@ -61,7 +61,7 @@ TEST_P(AdversarialScenes, ListsAreTheSameEveryRun) {
     SCOPED_TRACE(hard->name);
     Lighting lighting = make_lighting(hard->renderer, {.method = GetParam(), .light_capacity = LARGEST_COUNT});
     if (!lighting.runner().plan().ordered) return;
-    const std::vector<gpu::Visit> first = hard->renderer.visit_all(lighting);
+    const std::vector<Visit> first = hard->renderer.visit_all(lighting);
     for (int run = 0; run < 3; ++run)
       ASSERT_TRUE(same_lists(hard->renderer.visit_all(lighting), first)) << "run " << run;
   }

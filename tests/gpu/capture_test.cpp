@@ -72,13 +72,13 @@ void expect_same_lists(Renderer& a, Renderer& b, const LitCase& lit) {
     const Candidate candidate{.method = &method, .light_capacity = static_cast<std::uint32_t>(lit.lights.size())};
     Lighting with_a = make_lighting(a, candidate);
     Lighting with_b = make_lighting(b, candidate);
-    std::vector<gpu::Visit> of_a = a.visit(with_a, lit.truth);
-    std::vector<gpu::Visit> of_b = b.visit(with_b, lit.truth);
+    std::vector<Visit> of_a = a.visit(with_a, lit.truth);
+    std::vector<Visit> of_b = b.visit(with_b, lit.truth);
     if (!method.ordered) {  // whether lights happened to ascend is a race
-      for (gpu::Visit& visit : of_a) visit.unordered = 0;
-      for (gpu::Visit& visit : of_b) visit.unordered = 0;
+      for (Visit& visit : of_a) visit.unordered = false;
+      for (Visit& visit : of_b) visit.unordered = false;
     }
-    EXPECT_EQ(std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(gpu::Visit)), 0);
+    EXPECT_TRUE(of_a == of_b);
   }
 }
 

@@ -115,6 +115,72 @@ TEST_F(CheckTheCheck, FaultyListsAreFoundOut) {
   }
 }
 
+/// A picture with more lights that reach every pixel than walks and searches together find rounds for on a device that
+/// ends loops, or than one buffer holds.
+struct Crowd {
+  Crowd(std::uint32_t width, std::uint32_t height, std::uint32_t count)
+      : scene(builtin_test_scene("plane")),
+        renderer(test_context(), shader_library(), scene.gpu, width, height, count),
+        lit(make_case(renderer, view_of(scene.scene.cameras.front(), width, height, "camera"),
+                      std::vector<shared::Light>(count, everywhere()))) {}
+
+  static shared::Light everywhere() {
+    return pack(Light{.position = glm::vec3(0.0F, 1.0F, 0.0F), .range = std::numeric_limits<float>::infinity()});
+  }
+
+  Findings find(const Method& method) {
+    Lighting lighting =
+        make_lighting(renderer, {.method = &method, .light_capacity = static_cast<std::uint32_t>(lit.lights.size())});
+    Verification verification(lit.view.width());
+    verification.add(lit.truth, renderer.visit(lighting, lit.truth));
+    return verification.findings();
+  }
+
+  const TestScene& scene;
+  Renderer renderer;
+  LitCase lit;
+};
+
+class CrowdedCheck : public GpuTest {};
+
+// Searching a list for 32 of its lights at a time took more than llvmpipe's 65 535 rounds from 577 lights on.
+TEST_F(CrowdedCheck, ManyLightsInAnyOrderAreSearchedToTheEnd) {
+  Crowd crowd(24, 20, 1000);
+  const std::uint64_t pixels = std::ranges::count_if(crowd.lit.depth, [](float depth) { return depth > 0.0F; });
+  ASSERT_EQ(crowd.lit.truth.lights.size(), 1000 * pixels);
+  const Findings descending = crowd.find(faulty_method<Fault::descending>());
+  EXPECT_EQ(descending.missed, 0) << descending.first_miss;
+  EXPECT_EQ(descending.unfollowed, 0);
+  EXPECT_TRUE(descending.unordered);
+  const Findings one_left_out = crowd.find(faulty_method<Fault::descending_and_one_left_out>());
+  EXPECT_EQ(one_left_out.missed, pixels);
+  EXPECT_TRUE(one_left_out.first_miss.ends_with(fmt::format(": light {}", LEFT_OUT))) << one_left_out.first_miss;
+}
+
+// 36 million pairs are more than a storage buffer of 128 MiB holds, the most that many devices have.
+TEST_F(CrowdedCheck, ATruthMayBeLargerThanABuffer) {
+  Crowd crowd(32, 24, 60'000);
+  ASSERT_GT(crowd.lit.truth.lights.size(), (128U << 20) / sizeof(std::uint32_t));
+  const Findings all = crowd.find(brute_force());
+  EXPECT_EQ(all.missed, 0) << all.first_miss;
+  EXPECT_EQ(all.evaluations, crowd.lit.truth.lights.size());
+  EXPECT_EQ(all.unfollowed, 0);
+}
+
+TEST_F(CheckTheCheck, AWalkThatTheDeviceEndsIsNotCalledAMiss) {
+  if (renderer_.device().traits.max_loop_rounds == ~0U) GTEST_SKIP() << "the device ends no loops";
+  const std::uint64_t pixels = std::ranges::count_if(lit_.depth, [](float depth) { return depth > 0.0F; });
+  const Method method = faulty_method<Fault::endless>();
+  Lighting lighting = make_lighting(renderer_, {.method = &method, .light_capacity = COUNT});
+  const Findings findings = find(lighting, lit_.truth);
+  EXPECT_EQ(findings.unfollowed, pixels);
+  EXPECT_FALSE(findings.first_unfollowed.empty());
+  EXPECT_EQ(findings.missed, 0);
+  EXPECT_EQ(findings.evaluations, 0);
+  EXPECT_FALSE(findings.excess());
+  EXPECT_EQ(judge(lighting.runner().plan(), findings, std::nullopt).verdict, Verdict::unchecked);
+}
+
 TEST(Difference, OneChangedBitCounts) {
   const HdrImage image{.width = 3, .height = 1, .pixels = {glm::vec4(0.25F), glm::vec4(1e-30F), glm::vec4(65536.0F)}};
   EXPECT_EQ(max_abs_difference(image, image), 0.0F);

@@ -13,15 +13,31 @@
 namespace lamp::app {
 
 /// What a faulty list does: the host writes it, tile_lists walks it.
-enum class Fault : std::uint32_t { none, descending, duplicate, one_left_out, descending_and_one_left_out, swap };
+enum class Fault : std::uint32_t {
+  none,
+  descending,
+  duplicate,
+  one_left_out,
+  descending_and_one_left_out,
+  descending_duplicate_and_one_left_out,
+  swap,
+  endless,  ///< all lights, then the last again and again: longer than a device that ends loops can walk
+};
+inline constexpr std::size_t ENDLESS = 70'000;
 inline constexpr std::uint32_t LEFT_OUT = 0;  ///< at the eye: reaches every pixel nearer than its range
 
 template <Fault FAULT>
 void write_list(const HostContext& context) {
   std::vector<std::uint32_t> list(context.lights.size());
   std::iota(list.begin(), list.end(), 0U);
-  if constexpr (FAULT == Fault::one_left_out || FAULT == Fault::descending_and_one_left_out) std::erase(list, LEFT_OUT);
-  if constexpr (FAULT == Fault::descending || FAULT == Fault::descending_and_one_left_out) std::ranges::reverse(list);
+  constexpr bool descends = FAULT == Fault::descending || FAULT == Fault::descending_and_one_left_out ||
+                            FAULT == Fault::descending_duplicate_and_one_left_out;
+  constexpr bool lacks_one = FAULT == Fault::one_left_out || FAULT == Fault::descending_and_one_left_out ||
+                             FAULT == Fault::descending_duplicate_and_one_left_out;
+  if constexpr (lacks_one) std::erase(list, LEFT_OUT);
+  if constexpr (descends) std::ranges::reverse(list);
+  if constexpr (FAULT == Fault::descending_duplicate_and_one_left_out) list.push_back(LEFT_OUT + 1);
+  if constexpr (FAULT == Fault::endless) list.resize(ENDLESS, list.back());
   if constexpr (FAULT == Fault::duplicate) list.insert(list.begin(), list.front());
   if constexpr (FAULT == Fault::swap) std::swap(list[1], list[2]);
   list.insert(list.begin(), static_cast<std::uint32_t>(list.size()));
@@ -33,7 +49,7 @@ template <Fault FAULT>
 Method faulty_method() {
   return {.name = "faulty", .result = "tile_lists", .plan = [](const Problem& problem) {
             constexpr std::uint32_t TILE_PX = 32;
-            const std::uint32_t capacity = 2 * problem.light_capacity;
+            const std::uint32_t capacity = std::max<std::uint32_t>(2 * problem.light_capacity, ENDLESS);
             Plan plan;
             const ResourceId lists =
                 plan.add({.name = "lists", .bytes = 4 * std::uint64_t{capacity} + 4, .memory = BufferMemory::upload});

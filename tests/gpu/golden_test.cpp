@@ -105,7 +105,7 @@ Drawn draw(const Golden& golden, const std::vector<Light>& lights) {
     return drawn;
   }
   std::vector<std::uint32_t> counts;
-  for (const gpu::Visit& visit : renderer.visit(lighting, empty_truth(golden.width, golden.height)))
+  for (const Visit& visit : renderer.visit(lighting, empty_truth(golden.width, golden.height)))
     counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
   drawn.image = draw_heatmap({.width = golden.width, .height = golden.height, .counts = counts, .scale_max = 64});
   return drawn;

@@ -27,9 +27,9 @@ LightingInfo info_of(const Renderer& renderer, const Candidate& candidate, Shadi
 }
 
 Findings find(Renderer& renderer, Lighting& lighting, const LitCase& lit, Passes which) {
-  const std::vector<gpu::Visit> visits = renderer.visit(lighting, lit.truth, which);
+  const std::vector<Visit> visits = renderer.visit(lighting, lit.truth, which);
   const std::uint64_t cells = lighting.runner().plan().cells;
-  for (const gpu::Visit& visit : visits)
+  for (const Visit& visit : visits)
     if (visit.cell != ~0U && visit.cell >= cells) {
       ADD_FAILURE() << "cell " << visit.cell << " of " << cells;
       break;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/gpu_test.h"
-#include "render/verification.h"
+#include "render/judgement.h"
 
 namespace lamp::app {
 

@@ -52,7 +52,7 @@ class LitCorridor : public GpuTest {
   std::size_t full_cells(const Candidate& candidate) {
     Lighting& lighting = kept_lighting(renderer_, candidate, ShadingPath::deferred);
     std::set<std::uint32_t> cells;
-    for (const gpu::Visit& visit : renderer_.visit(lighting, lit_.truth))
+    for (const Visit& visit : renderer_.visit(lighting, lit_.truth))
       if (visit.cell != ~0U && visit.visited == COUNT) cells.insert(visit.cell);
     return cells.size();
   }

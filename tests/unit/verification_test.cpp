@@ -1,6 +1,6 @@
 // What a plan promises, held against what was found: the rule that `lamp verify` and the tests share.
 // SPDX-License-Identifier: Apache-2.0
-#include "render/verification.h"
+#include "render/judgement.h"
 
 #include <gtest/gtest.h>
 
@@ -53,30 +53,71 @@ TEST(Verification, UnorderedListsMayRoundOrderedOnesMayNot) {
   EXPECT_FLOAT_EQ(picture_tolerance({.ordered = false}, reference), 10.0F * UNORDERED_TOLERANCE);
 }
 
-TEST(Verification, APictureBeyondItsToleranceFails) {
-  const Plan ordered{.ordered = true};
-  const Plan unordered{.ordered = false};
-  EXPECT_TRUE(keeps_promises(ordered, {}, {.max_abs = 0.0F, .tolerance = 0.0F}));
-  EXPECT_FALSE(keeps_promises(ordered, {}, {.max_abs = 1e-6F, .tolerance = 0.0F}));
-  EXPECT_TRUE(keeps_promises(unordered, {}, {.max_abs = 1e-4F, .tolerance = 1e-3F}));
-  EXPECT_FALSE(keeps_promises(unordered, {}, {.max_abs = 2e-3F, .tolerance = 1e-3F}));
-  constexpr float INFINITE = std::numeric_limits<float>::infinity();
-  EXPECT_FALSE(keeps_promises(unordered, {}, {.max_abs = INFINITE, .tolerance = INFINITE}));
+Verdict verdict_of(const Plan& plan, const Findings& findings, const std::optional<PictureDifference>& difference) {
+  const Judgement judgement = judge(plan, findings, difference);
+  const bool needs_reason = judgement.verdict == Verdict::failed || judgement.verdict == Verdict::unchecked;
+  EXPECT_EQ(judgement.reason.empty(), !needs_reason) << judgement.reason;
+  return judgement.verdict;
 }
 
-TEST(Verification, MissesAndDisorderFailUnlessTheRowAllowsThem) {
+TEST(Judgement, APictureBeyondItsToleranceFails) {
+  const Plan ordered{.ordered = true};
+  const Plan unordered{.ordered = false};
+  EXPECT_EQ(verdict_of(ordered, {}, std::nullopt), Verdict::ok);
+  EXPECT_EQ(verdict_of(ordered, {}, {{.max_abs = 0.0F, .tolerance = 0.0F}}), Verdict::ok);
+  EXPECT_EQ(verdict_of(ordered, {}, {{.max_abs = 1e-6F, .tolerance = 0.0F}}), Verdict::failed);
+  EXPECT_EQ(verdict_of(unordered, {}, {{.max_abs = 1e-4F, .tolerance = 1e-3F}}), Verdict::ok);
+  EXPECT_EQ(verdict_of(unordered, {}, {{.max_abs = 2e-3F, .tolerance = 1e-3F}}), Verdict::failed);
+  constexpr float INFINITE = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(verdict_of(unordered, {}, {{.max_abs = INFINITE, .tolerance = INFINITE}}), Verdict::failed);
+}
+
+TEST(Judgement, MissesAndDisorderFailUnlessTheRowAllowsThem) {
   const PictureDifference none;
   const Findings missed{.missed = 1};
   const Findings disorder{.unordered = true};
-  EXPECT_FALSE(keeps_promises({.ordered = false}, {.repeated = 1}, none));
-  EXPECT_FALSE(keeps_promises({.ordered = true}, {.changed_runs = 1}, none));
-  EXPECT_TRUE(keeps_promises({.ordered = true}, {.changed_runs = 0}, none));
-  EXPECT_TRUE(keeps_promises({.ordered = false}, {.changed_runs = 1}, none));
-  EXPECT_FALSE(keeps_promises({.ordered = false}, missed, none));
-  EXPECT_TRUE(keeps_promises({.ordered = false, .approximate = true}, missed, {.max_abs = 1.0F}));
-  EXPECT_FALSE(keeps_promises({.ordered = true}, disorder, none));
-  EXPECT_FALSE(keeps_promises({.ordered = true, .approximate = true}, disorder, none));
-  EXPECT_TRUE(keeps_promises({.ordered = false}, disorder, none));
+  EXPECT_EQ(verdict_of({.ordered = false}, {.repeated = 1}, none), Verdict::failed);
+  EXPECT_EQ(verdict_of({.ordered = true}, {.changed_runs = 1}, none), Verdict::failed);
+  EXPECT_EQ(verdict_of({.ordered = true}, {.changed_runs = 0}, none), Verdict::ok);
+  EXPECT_EQ(verdict_of({.ordered = false}, {.changed_runs = 1}, none), Verdict::ok);
+  EXPECT_EQ(verdict_of({.ordered = false}, missed, none), Verdict::failed);
+  EXPECT_EQ(verdict_of({.ordered = false, .approximate = true}, missed, {{.max_abs = 1.0F}}), Verdict::approximate);
+  EXPECT_EQ(verdict_of({.ordered = false, .approximate = true}, {}, none), Verdict::ok);
+  EXPECT_EQ(verdict_of({.ordered = true}, disorder, none), Verdict::failed);
+  EXPECT_EQ(verdict_of({.ordered = true, .approximate = true}, disorder, none), Verdict::failed);
+  EXPECT_EQ(verdict_of({.ordered = false}, disorder, none), Verdict::ok);
+}
+
+TEST(Judgement, WhatTheDeviceEndsCouldNotBeCheckedAndAMissElsewhereStillFails) {
+  const Findings ended{.unfollowed = 2, .first_unfollowed = "pixel (1, 2)"};
+  Findings missed = ended;
+  missed.missed = 1;
+  for (const bool approximate : {false, true}) {
+    const Plan plan{.approximate = approximate};
+    EXPECT_EQ(verdict_of(plan, ended, std::nullopt), Verdict::unchecked);
+    EXPECT_EQ(verdict_of(plan, missed, std::nullopt), approximate ? Verdict::unchecked : Verdict::failed);
+  }
+  EXPECT_EQ(judge({}, ended, std::nullopt).reason,
+            "the device ended the light walks of 2 pixels before their end, the first: pixel (1, 2)");
+  EXPECT_EQ(of_both({}, ended).unfollowed, 2U);
+  EXPECT_EQ(of_both({}, ended).first_unfollowed, "pixel (1, 2)");
+}
+
+TEST(Judgement, APictureOfLongerWalksThanTheDeviceIsSureToFinishSaysNothing) {
+  const PictureDifference different{.max_abs = 1.0F};
+  Plan plan;
+  plan.lookup.most_walked = 100;
+  EXPECT_EQ(verdict_of(plan, {.list_max = 100}, different), Verdict::failed);
+  EXPECT_EQ(verdict_of(plan, {.list_max = 101}, different), Verdict::unchecked);
+  EXPECT_EQ(verdict_of(plan, {.list_max = 101}, PictureDifference{}), Verdict::ok);
+}
+
+TEST(Judgement, TheWorseOneCounts) {
+  const Judgement failed{Verdict::failed, "a"};
+  const Judgement unchecked{Verdict::unchecked, "b"};
+  EXPECT_EQ(worse_of(failed, unchecked).reason, "a");
+  EXPECT_EQ(worse_of(unchecked, failed).reason, "a");
+  EXPECT_EQ(worse_of(unchecked, {}).reason, "b");
 }
 
 }  // namespace

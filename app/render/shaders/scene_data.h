@@ -55,14 +55,14 @@ struct Surroundings {
   uint directional_count;
 };
 
-// What the visit shader found at a pixel.
-struct Visit {
-  uint visited;       // lights walked
-  uint cell;          // of the look-up; SKY_CELL for sky
-  uint missed;        // lights of the truth that the walk did not bring
-  uint first_missed;  // the first of them
-  uint unordered;     // 1: a light did not ascend
-  uint hash;          // of the lights walked, in their order
+// What the visit shader met at a pixel.
+struct Met {
+  uint visited;    // lights walked
+  uint cell;       // of the look-up; SKY_CELL for sky
+  uint in_order;   // of the truth's lights, so many from the first on, one after the other
+  uint unordered;  // 1: a light did not ascend
+  uint ended;      // 1: the device ended the walk, and there may be more lights
+  uint hash;       // of the lights walked, in their order
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,69 @@
+// Prints rows.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/verify_rows.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "system/print.h"
+
+namespace lamp::app {
+namespace {
+
+/// "-" where there is no number.
+template <class Number>
+std::string number_or_dash(const char* format, const std::optional<Number>& number) {
+  return number ? fmt::format(fmt::runtime(format), *number) : "-";
+}
+
+std::string verdict_words(Verdict verdict) {
+  return verdict == Verdict::failed ? "FAILED" : std::string(name_of(verdict));
+}
+
+void print_decals(const Stats& s) {
+  const Findings& f = *s.decal_findings;
+  print_out("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
+  if (!f.first_miss.empty()) print_out("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
+}
+
+void print_numbers(const Stats& s) {
+  const Findings& f = *s.findings;
+  print_out("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
+            f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
+            s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
+            verdict_words(s.judgement->verdict));
+}
+
+/// What does not fit into the columns.
+void print_more(const Stats& s) {
+  const Findings& f = *s.findings;
+  for (const std::string& note : s.notes) print_out("  note: {}\n", note);
+  if (s.rendered.counters.overflowed_cells != 0) print_out("  {}\n", overflow_words(s));
+  if (!s.judgement->reason.empty()) print_out("  {}\n", s.judgement->reason);
+  if (s.approximate && !f.first_miss.empty()) print_out("  first miss: {}\n", f.first_miss);
+  if (s.decal_findings) print_decals(s);
+}
+
+}  // namespace
+
+void print_table(std::span<const Stats> rows) {
+  print_out("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed", "evaluations",
+            "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
+  for (const Stats& s : rows) {
+    if (!s.findings) {
+      print_out("{:<24} {}: {}\n", s.method, verdict_words(s.judgement->verdict), s.judgement->reason);
+      continue;
+    }
+    print_numbers(s);
+    print_more(s);
+  }
+}
+
+void print_json(std::span<const Stats> rows) {
+  nlohmann::json array = nlohmann::json::array();
+  for (const Stats& row : rows) array.push_back(to_json(row));
+  print_out("{}\n", array.dump(2));
+}
+
+}  // namespace lamp::app
