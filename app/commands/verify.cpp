@@ -212,6 +212,10 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
             setup.view.height(), setup.lights.size(), setup.lights_note);
   if (rows.front().verifier == Verifier::gpu) print_out("truth by the GPU verifier\n");
   if (!rows.front().image_max_abs_diff) print_out("pictures not compared: too many lights for brute force\n");
+  if (const std::uint64_t pairs = rows.front().findings->boundary_pairs; pairs != 0)
+    print_out(
+        "{} pairs of pixel and light lie on a boundary (within 1e-5 of it): not checked, either answer is right\n",
+        pairs);
   print_table(rows);
 }
 

@@ -32,37 +32,59 @@ constexpr std::uint32_t SLICE_LIGHTS = 1U << 15;
 constexpr std::uint64_t DISPATCH_PAIRS = 100'000'000'000;
 constexpr std::uint32_t GROUP_ROWS = 16;
 
+constexpr std::size_t PUSHED = 5;  // constants of verify_walk.comp; verify_cells.comp reads the first four
+
+// Of the marks of a dispatch of verify_distinct.comp.
+constexpr std::uint64_t MARK_BYTES = 64ULL << 20;
+
 std::vector<gpu::ReachLimits> limits_of(std::span<const shared::Light> lights) {
   std::vector<gpu::ReachLimits> limits;
   limits.reserve(lights.size());
   for (const shared::Light& light : lights) {
-    const double distance = light.range >= shared::INFINITE_RADIUS ? std::numeric_limits<double>::infinity()
-                                                                   : light.range * (1.0 - BOUNDARY_BAND);
-    const double angle = light.type == shared::LIGHT_POINT ? 0.0 : light.outer_angle * (1.0 - BOUNDARY_BAND);
-    const double sine = std::sin(angle);
-    const double cosine = std::cos(angle);
-    limits.push_back(
-        {.distance_squared = distance * distance, .sin_squared = sine * sine, .cos_squared = cosine * cosine});
+    const double near = 1.0 - BOUNDARY_BAND;
+    const double far = 1.0 + BOUNDARY_BAND;
+    const double range =
+        light.range >= shared::INFINITE_RADIUS ? std::numeric_limits<double>::infinity() : light.range;
+    const double outer = light.type == shared::LIGHT_POINT ? 0.0 : light.outer_angle;
+    limits.push_back({.near_squared = range * near * (range * near),
+                      .far_squared = range * far * (range * far),
+                      .near_sin = std::sin(outer * near),
+                      .near_cos = std::cos(outer * near),
+                      .far_sin = std::sin(outer * far),
+                      .far_cos = std::cos(outer * far)});
   }
   return limits;
 }
 
+constexpr VkBufferUsageFlags STORAGE = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
 vulkan::Buffer storage_buffer(const vulkan::Device& device, const char* name, std::uint64_t bytes,
-                              vulkan::MemoryUse memory) {
+                              vulkan::MemoryUse memory, VkBufferUsageFlags usage = STORAGE) {
   if (bytes > device.traits.max_storage_buffer_bytes)
     throw Error(fmt::format("GPU verifier: {}: {} bytes, expected at most {} on this device", name, bytes,
                             device.traits.max_storage_buffer_bytes));
-  return take(vulkan::Buffer::create(
-      device, {.name = name, .bytes = bytes, .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, .memory = memory}));
+  return take(vulkan::Buffer::create(device, {.name = name, .bytes = bytes, .usage = usage, .memory = memory}));
 }
 
-/// Adds a band's pixels; returns the first that misses a light, or nothing.
-std::optional<std::size_t> add_up(std::span<const gpu::Survey> surveys, Findings& sums) {
-  std::optional<std::size_t> first_miss;
+/// The first pixels of something, numbered through a band.
+struct Firsts {
+  std::optional<std::size_t> miss;
+  std::optional<std::size_t> unfollowed;
+};
+
+/// Adds a band's pixels.
+Firsts add_up(std::span<const gpu::Survey> surveys, Findings& sums) {
+  Firsts firsts;
   for (std::size_t i = 0; i < surveys.size(); ++i) {
     const gpu::Survey& survey = surveys[i];
     if (survey.cell == gpu::SKY_CELL) continue;
-    if (survey.missed != 0 && !first_miss) first_miss = i;
+    sums.boundary_pairs += survey.boundary;
+    if (survey.ended != 0) {
+      if (!firsts.unfollowed) firsts.unfollowed = i;
+      ++sums.unfollowed;
+      continue;
+    }
+    if (survey.missed != 0 && !firsts.miss) firsts.miss = i;
     sums.missed += survey.missed;
     sums.evaluations += survey.visited;
     sums.useful += survey.useful;
@@ -70,7 +92,13 @@ std::optional<std::size_t> add_up(std::span<const gpu::Survey> surveys, Findings
     sums.list_max = std::max(sums.list_max, survey.visited);
     sums.unordered = sums.unordered || survey.unordered != 0;
   }
-  return first_miss;
+  return firsts;
+}
+
+/// From `pixel` on, the first whose misses nobody has counted.
+std::size_t next_uncounted(std::span<const gpu::Survey> surveys, std::size_t pixel) {
+  while (pixel < surveys.size() && (surveys[pixel].missed != gpu::NOT_COUNTED || surveys[pixel].ended != 0)) ++pixel;
+  return pixel;
 }
 
 }  // namespace
@@ -81,7 +109,7 @@ class GpuVerifier::Cells {
   void add(std::span<const gpu::Survey> surveys) {
     for (const gpu::Survey& survey : surveys) {
       first_places_.push_back(0);
-      if (survey.cell == gpu::SKY_CELL) continue;
+      if (survey.cell == gpu::SKY_CELL || survey.ended != 0) continue;
       if (last_ == nullptr || survey.cell != last_cell_) {
         const auto [found, is_new] = cells_.try_emplace(survey.cell, Cell{survey.visited, survey.list, places_});
         if (is_new) places_ += survey.visited;
@@ -170,10 +198,12 @@ void GpuVerifier::walk(PixelPass pass, const Band& band) {
   // A fused look-up culls the tile of its work group, whose place is the dispatch's.
   const bool whole = pass.which == Passes::fused;
   const std::uint32_t step = whole ? band.rows.count : groups * GROUP_ROWS;
+  pass.push.resize(PUSHED);
+  const vulkan::Pipeline pipeline = renderer_.pixel_pipeline(pass);
   for (std::uint32_t row = band.rows.first; row < band.rows.first + band.rows.count; row += step) {
     pass.rows = {row, std::min(step, band.rows.first + band.rows.count - row)};
-    pass.push = {band.rows.first, pass.rows.first, pass.rows.count, whole ? 0 : row};
-    renderer_.run(pass);
+    pass.push = {band.rows.first, pass.rows.first, pass.rows.count, whole ? 0 : row, /*two*/ 2};
+    renderer_.run(pass, pipeline);
     pass.prepares = false;
   }
 }
@@ -190,10 +220,42 @@ std::vector<gpu::Survey> GpuVerifier::survey(Lighting& lighting, Passes which, c
   pass.storage.push_back({5, vulkan::Resource::storage(band.truth.handle())});
   pass.storage.push_back({6, vulkan::Resource::storage(surveys.handle()), WRITE});
   walk(std::move(pass), band);
-  renderer_.forget(surveys);
   std::vector<gpu::Survey> found(pixels);
   std::memcpy(found.data(), surveys.mapped().data(), pixels * sizeof(gpu::Survey));
+  if (next_uncounted(found, 0) != pixels) {
+    count_distinct(lighting, which, band, found, surveys);
+    std::memcpy(found.data(), surveys.mapped().data(), pixels * sizeof(gpu::Survey));
+  }
+  renderer_.forget(surveys);
   return found;
+}
+
+void GpuVerifier::count_distinct(Lighting& lighting, Passes which, const Band& band, std::span<const gpu::Survey> found,
+                                 const vulkan::Buffer& surveys) {
+  const std::uint64_t pixel_bytes = (lights_.size() + 31) / 32 * sizeof(std::uint32_t);
+  const std::uint64_t room = std::min(MARK_BYTES, renderer_.device().traits.max_storage_buffer_bytes);
+  const std::size_t most = std::clamp<std::size_t>(room / pixel_bytes, 1, found.size());
+  const vulkan::Buffer marks = storage_buffer(renderer_.device(), "light marks", most * pixel_bytes,
+                                              vulkan::MemoryUse::device, STORAGE | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  PixelPass pass{
+      .shader = "verify_distinct", .lighting = &lighting, .which = which, .prepares = false, .storage = inputs()};
+  pass.storage.push_back({5, vulkan::Resource::storage(surveys.handle()), READ | WRITE});
+  pass.storage.push_back({6, vulkan::Resource::storage(marks.handle()), READ | WRITE, /*zeroed=*/true});
+  pass.push.resize(4);
+  const vulkan::Pipeline pipeline = renderer_.pixel_pipeline(pass);
+  const std::uint32_t width = renderer_.view().width();
+  const auto before = static_cast<std::size_t>(band.rows.first) * width;
+  for (std::size_t first = next_uncounted(found, 0); first < found.size();) {
+    const std::size_t end = std::min(first + most, found.size());
+    const auto first_row = static_cast<std::uint32_t>((before + first) / width);
+    const auto end_row = static_cast<std::uint32_t>((before + end - 1) / width) + 1;
+    pass.rows = {first_row, end_row - first_row};
+    pass.push = {band.rows.first, static_cast<std::uint32_t>(before + first), static_cast<std::uint32_t>(before + end),
+                 which == Passes::fused ? 0 : first_row};
+    renderer_.run(pass, pipeline);
+    first = next_uncounted(found, end);
+  }
+  renderer_.forget(marks);
 }
 
 std::optional<std::uint64_t> GpuVerifier::count_cell_truth(Lighting& lighting, const Cells& cells) {
@@ -243,14 +305,17 @@ Findings GpuVerifier::check(Lighting& lighting, Passes which) {
   std::optional<glm::uvec2> miss;
   for (const Band& band : bands_) {
     const std::vector<gpu::Survey> surveys = survey(lighting, which, band);
-    const std::optional<std::size_t> first = add_up(surveys, findings);
+    const Firsts firsts = add_up(surveys, findings);
     const std::uint32_t width = renderer_.view().width();
-    if (first && !miss) miss = {*first % width, band.rows.first + *first / width};
+    const auto at = [&](std::size_t i) { return glm::uvec2(i % width, band.rows.first + i / width); };
+    if (firsts.miss && !miss) miss = at(*firsts.miss);
+    if (firsts.unfollowed && findings.first_unfollowed.empty())
+      findings.first_unfollowed = fmt::format("pixel ({}, {})", at(*firsts.unfollowed).x, at(*firsts.unfollowed).y);
     cells.add(surveys);
   }
   findings.list_sum = cells.places();
   findings.cells_seen = cells.seen();
-  if (findings.missed == 0 && findings.repeated == 0 && which == Passes::separate)
+  if (findings.missed == 0 && findings.repeated == 0 && findings.unfollowed == 0 && which == Passes::separate)
     findings.truth_sum = count_cell_truth(lighting, cells);
   if (miss) findings.first_miss = name_miss(lighting, which, miss->x, miss->y);
   return findings;

@@ -24,7 +24,8 @@ class GpuVerifier {
   GpuVerifier& operator=(const GpuVerifier&) = delete;
 
   /// Culls, walks every pixel's list, and compares. Of misses, the first is named by the oracle. `truth_sum` stays
-  /// empty where lists miss or repeat lights, where pixels of one cell walk different lists, or marks find no room.
+  /// empty where lists miss or repeat lights, where the device ends a walk, where pixels of one cell walk different
+  /// lists, or marks find no room.
   [[nodiscard]] Findings check(Lighting& lighting,
                                vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
 
@@ -40,6 +41,9 @@ class GpuVerifier {
   [[nodiscard]] std::vector<PixelPass::Storage> inputs() const;
   void walk(PixelPass pass, const Band& band);
   [[nodiscard]] std::vector<gpu::Survey> survey(Lighting& lighting, Passes which, const Band& band);
+  /// Fills in what the surveys that were found leave open.
+  void count_distinct(Lighting& lighting, Passes which, const Band& band, std::span<const gpu::Survey> found,
+                      const vulkan::Buffer& surveys);
   [[nodiscard]] std::optional<std::uint64_t> count_cell_truth(Lighting& lighting, const Cells& cells);
   [[nodiscard]] std::string name_miss(Lighting& lighting, Passes which, std::uint32_t x, std::uint32_t y);
 

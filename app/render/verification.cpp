@@ -65,6 +65,7 @@ Findings of_both(Findings separate, const Findings& fused) {
 
 void Verification::add(const Truth& truth, std::span<const Visit> visits) {
   assert(visits.size() + 1 == truth.offsets.size() && "visit the rows that the truth speaks of");
+  sums_.boundary_pairs += truth.boundary_pairs;
   std::uint64_t last_cell = ~0ULL;
   std::size_t unique_end = cell_lights_.size();
   for (std::size_t pixel = 0; pixel < visits.size(); ++pixel) {

@@ -31,6 +31,7 @@ struct Findings {
   std::uint64_t missed = 0;                ///< pairs of pixel and light that the truth has and the look-up has not
   std::uint64_t evaluations = 0;           ///< lights walked
   std::uint64_t useful = 0;                ///< lights of the truth
+  std::uint64_t boundary_pairs = 0;        ///< pairs in the boundary band, which are not checked; of all pixels
   std::uint64_t list_sum = 0;              ///< list lengths of the cells that hold a pixel
   std::optional<std::uint64_t> truth_sum;  ///< per cell, the lights that reach one of its pixels; nothing: not counted
   std::uint64_t cells_seen = 0;            ///< cells that hold a pixel

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "gpu/faulty_lists.h"
 #include "gpu/method_check.h"
@@ -28,6 +30,9 @@ void expect_same(const Findings& gpu, const Findings& oracle) {
   EXPECT_EQ(gpu.missed, oracle.missed);
   EXPECT_EQ(gpu.evaluations, oracle.evaluations);
   EXPECT_EQ(gpu.useful, oracle.useful);
+  EXPECT_EQ(gpu.boundary_pairs, oracle.boundary_pairs);
+  EXPECT_EQ(gpu.unfollowed, oracle.unfollowed);
+  EXPECT_EQ(gpu.first_unfollowed, oracle.first_unfollowed);
   EXPECT_EQ(gpu.list_sum, oracle.list_sum);
   EXPECT_EQ(gpu.cells_seen, oracle.cells_seen);
   EXPECT_EQ(gpu.list_max, oracle.list_max);
@@ -109,6 +114,7 @@ class GpuVerifierFaults : public GpuTest {
 
 TEST_F(GpuVerifierFaults, FaultyListsAreFoundOutWithTheRightCounts) {
   const std::uint64_t reached = std::ranges::count(lit_.truth.lights, LEFT_OUT);
+  const std::uint64_t next_reached = std::ranges::count(lit_.truth.lights, LEFT_OUT + 1);
   const std::uint64_t all = lit_.truth.lights.size();
   const std::uint64_t pixels = std::ranges::count_if(lit_.depth, [](float depth) { return depth > 0.0F; });
   ASSERT_GT(reached, 0);
@@ -126,6 +132,7 @@ TEST_F(GpuVerifierFaults, FaultyListsAreFoundOutWithTheRightCounts) {
       {faulty_method<Fault::duplicate>(), 0, reached, true, COUNT + 1},
       {faulty_method<Fault::one_left_out>(), reached, 0, false, COUNT - 1},
       {faulty_method<Fault::descending_and_one_left_out>(), reached, 0, true, COUNT - 1},
+      {faulty_method<Fault::descending_duplicate_and_one_left_out>(), reached, next_reached, true, COUNT},
       {faulty_method<Fault::swap>(), 0, 0, true, COUNT},
   };
   GpuVerifier verifier(renderer_, lit_.lights);
@@ -140,6 +147,63 @@ TEST_F(GpuVerifierFaults, FaultyListsAreFoundOutWithTheRightCounts) {
     EXPECT_EQ(findings.evaluations, expected.walked * pixels);
     EXPECT_EQ(findings.first_miss, by_oracle(renderer_, lighting, lit_, Passes::separate).first_miss);
   }
+}
+
+// What is missing and what is there twice was counted by walking again and again, until a device ended the loops.
+TEST_F(GpuVerifierFaults, CountsAreRightHoweverManyLightsAPixelHas) {
+  constexpr std::uint32_t MANY = 1000;
+  const shared::Light everywhere =
+      pack(Light{.position = glm::vec3(0.0F, 1.0F, 0.0F), .range = std::numeric_limits<float>::infinity()});
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, MANY);
+  const LitCase lit = make_case(renderer, view_, std::vector<shared::Light>(MANY, everywhere));
+  const std::uint64_t pixels = std::ranges::count_if(lit.depth, [](float depth) { return depth > 0.0F; });
+  GpuVerifier verifier(renderer, lit.lights);
+  const Method method = faulty_method<Fault::descending_duplicate_and_one_left_out>();
+  Lighting lighting = make_lighting(renderer, {.method = &method, .light_capacity = MANY});
+  const Findings findings = verifier.check(lighting);
+  EXPECT_EQ(findings.missed, pixels);
+  EXPECT_EQ(findings.repeated, pixels);
+  EXPECT_EQ(findings.useful, MANY * pixels);
+  EXPECT_EQ(findings.unfollowed, 0);
+}
+
+TEST_F(GpuVerifierFaults, AWalkThatTheDeviceEndsIsNotCalledAMiss) {
+  if (renderer_.device().traits.max_loop_rounds == ~0U) GTEST_SKIP() << "the device ends no loops";
+  const Method method = faulty_method<Fault::endless>();
+  Lighting lighting = make_lighting(renderer_, {.method = &method, .light_capacity = COUNT});
+  const Findings findings = GpuVerifier(renderer_, lit_.lights).check(lighting);
+  EXPECT_GT(findings.unfollowed, 0);
+  expect_same(findings, by_oracle(renderer_, lighting, lit_, Passes::separate));
+  EXPECT_FALSE(findings.truth_sum);
+}
+
+// Ranges and cones whose boundary goes through pixels, and some whose does not.
+TEST_F(GpuVerifierFaults, BoundaryPairsAreCountedAsTheOracleDoes) {
+  std::vector<shared::Light> lights;
+  for (std::uint32_t i = 0; i < COUNT; ++i) {
+    const std::uint32_t x = i * 7 % WIDTH;
+    const std::uint32_t y = HEIGHT - 1 - i % 5;
+    const float depth = lit_.depth[y * WIDTH + x];
+    ASSERT_GT(depth, 0.0F);
+    const glm::dvec3 at = view_.world_position(x, y, depth);
+    const glm::dvec3 away(0.3 * (i % 3) + 0.1, 1.0 + 0.1 * i, 0.2);
+    const glm::vec3 position(at + away);
+    const double distance = glm::length(at - glm::dvec3(position));
+    const bool by_cone = i % 2 == 1;
+    const double steps = i % 8 < 6 ? 0.0 : 3.0 * BOUNDARY_BAND;  // the others are just beyond the band
+    const glm::vec3 direction(0.0F, -1.0F, 0.0F);
+    const double angle = std::acos(glm::dot(glm::normalize(at - glm::dvec3(position)), glm::dvec3(direction)));
+    lights.push_back(pack(Light{.type = by_cone ? LightType::spot : LightType::point,
+                                .position = position,
+                                .range = static_cast<float>(by_cone ? 2.0 * distance : distance * (1.0 + steps)),
+                                .direction = direction,
+                                .outer_angle = static_cast<float>(angle * (1.0 + steps))}));
+  }
+  const LitCase lit = make_case(renderer_, view_, lights);
+  Lighting lighting = make_lighting(renderer_, {.method = &brute_force(), .light_capacity = COUNT});
+  const Findings oracle = by_oracle(renderer_, lighting, lit, Passes::separate);
+  EXPECT_GE(oracle.boundary_pairs, COUNT / 2);
+  expect_same(GpuVerifier(renderer_, lit.lights).check(lighting), oracle);
 }
 
 TEST_F(GpuVerifierFaults, RowsAreThoseAskedFor) {

@@ -12,16 +12,21 @@ namespace lamp::app::gpu {
 using namespace lamp::shared;
 #endif
 
-// Where a light surely reaches: short of its boundary by the band that is not checked.
+// The boundary band of a light: short of `near` a position is inside, beyond `far` outside. Of a spot, both hold for the
+// distance and for the angle from its direction.
 struct ReachLimits {
-  double distance_squared;  // m^2; a position at less than this from the light
-  double sin_squared;       // of the angle from a spot's direction that a position must be inside of
-  double cos_squared;
+  double near_squared;  // m^2, of the distance
+  double far_squared;
+  double near_sin;  // of the angle
+  double near_cos;
+  double far_sin;
+  double far_cos;
 };
 
 // The lights that surely reach a pixel: how many, and two sums of hashes of their indices, in any order.
 struct PixelTruth {
   uint count;
+  uint boundary;  // lights in whose boundary band the pixel lies: either answer is right
   uvec2 hash;
 };
 
@@ -30,14 +35,17 @@ struct Survey {
   uint visited;    // lights walked
   uint cell;       // of the look-up; SKY_CELL for sky
   uint useful;     // lights of the truth
-  uint missed;     // of them, those that the walk did not bring
+  uint boundary;   // lights that are neither of the truth nor outside
+  uint missed;     // of the truth, those that the walk did not bring; NOT_COUNTED: verify_distinct.comp counts them
   uint repeated;   // reaching lights that it brought again
   uint unordered;  // 1: a light did not ascend
+  uint ended;      // 1: the device ended the walk, and there may be more lights
   uint list;       // sum of hashes of all lights walked: tells lists apart
 };
+LAMP_CONST NOT_COUNTED = 0xFFFFFFFFu;
 
 #ifdef __cplusplus
-static_assert(sizeof(ReachLimits) == 24 && sizeof(PixelTruth) == 12 && sizeof(Survey) == 28);
+static_assert(sizeof(ReachLimits) == 48 && sizeof(PixelTruth) == 16 && sizeof(Survey) == 36);
 }  // namespace lamp::app::gpu
 #endif
 

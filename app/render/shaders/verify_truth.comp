@@ -1,4 +1,5 @@
-// The truth, one slice of lights a dispatch: how many surely reach each pixel, and the hash of their indices.
+// The truth, one slice of lights a dispatch: how many surely reach each pixel, the hash of their indices, and of how many
+// the pixel lies in the boundary band.
 // A group keeps the lights whose spheres touch the box of its pixels' positions, and tests them for each pixel.
 // Promise: no bounds, no cells, no code of any method; double precision throughout.
 // SPDX-License-Identifier: Apache-2.0
@@ -34,11 +35,11 @@ void join_boxes() {
   barrier();  // low[0], high[0] are final
 }
 
-// The range itself, not shortened by the band: the margin that makes rounding harmless.
+// A little more than the range and the boundary band behind it: the margin that makes rounding harmless.
 bool touches_box(uint light) {
   const dvec3 center = dvec3(lights[light].position);
   const dvec3 gap = max(max(low[0] - center, center - high[0]), dvec3(0.0lf));
-  const double range = double(lights[light].range);
+  const double range = double(lights[light].range) * 1.0001lf;
   return range > 0.0lf && (lights[light].range >= INFINITE_RADIUS || dot(gap, gap) <= range * range);
 }
 
@@ -54,7 +55,7 @@ void main() {
   high[gl_LocalInvocationIndex] = covered ? position : dvec3(-FAR);
   join_boxes();
 
-  PixelTruth sum = PixelTruth(0u, uvec2(0u));
+  PixelTruth sum = PixelTruth(0u, 0u, uvec2(0u));
   const bool sky = low[0].x > high[0].x;
   for (uint base = first_light; base < (sky ? first_light : end_light); base += THREADS) {
     if (gl_LocalInvocationIndex == 0u) kept_count = 0u;
@@ -63,11 +64,15 @@ void main() {
     if (light < end_light && touches_box(light)) kept[atomicAdd(kept_count, 1u)] = light;
     barrier();  // all that are kept are there
     if (covered)
-      for (uint i = 0u; i < kept_count; ++i)
-        if (surely_reaches(kept[i], position)) {
+      for (uint i = 0u; i < kept_count; ++i) {
+        const uint answer = reach(kept[i], position);
+        if (answer == INSIDE) {
           ++sum.count;
           sum.hash += hash_of(kept[i]);
+        } else if (answer == BOUNDARY) {
+          ++sum.boundary;
         }
+      }
     barrier();  // everybody has read them
   }
   if (!inside) return;
@@ -75,6 +80,7 @@ void main() {
     truth[index] = sum;
   } else {
     truth[index].count += sum.count;
+    truth[index].boundary += sum.boundary;
     truth[index].hash += sum.hash;
   }
 }

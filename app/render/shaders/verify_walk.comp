@@ -1,5 +1,6 @@
 // Walks the look-up of every pixel and holds it against the truth of verify_truth.comp.
-// Promise: sees exactly what shading sees, because it reads through the same look-up.
+// Promise: sees exactly what shading sees, because it reads through the same look-up. Its loops are the walk's alone, so
+// that a device which ends loops ends them where it ends the walk.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,40 +14,14 @@ layout(push_constant) uniform Push {
   uint first_row;   // rows to answer for
   uint rows;
   uint origin_row;  // of the dispatch
+  uint two;         // for loops_ended
 };
+#include "common/loops_ended.glsl"
 #include "lookup.glsl"
 #include "lookup/parts/each.glsl"
 #include "common/frame.glsl"
 
-const uint NONE = ~0u;
-
 bool reaches(uint light, dvec3 position) { return light < frame.light_count && surely_reaches(light, position); }
-
-// The distinct lights of a walk that reach: the next four by index, walk after walk, until there are no more. For lists
-// in any order that do not hold the truth; walks are few, because software devices end a thread's loops after some
-// 65 000 rounds.
-PixelTruth distinct(uvec2 pixel, float z_view, dvec3 position) {
-  PixelTruth found = PixelTruth(0u, uvec2(0u));
-  for (uint next = 0u; next != NONE;) {
-    uvec4 least = uvec4(NONE);
-    uint light;
-    LOOKUP_EACH(light, pixel, z_view) {
-      if (light < next || any(equal(least, uvec4(light))) || !reaches(light, position)) continue;
-      for (uint i = 0u; i < 4u; ++i) {
-        const uint larger = max(least[i], light);
-        least[i] = min(least[i], light);
-        light = larger;
-      }
-    }
-    for (uint i = 0u; i < 4u; ++i)
-      if (least[i] != NONE) {
-        ++found.count;
-        found.hash += hash_of(least[i]);
-      }
-    next = least.w == NONE ? NONE : least.w + 1u;
-  }
-  return found;
-}
 
 void main() {
   lookup_prepare();
@@ -55,14 +30,15 @@ void main() {
   const uint index = (pixel.y - buffer_row) * frame.size_px.x + pixel.x;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
   if (depth <= 0.0) {
-    surveys[index] = Survey(0u, SKY_CELL, 0u, 0u, 0u, 0u, 0u);
+    surveys[index] = Survey(0u, SKY_CELL, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     return;
   }
   const float z_view = z_view_of(frame, depth);
   const dvec3 position = exact_world_position(pixel, depth);
   const PixelTruth wanted = truth[index];
-  Survey survey = Survey(0u, lookup_cell(pixel, z_view), wanted.count, 0u, 0u, 0u, 0u);
-  PixelTruth found = PixelTruth(0u, uvec2(0u));
+  Survey survey = Survey(0u, lookup_cell(pixel, z_view), wanted.count, wanted.boundary, 0u, 0u, 0u, 0u, 0u);
+  uint found = 0u;
+  uvec2 hash = uvec2(0u);
   uint last = 0u;
   uint light;
   LOOKUP_EACH(light, pixel, z_view) {
@@ -71,16 +47,15 @@ void main() {
     ++survey.visited;
     survey.list += hash_of(light).x;
     if (reaches(light, position)) {
-      ++found.count;
-      found.hash += hash_of(light);
+      ++found;
+      hash += hash_of(light);
     }
   }
-  if (survey.unordered != 0u && found != wanted) {
-    const uint walked = found.count;
-    found = distinct(pixel, z_view, position);
-    survey.repeated = walked - found.count;
-  }
-  // Lists that differ by more than misses cannot be: a walk's lights are tested as the truth's are.
-  if (found != wanted) survey.missed = max(wanted.count, found.count + 1u) - found.count;
+  if (loops_ended(two)) survey.ended = 1u;
+  // A list that ascends brings no light again, and reaching lights are of the truth: they are tested as the truth's are.
+  if (survey.unordered == 0u)
+    survey.missed = wanted.count - found;
+  else if (found != wanted.count || hash != wanted.hash)
+    survey.missed = NOT_COUNTED;
   surveys[index] = survey;
 }

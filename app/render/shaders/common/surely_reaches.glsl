@@ -1,6 +1,6 @@
 // Whether a light surely reaches a pixel, in double precision: the oracle's answer, on the GPU.
-// Based on: reach() of oracle/reference/reference.cpp; the angle is compared by the squares of its sine and cosine
-// instead of by an arc tangent. Positions are those of View::world_position.
+// Based on: reach() of oracle/reference/reference.cpp; angles are compared by the sine of their difference instead of by
+// an arc tangent. Positions are those of View::world_position.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SURELY_REACHES
 #define LAMP_COMMON_SURELY_REACHES
@@ -30,18 +30,31 @@ dvec3 exact_world_position(uvec2 pixel, float device_depth) {
   return world;
 }
 
-bool surely_reaches(uint light, dvec3 position) {
-  precise const dvec3 from_light = position - dvec3(lights[light].position);
-  precise const double distance_squared = dot(from_light, from_light);
-  if (!(distance_squared < limits[light].distance_squared)) return false;
-  if (lights[light].type == LIGHT_POINT) return true;
+const uint OUTSIDE = 0u;
+const uint BOUNDARY = 1u;
+const uint INSIDE = 2u;
+
+uint reach_of_cone(uint light, dvec3 from_light) {
+  if (!(lights[light].outer_angle > 0.0)) return OUTSIDE;
+  if (from_light == dvec3(0.0lf)) return BOUNDARY;  // at the light's own position there is no angle
   const dvec3 direction = dvec3(lights[light].direction);
   precise const double ahead = dot(direction, from_light);
-  if (!(ahead > 0.0lf)) return false;
-  precise const dvec3 across = cross(direction, from_light);
-  precise const double across_squared = dot(across, across);
-  return across_squared * limits[light].cos_squared < ahead * ahead * limits[light].sin_squared;
+  precise const double across = length(cross(direction, from_light));
+  if (limits[light].near_sin * ahead > limits[light].near_cos * across) return INSIDE;
+  return limits[light].far_sin * ahead < limits[light].far_cos * across ? OUTSIDE : BOUNDARY;
 }
+
+uint reach(uint light, dvec3 position) {
+  precise const dvec3 from_light = position - dvec3(lights[light].position);
+  precise const double distance_squared = dot(from_light, from_light);
+  if (!(lights[light].range > 0.0) || distance_squared > limits[light].far_squared) return OUTSIDE;
+  const uint by_range = distance_squared < limits[light].near_squared ? INSIDE : BOUNDARY;
+  if (lights[light].type == LIGHT_POINT) return by_range;
+  const uint by_cone = reach_of_cone(light, from_light);
+  return by_range == INSIDE || by_cone == OUTSIDE ? by_cone : BOUNDARY;
+}
+
+bool surely_reaches(uint light, dvec3 position) { return reach(light, position) == INSIDE; }
 
 // Based on: Ellis, lowbias32, Prospecting for Hash Functions (2018).
 uint mixed(uint x) {
