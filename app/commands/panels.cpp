@@ -107,9 +107,13 @@ void print_rows(std::span<const Row> rows, bool json) {
       if (!judgement.reason.empty()) print_out("  {}: {}\n", name_of(judgement.verdict), judgement.reason);
       continue;
     }
-    nlohmann::json one{{"options", row.options}, {"waste", f.waste()},         {"list_mean", f.list_mean()},
-                       {"missed", f.missed},     {"reason", judgement.reason}, {"verdict", name_of(judgement.verdict)}};
-    if (f.excess()) one["excess"] = *f.excess();
+    nlohmann::json one{{"options", row.options},
+                       {"list_mean", f.list_mean()},
+                       {"missed", f.missed},
+                       {"reason", judgement.reason},
+                       {"verdict", name_of(judgement.verdict)}};
+    add_number(one, "excess", f.excess(), f.excess() ? NONE_USEFUL : "not counted: walks were ended");
+    add_number(one, "waste", f.waste(), NONE_USEFUL);
     array.push_back(std::move(one));
   }
   if (json) print_out("{}\n", array.dump(2));

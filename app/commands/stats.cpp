@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace lamp::app {
@@ -27,6 +28,9 @@ void add_statistics(nlohmann::json& json, const PassTime& pass) {
     if (is_occupancy(s.name)) json["occupancy"] = std::min(json.value("occupancy", s.value), s.value);
   }
 }
+
+constexpr const char* NOT_COUNTED =
+    "not counted: lists are wrong, walks were ended, or pixels of a cell walk different lists";
 
 }  // namespace
 
@@ -90,6 +94,12 @@ void set_walked(Stats& stats, std::span<const Visit> visits) {
         stats.findings->unfollowed, stats.findings->first_unfollowed));
 }
 
+void add_number(nlohmann::json& json, const std::string& key, std::optional<double> value, const char* reason) {
+  const bool is_number = value && std::isfinite(*value);
+  json[key] = is_number ? nlohmann::json(*value) : nlohmann::json();
+  if (!is_number) json[key + "_reason"] = reason;
+}
+
 nlohmann::json to_json(const Stats& s) {
   nlohmann::json json{{"device", s.device},
                       {"driver", s.driver},
@@ -132,9 +142,12 @@ nlohmann::json to_json(const Stats& s) {
     json["list_max"] = f.list_max;
     json["unfollowed"] = f.unfollowed;
     if (s.verifier) {
-      json.update({{"verifier", name_of(*s.verifier)}, {"missed", f.missed}, {"useful", f.useful}});
-      json["waste"] = f.waste();
-      if (f.excess()) json["excess"] = *f.excess();
+      json.update({{"verifier", name_of(*s.verifier)},
+                   {"missed", f.missed},
+                   {"useful", f.useful},
+                   {"boundary_pairs", f.boundary_pairs}});
+      add_number(json, "waste", f.waste(), NONE_USEFUL);
+      add_number(json, "excess", f.excess(), f.excess() ? NONE_USEFUL : NOT_COUNTED);
       if (s.verifier == Verifier::gpu) json["repeated"] = f.repeated;
       if (f.changed_runs) json["changed_runs"] = *f.changed_runs;
     }
@@ -144,8 +157,10 @@ nlohmann::json to_json(const Stats& s) {
   if (s.decal_findings)
     json.update({{"decals_missed", s.decal_findings->missed},
                  {"decal_evaluations", s.decal_findings->evaluations},
-                 {"decals_useful", s.decal_findings->useful}});
-  if (s.image_max_abs_diff) json["image_max_abs_diff"] = *s.image_max_abs_diff;
+                 {"decals_useful", s.decal_findings->useful},
+                 {"decals_boundary_pairs", s.decal_findings->boundary_pairs}});
+  if (s.image_max_abs_diff)
+    add_number(json, "image_max_abs_diff", *s.image_max_abs_diff, "a pixel of one of the pictures is not a number");
   if (s.image_tolerance) json["image_tolerance"] = *s.image_tolerance;
   return json;
 }

@@ -62,4 +62,9 @@ void set_walked(Stats& stats, std::span<const Visit> visits);
 
 [[nodiscard]] nlohmann::json to_json(const Stats& stats);
 
+/// Why `waste` and `excess` are infinite.
+inline constexpr const char* NONE_USEFUL = "lights are walked, and none of them reaches its pixel";
+/// Sets a number. JSON has no infinity: where the number is none, it becomes null, and KEY_reason says why.
+void add_number(nlohmann::json& json, const std::string& key, std::optional<double> value, const char* reason);
+
 }  // namespace lamp::app

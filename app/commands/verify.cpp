@@ -299,6 +299,9 @@ Run add_verify(CLI::App& app) {
       "  lamp verify atrium --decals 64\n"
       "  lamp verify one-tile --lights 65536 --method lamplight --runs 100\n"
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic\n"
+      "waste: lights walked for each that reaches its pixel. excess: list length over the lights that reach the cell.\n"
+      "Either is inf (null in JSON) where lights are walked and none of them reaches its pixel.\n"
+      "difference: from brute force's picture.\n"
       "Exit code 1: a method failed. 4: none failed, but one could not be checked on this device.");
   return [o] { return verify(*o); };
 }

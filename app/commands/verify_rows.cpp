@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "system/print.h"
@@ -23,7 +25,8 @@ std::string verdict_words(Verdict verdict) {
 
 void print_decals(const Stats& s) {
   const Findings& f = *s.decal_findings;
-  print_out("  decals: {} missed, {} walked for {} that hold their pixel\n", f.missed, f.evaluations, f.useful);
+  print_out("  decals: {} missed, {} walked for {} that hold their pixel, {} on a boundary\n", f.missed, f.evaluations,
+            f.useful, f.boundary_pairs);
   if (!f.first_miss.empty()) print_out("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
 }
 
@@ -58,6 +61,10 @@ void print_table(std::span<const Stats> rows) {
     print_numbers(s);
     print_more(s);
   }
+  const auto is_infinite = [](const Stats& s) {
+    return s.findings && (std::isinf(s.findings->waste()) || std::isinf(s.findings->excess().value_or(1.0)));
+  };
+  if (std::ranges::any_of(rows, is_infinite)) print_out("inf: {}\n", NONE_USEFUL);
 }
 
 void print_json(std::span<const Stats> rows) {

@@ -8,7 +8,7 @@
 
 namespace lamp::app {
 
-/// Every row has a judgement; one without findings is of a method that cannot run here.
+/// Every row has a judgement; one without findings is of a method that cannot run here. `inf` is explained below.
 void print_table(std::span<const Stats> rows);
 /// An array of Stats objects.
 void print_json(std::span<const Stats> rows);

@@ -17,7 +17,9 @@ using Outputs = CliTest;
 constexpr const char* STATS[] = {"device",   "driver", "scene",  "method",    "options",  "width",
                                  "height",   "lights", "frames", "passes",    "cull_ms",  "shade_ms",
                                  "frame_ms", "bytes",  "cells",  "list_mean", "list_max", "overflowed_cells"};
-constexpr const char* VERIFIED[] = {"missed", "evaluations", "useful", "waste", "excess", "image_max_abs_diff"};
+constexpr const char* VERIFIED[] = {
+    "missed",         "evaluations", "useful",  "waste",  "excess",      "image_max_abs_diff",
+    "boundary_pairs", "unfollowed",  "verdict", "reason", "approximate", "ordered"};
 
 void expect_stats(const nlohmann::json& stats) {
   for (const char* key : STATS) EXPECT_TRUE(stats.contains(key)) << key;
@@ -81,7 +83,8 @@ TEST_F(Outputs, EitherVerifierFindsTheSame) {
     SCOPED_TRACE(oracle[i].at("method").get<std::string>());
     EXPECT_EQ(oracle[i].at("verifier"), "oracle");
     EXPECT_EQ(gpu[i].at("verifier"), "gpu");
-    for (const char* key : {"missed", "evaluations", "useful", "waste", "list_mean", "list_max", "image_max_abs_diff"})
+    for (const char* key : {"missed", "evaluations", "useful", "waste", "list_mean", "list_max", "image_max_abs_diff",
+                            "boundary_pairs", "unfollowed", "verdict", "reason", "approximate", "ordered"})
       EXPECT_EQ(oracle[i].at(key), gpu[i].at(key)) << key;
     if (oracle[i].at("missed") == 0) {
       EXPECT_EQ(oracle[i].at("excess"), gpu[i].at("excess"));
@@ -105,12 +108,76 @@ TEST_F(Outputs, VerifyPrintsStatsOfEveryMethod) {
     expect_stats(stats);
     for (const char* key : VERIFIED) EXPECT_TRUE(stats.contains(key)) << key;
     EXPECT_TRUE(stats.at("missed") == 0 || approximate.contains(stats.at("method")));
+    EXPECT_EQ(stats.at("verdict"), stats.at("missed") == 0 ? "ok" : "approximate");
+    EXPECT_EQ(stats.at("reason"), "");
+    EXPECT_EQ(stats.at("approximate"), approximate.contains(stats.at("method")));
+    EXPECT_TRUE(stats.at("ordered") == ordered.contains(stats.at("method")) || stats.at("approximate"));
     EXPECT_GT(stats.at("useful").get<int>(), 0);
     EXPECT_GE(stats.at("evaluations").get<int>(), stats.at("useful").get<int>());
     EXPECT_GE(stats.at("waste").get<double>(), 1.0);
     EXPECT_GE(stats.at("excess").get<double>(), 1.0);
     EXPECT_TRUE(stats.at("image_max_abs_diff") == 0.0 || !ordered.contains(stats.at("method")));
   }
+}
+
+// A list that does not fit means all lights, more than a software device's loops have rounds for.
+TEST_F(Outputs, VerifySaysWhatCouldNotBeChecked) {
+  const Arguments crowded{"verify",   "plane", "--lights", "66000",       "--size",    "16x9",
+                          "--method", "tiled", "--option", "capacity=16", "--verifier"};
+  for (const char* verifier : {"oracle", "gpu"}) {
+    SCOPED_TRACE(verifier);
+    Arguments command = crowded;
+    command.emplace_back(verifier);
+    const Outcome table = lamp(command);
+    if (table.exit_code == 0) GTEST_SKIP() << "the device ends no loops";
+    EXPECT_EQ(table.exit_code, UNCHECKED) << table.out << table.err;
+    EXPECT_NE(table.out.find("could not check"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("the device ended the light walks of "), std::string::npos) << table.out;
+    EXPECT_EQ(table.out.find("FAILED"), std::string::npos) << table.out;
+    command.emplace_back("--json");
+    const nlohmann::json row = nlohmann::json::parse(lamp(command).out).at(0);
+    EXPECT_EQ(row.at("verdict"), "could not check");
+    EXPECT_TRUE(row.at("reason").get<std::string>().starts_with("the device ended the light walks of "));
+    EXPECT_EQ(row.at("missed"), 0);
+    EXPECT_GT(row.at("unfollowed").get<int>(), 0);
+    EXPECT_TRUE(row.at("excess").is_null());
+    EXPECT_FALSE(row.at("excess_reason").get<std::string>().empty());
+  }
+}
+
+// Brute force's shading loses lights beyond that: its row cannot be had, and no picture is held against its.
+TEST_F(Outputs, VerifyOfEveryMethodLeavesOutWhatTheDeviceCannotWalk) {
+  const Outcome all = lamp({"verify", "plane", "--lights", "65000", "--size", "16x9"});
+  if (all.out.find("pictures not compared") == std::string::npos) GTEST_SKIP() << "the device ends no loops";
+  EXPECT_EQ(all.exit_code, UNCHECKED) << all.out << all.err;
+  EXPECT_NE(all.out.find("all                      could not check: method all: look-up all: walks 65001 lights"),
+            std::string::npos)
+      << all.out;
+  EXPECT_EQ(all.out.find("FAILED"), std::string::npos) << all.out;
+}
+
+TEST_F(Outputs, LightsWithoutRangeReachEverything) {
+  const nlohmann::json row = json_of({"verify", "atrium", "--lights", "600", "--spots", "0", "--range", "inf", "--size",
+                                      "16x9", "--method", "stewart", "--method", "tight", "--json"});
+  for (const nlohmann::json& stats : row) {
+    EXPECT_EQ(stats.at("verdict"), "ok");
+    EXPECT_EQ(stats.at("useful").get<int>() % 600, 0) << "every light at every pixel, and none of the scene's own";
+  }
+}
+
+TEST_F(Outputs, WhatIsInfiniteIsNullInJsonAndExplained) {
+  const Arguments useless{"verify", "atrium", "--lights", "8",        "--range",
+                          "0.0001", "--size", "16x9",     "--method", "all"};
+  const std::string table = output_of(useless);
+  EXPECT_NE(table.find("inf: lights are walked, and none of them reaches its pixel"), std::string::npos) << table;
+  Arguments as_json = useless;
+  as_json.emplace_back("--json");
+  const nlohmann::json row = json_of(as_json).at(0);
+  for (const std::string key : {"waste", "excess"}) {
+    EXPECT_TRUE(row.at(key).is_null());
+    EXPECT_EQ(row.at(key + "_reason"), "lights are walked, and none of them reaches its pixel");
+  }
+  EXPECT_NE(output_of({"verify", "--help"}).find("inf"), std::string::npos);
 }
 
 TEST_F(Outputs, VerifyTakesMethodsAndTheirOptions) {
