@@ -43,8 +43,7 @@ std::vector<gpu::ReachLimits> limits_of(std::span<const shared::Light> lights) {
   for (const shared::Light& light : lights) {
     const double near = 1.0 - BOUNDARY_BAND;
     const double far = 1.0 + BOUNDARY_BAND;
-    const double range =
-        light.range >= shared::INFINITE_RADIUS ? std::numeric_limits<double>::infinity() : light.range;
+    const double range = light.range >= shared::INFINITE_RADIUS ? std::numeric_limits<double>::infinity() : light.range;
     const double outer = light.type == shared::LIGHT_POINT ? 0.0 : light.outer_angle;
     limits.push_back({.near_squared = range * near * (range * near),
                       .far_squared = range * far * (range * far),
