@@ -8,12 +8,14 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "files/printable.h"
 #include "system/print.h"
 #include "system/signals.h"
 
@@ -79,7 +81,7 @@ Exit run(int argc, char** argv) {
 
 /// Says why on one line, and gives the exit code.
 Exit complain(std::string_view why, Exit exit) {
-  print_error("lamp: {}\n", lamp::app::escaped_line(why));
+  print_error("lamp: {}\n", lamp::app::one_line(why));
   return exit;
 }
 

@@ -120,17 +120,4 @@ std::string help_text(const CLI::App& command) {
   return text;
 }
 
-std::string escaped_line(std::string_view text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '\n')
-      line += "\\n";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      line += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    else
-      line += c;
-  }
-  return line;
-}
-
 }  // namespace lamp::app

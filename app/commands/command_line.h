@@ -37,7 +37,4 @@ void check_repeats(const CLI::App& command);
 /// The help of the program or of one of its commands.
 [[nodiscard]] std::string help_text(const CLI::App& command);
 
-/// The text with line breaks and other control characters written as escapes, so that it stays one line.
-[[nodiscard]] std::string escaped_line(std::string_view text);
-
 }  // namespace lamp::app

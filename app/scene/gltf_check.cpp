@@ -174,7 +174,7 @@ std::string shown(const json& value) {
   if (value.is_array() && value.size() > 16) return fmt::format("an array of {} elements", value.size());
   if (value.is_object()) return "an object";
   std::string text = value.dump();
-  if (text.size() > 80) text = one_line(std::string_view(text).substr(0, 60)) + "...";
+  if (text.size() > 80) text = text.substr(0, 60) + "...";
   return text;
 }
 

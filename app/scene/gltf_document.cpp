@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "files/printable.h"
 #include "scene/gltf_check.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_error.h"
@@ -166,7 +167,8 @@ tinygltf::Model convert(json document, const std::string& file) {
   std::string error;
   std::string warning;
   if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), "")) {
-    gltf_fail(file, "", error.empty() ? "cannot be read as glTF 2.0" : error);
+    const std::string first_line = error.substr(0, error.find('\n'));
+    gltf_fail(file, "", first_line.empty() ? "cannot be read as glTF 2.0" : first_line);
   }
   return model;
 }

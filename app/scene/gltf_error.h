@@ -7,9 +7,6 @@
 
 namespace lamp::app {
 
-/// Text from a file or a library on one line of printable characters, cut to a readable length.
-[[nodiscard]] std::string one_line(std::string_view text);
-
 /// Throws Error. `element` names the part of the file ("accessor 3"); empty: the file as a whole.
 [[noreturn]] void gltf_fail(std::string_view file, std::string_view element, std::string_view problem);
 
