@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "error.h"
+#include "files/read_file.h"
 #include "image/write_file.h"
 #include "system/temporary.h"
 
@@ -45,12 +45,6 @@ std::uint64_t hash_of(std::string_view text) {
 }
 
 }  // namespace
-
-std::optional<std::string> read_text(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(stream), {}};
-}
 
 json to_json(const Calibration& calibration) {
   json document{{"format", CALIBRATION_FORMAT},
@@ -93,6 +87,12 @@ Calibration parse_calibration(std::string_view text, const std::string& source) 
   return calibration;
 }
 
+Calibration load_calibration(const std::string& file, const std::string& name) {
+  constexpr std::uint64_t LARGEST = 1U << 24;  // bytes
+  return parse_calibration(
+      text_of(read_file(file, {.name = name, .expected = "a calibration of lamp", .most_bytes = LARGEST})), name);
+}
+
 std::string cached_calibration_file(const std::string& device, const std::string& driver) {
   fs::path folder;
   const char* xdg = std::getenv("XDG_CACHE_HOME");
@@ -107,13 +107,12 @@ std::string cached_calibration_file(const std::string& device, const std::string
 
 std::optional<Calibration> read_cached_calibration(const std::string& file, const std::string& device,
                                                    const std::string& driver) {
-  const auto text = file.empty() ? std::nullopt : read_text(file);
-  if (!text) return std::nullopt;
+  if (file.empty()) return std::nullopt;
   try {
-    Calibration calibration = parse_calibration(*text, file);
+    Calibration calibration = load_calibration(file, file);
     if (calibration.device == device && calibration.driver == driver) return calibration;
   } catch (const Error&) {
-    return std::nullopt;  // what is no calibration is replaced by one
+    return std::nullopt;  // what is not there, or no calibration, is replaced by one
   }
   return std::nullopt;
 }

@@ -15,8 +15,8 @@ namespace lamp::app {
 /// Throws Error, which begins with `source`, for what is no calibration of this version and these candidates.
 [[nodiscard]] Calibration parse_calibration(std::string_view text, const std::string& source);
 
-/// The bytes of a file, or nothing when it cannot be read.
-[[nodiscard]] std::optional<std::string> read_text(const std::string& file);
+/// The calibration in a file, which errors call `name`. Throws Error.
+[[nodiscard]] Calibration load_calibration(const std::string& file, const std::string& name);
 
 /// The file for a device and a driver in the user's cache folder, $XDG_CACHE_HOME or ~/.cache; empty when there is no
 /// such folder.

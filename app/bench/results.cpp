@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "error.h"
+#include "files/read_file.h"
 
 namespace lamp::app {
 namespace {
@@ -129,9 +128,8 @@ json new_results(const RunInfo& run, const Suite& suite) {
 }
 
 json load_results(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(fmt::format("{}: cannot be read; expected a results.json of lamp bench", file.string()));
-  const json document = json::parse(stream, nullptr, /* allow_exceptions= */ false);
+  const std::vector<std::byte> text = read_file(file, {.expected = "a results.json of lamp bench"});
+  const json document = json::parse(text_of(text), nullptr, /* allow_exceptions= */ false);
   if (!document.is_object() || document.value("format", json()) != RESULTS_FORMAT)
     throw Error(fmt::format("{}: is no results file; expected a results.json of lamp bench", file.string()));
   if (document.value("version", json()) != RESULTS_VERSION)

@@ -7,13 +7,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "bench/embedded_files.h"
 #include "bench/suite_json.h"
 #include "error.h"
+#include "files/read_file.h"
 #include "lamplight/method.h"
 
 namespace lamp::app {
@@ -22,6 +21,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint32_t MAX_FRAMES = 100000;
+constexpr std::uint64_t LARGEST_SUITE = 1U << 24;  // bytes
 constexpr std::array<std::string_view, 11> VALUES{"cull",   "shade",       "cull+shade", "frame",    "excess", "waste",
                                                   "missed", "evaluations", "list_mean",  "list_max", "bytes"};
 constexpr std::array<std::string_view, 9> AXES{"lights", "size",   "spots",      "range", "scene",
@@ -167,15 +167,6 @@ const EmbeddedFile* builtin_suite(const std::string& name) {
   return found == suite_files().end() ? nullptr : &*found;
 }
 
-std::string read_suite_file(const std::string& name) {
-  std::ifstream stream(name, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.good() && !stream.eof())
-    throw Error(
-        fmt::format("{}: cannot be read; expected a suite's file, or one of {}", name, fmt::join(suite_names(), ", ")));
-  return text;
-}
-
 }  // namespace
 
 std::span<const std::string_view> chart_values() { return VALUES; }
@@ -221,7 +212,10 @@ bool is_suite(const std::string& name) { return name.ends_with(".json") || built
 
 Suite load_suite(const std::string& name) {
   if (const EmbeddedFile* builtin = builtin_suite(name)) return parse_suite(builtin->text, "suite " + name);
-  return parse_suite(read_suite_file(name), name);
+  const std::string expected = fmt::format("a suite's file, or one of {}", fmt::join(suite_names(), ", "));
+  return within_memory(name, [&] {
+    return parse_suite(text_of(read_file(name, {.expected = expected, .most_bytes = LARGEST_SUITE})), name);
+  });
 }
 
 Suite scene_suite(Series series) {

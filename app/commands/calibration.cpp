@@ -15,9 +15,7 @@ namespace lamp::app {
 namespace {
 
 KnownCalibration named_calibration(const std::string& file, const DeviceRow& row) {
-  const auto text = read_text(file);
-  if (!text) throw Error(fmt::format("--calibration '{}': cannot be read", file));
-  KnownCalibration known{.calibration = parse_calibration(*text, fmt::format("--calibration '{}'", file)),
+  KnownCalibration known{.calibration = load_calibration(file, fmt::format("--calibration '{}'", file)),
                          .origin = file};
   if (known.calibration.device != row.name) known.origin += fmt::format(", of {}", known.calibration.device);
   return known;

@@ -18,11 +18,14 @@
 #include <string>
 
 #include "error.h"
+#include "files/read_file.h"
 #include "image/image.h"
 #include "image/write_file.h"
 
 namespace lamp::app {
 namespace {
+
+constexpr std::uint64_t LARGEST_FILE = std::uint64_t{1} << 32;  // bytes
 
 /// Slices for all channels. OpenEXR's are not const, though writing only reads them.
 Imf::FrameBuffer slices(const ExrPixels& pixels, const Imath::V2i& corner) {
@@ -123,12 +126,7 @@ void write_exr(const std::filesystem::path& file, const HdrImage& image) {
 }
 
 std::vector<float> read_exr(const std::filesystem::path& file, const ExrWanted& wanted) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    throw Error(fmt::format("{}: is not there, expected an EXR file that can be read", file.string()));
-  if (!std::filesystem::is_regular_file(status))
-    throw Error(fmt::format("{}: is not a regular file, expected an EXR file that can be read", file.string()));
+  check_file(file, {.expected = "an EXR file", .most_bytes = LARGEST_FILE});
   try {
     return decode(file.string(), wanted);
   } catch (const Error&) {

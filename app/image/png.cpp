@@ -4,12 +4,11 @@
 
 #include <cassert>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
 #include "error.h"
+#include "files/read_file.h"
 #include "image/image.h"
 #include "image/write_file.h"
 
@@ -36,14 +35,6 @@ void append(void* context, void* data, int size) {
   static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
 
-std::string read_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(fmt::format("{}: cannot be read; expected a PNG file", file.string()));
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw Error(fmt::format("{}: reading stopped after {} bytes", file.string(), bytes.size()));
-  return bytes;
-}
-
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const LdrImage& image) {
@@ -60,7 +51,7 @@ void write_png(const std::filesystem::path& file, const LdrImage& image) {
 }
 
 LdrImage read_png(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
+  const std::vector<std::byte> bytes = read_file(file, {.expected = "a PNG file"});
   int width = 0;
   int height = 0;
   int channels = 0;

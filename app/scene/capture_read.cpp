@@ -8,27 +8,23 @@
 #include <string_view>
 
 #include "error.h"
+#include "files/read_file.h"
 #include "image/exr.h"
 #include "lamplight/method.h"
 #include "scene/capture.h"
 #include "scene/capture_depth.h"
 #include "scene/capture_json.h"
-#include "scene/gltf_resources.h"
 
 namespace lamp::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t LARGEST_MANIFEST = std::size_t{1} << 32;
+constexpr std::uint64_t LARGEST_LIGHTS = std::uint64_t{MAX_LIGHTS} * LIGHT_COLUMNS * sizeof(float) + 4096;  // bytes
 
 // What a capture that says nothing is made of: grey, rough, not metallic.
 constexpr glm::vec3 NEUTRAL_ALBEDO{0.5F};
 constexpr glm::vec3 NEUTRAL_MATERIAL{0.0F, 0.6F, 1.0F};
-
-std::string_view text_of(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 /// A file of three channels, and what a value must be.
 struct Plane {
@@ -109,7 +105,8 @@ std::vector<Light> lights_of(const fs::path& folder, Manifest& manifest, const s
   std::vector<Light> lights = std::move(manifest.lights);
   if (!manifest.lights_file.empty()) {
     const fs::path file = folder / manifest.lights_file;
-    lights = read_npy_lights(read_bytes(file, {manifest_file, folder}, "lights"), file.string());
+    lights = read_npy_lights(
+        read_file(file, {.expected = "the lights of " + manifest_file, .most_bytes = LARGEST_LIGHTS}), file.string());
   }
   if (lights.size() > MAX_LIGHTS)
     throw Error(fmt::format("{}: lights: has {}, expected at most {}", manifest_file, lights.size(), MAX_LIGHTS));
@@ -127,11 +124,9 @@ CapturedFrame frame_of(const fs::path& folder, const Manifest& manifest) {
   return frame;
 }
 
-}  // namespace
-
-Scene load_capture(const fs::path& folder) {
+Scene read_capture(const fs::path& folder) {
   const fs::path manifest_file = folder / CAPTURE_FILE;
-  const std::vector<std::byte> text = read_bytes(manifest_file, {folder.string(), folder}, "capture", LARGEST_MANIFEST);
+  const std::vector<std::byte> text = read_file(manifest_file, {.expected = "a capture's frame.json"});
   Manifest manifest = parse_manifest(text_of(text), manifest_file.string());
 
   Scene scene;
@@ -144,6 +139,12 @@ Scene load_capture(const fs::path& folder) {
   scene.lights = lights_of(folder, manifest, manifest_file.string());
   scene.captured = frame_of(folder, manifest);
   return scene;
+}
+
+}  // namespace
+
+Scene load_capture(const fs::path& folder) {
+  return within_memory(folder.string(), [&] { return read_capture(folder); });
 }
 
 }  // namespace lamp::app

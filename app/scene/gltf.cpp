@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/read_file.h"
 #include "scene/default_view.h"
 #include "scene/gltf_cameras.h"
 #include "scene/gltf_document.h"
@@ -66,9 +67,12 @@ Scene to_scene(GltfDocument document, std::string name) {
 }  // namespace
 
 Scene load_gltf(const std::filesystem::path& file) {
+  constexpr std::uint64_t LARGEST = std::uint64_t{1} << 32;  // bytes; a .glb cannot be larger
   GltfOrigin origin{file.string(), file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")};
-  const std::vector<std::byte> bytes = read_bytes(file, origin, "");
-  return to_scene(read_document(bytes, std::move(origin)), file.stem().string());
+  return within_memory(origin.file, [&] {
+    const std::vector<std::byte> bytes = read_file(file, {.expected = "a glTF file", .most_bytes = LARGEST});
+    return to_scene(read_document(bytes, origin), file.stem().string());
+  });
 }
 
 Scene load_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder, const std::string& name) {

@@ -5,18 +5,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
+#include "files/read_file.h"
 #include "scene/gltf_error.h"
 
 namespace lamp::app {
 namespace {
+
+constexpr std::uint64_t LARGEST_FILE = std::uint64_t{1} << 32;  // bytes; a .glb can be no larger
 
 constexpr std::uint8_t NOT_BASE64 = 0xFF;
 
@@ -88,33 +88,6 @@ std::vector<std::byte> read_data_uri(const std::string& uri, const GltfOrigin& o
 
 }  // namespace
 
-std::vector<std::byte> read_bytes(const std::filesystem::path& path, const GltfOrigin& origin,
-                                  const std::string& element, std::size_t limit) {
-  // Devices and pipes have no size and may never end.
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    gltf_fail(origin.file, element,
-              fmt::format("file '{}' is not there, expected one that can be read", path.string()));
-  }
-  if (status.type() != std::filesystem::file_type::regular) {
-    gltf_fail(origin.file, element,
-              fmt::format("'{}' is not a regular file, expected one that can be read", path.string()));
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  std::ifstream stream(path, std::ios::binary);
-  if (error || !stream)
-    gltf_fail(origin.file, element,
-              fmt::format("file '{}' cannot be opened, expected one that can be read", path.string()));
-
-  std::vector<std::byte> bytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, limit)));
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
-    gltf_fail(origin.file, element,
-              fmt::format("file '{}' cannot be read to its end, expected {} bytes", path.string(), bytes.size()));
-  }
-  return bytes;
-}
-
 std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin, const std::string& element,
                                 std::size_t limit) {
   if (uri.starts_with("data:")) {
@@ -130,7 +103,10 @@ std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin
     gltf_fail(origin.file, element,
               fmt::format("uri is '{}', expected a data URI, as the scene does not come from a folder", uri));
   }
-  return read_bytes(origin.folder / relative, origin, element, limit);
+  const std::filesystem::path file = origin.folder / relative;
+  return read_file(file, {.name = fmt::format("{}: {}: file '{}'", origin.file, element, file.string()),
+                          .most_bytes = LARGEST_FILE,
+                          .first_bytes = limit});
 }
 
 }  // namespace lamp::app

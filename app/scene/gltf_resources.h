@@ -17,11 +17,6 @@ struct GltfOrigin {
   std::filesystem::path folder;
 };
 
-/// The first `limit` bytes of a regular file. Throws Error: `origin.file`, `element`, why not.
-[[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& path, const GltfOrigin& origin,
-                                                const std::string& element,
-                                                std::size_t limit = std::numeric_limits<std::size_t>::max());
-
 /// The first `limit` bytes of what a URI names: base64 data, or a file by a relative path.
 [[nodiscard]] std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin,
                                               const std::string& element,

@@ -255,7 +255,7 @@ TEST_F(Bench, SuitesAreListed) {
 
 TEST_F(Bench, BadInput) {
   expect_error(BAD_INPUT, {"bench", "quik"}, {"'quik'", "nearest are quick"});
-  expect_error(BAD_INPUT, {"bench", "nowhere.json"}, {"nowhere.json: cannot be read"});
+  expect_error(BAD_INPUT, {"bench", "nowhere.json"}, {"nowhere.json: is not there"});
   expect_error(BAD_INPUT, {"bench", "quick", "--size", "8x8"}, {"--size", "quick is a suite", "--max-size"});
   expect_error(BAD_INPUT, {"bench", "plane", "--method", "tild"}, {"method 'tild'", "tiled"});
   expect_error(BAD_INPUT, {"bench", "plane", "--option", "tile=8"}, {"--option", "--method"});
@@ -293,7 +293,7 @@ TEST_F(Bench, EarlierResultsAreKept) {
 
 TEST_F(Bench, ReportOfWhatIsNone) {
   expect_error(BAD_INPUT, {"report"}, {"lamp report --help"});
-  expect_error(BAD_INPUT, {"report", "nowhere.json"}, {"nowhere.json: cannot be read"});
+  expect_error(BAD_INPUT, {"report", "nowhere.json"}, {"nowhere.json: is not there"});
   write("old.json", R"({"format": "lamplight-results", "version": 0})");
   expect_error(BAD_INPUT, {"report", "old.json"}, {"old.json: version: expected 1, got 0"});
   write("odd.json", R"({"format": "lamplight-results", "version": 1, "run": {}, "suite": {}, "results": []})");

@@ -113,9 +113,8 @@ TEST_F(CalibrationFile, WithoutAFolderItSaysSo) {
 
 // What tests and documents go by.
 TEST(FixedCalibration, IsOne) {
-  const auto text = read_text(LAMPLIGHT_SOURCE_DIR "/tests/calibration.json");
-  ASSERT_TRUE(text.has_value());
-  EXPECT_EQ(parse_calibration(*text, "tests/calibration.json").costs.size(), auto_candidates().size());
+  const std::string file = LAMPLIGHT_SOURCE_DIR "/tests/calibration.json";
+  EXPECT_EQ(load_calibration(file, file).costs.size(), auto_candidates().size());
 }
 
 }  // namespace

@@ -229,16 +229,15 @@ TEST(GltfErrors, FilesThatAreNotThere) {
   std::filesystem::create_directories(folder);
   GltfBuilder builder = full_scene();
   builder.document["images"][0] = {{"uri", "missing.png"}};
-  expect_error(builder.gltf(), "image 0: file '" + (folder / "missing.png").string() + "' is not there", folder);
+  expect_error(builder.gltf(), "image 0: file '" + (folder / "missing.png").string() + "': is not there", folder);
   builder.document["images"][0] = {{"uri", "."}};
-  expect_error(builder.gltf(), "is not a regular file, expected one that can be read", folder);
+  expect_error(builder.gltf(), "is a folder, expected a file", folder);
   std::filesystem::remove_all(folder);
   try {
     static_cast<void>(lamp::app::load_gltf(std::filesystem::path("nowhere/scene.gltf")));
     ADD_FAILURE() << "a file that is not there was loaded";
   } catch (const lamp::app::Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "nowhere/scene.gltf: file 'nowhere/scene.gltf' is not there, expected one that can be read");
+    EXPECT_STREQ(error.what(), "nowhere/scene.gltf: is not there, expected a glTF file");
     EXPECT_EQ(error.exit(), lamp::app::Exit::bad_input);
   }
 }
