@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "error.h"
 #include "files/read_file.h"
+#include "files/read_json.h"
 #include "image/write_file.h"
 #include "system/temporary.h"
 
@@ -61,7 +61,7 @@ json to_json(const Calibration& calibration) {
 }
 
 Calibration parse_calibration(std::string_view text, const std::string& source) {
-  const json document = json::parse(text, nullptr, /* allow_exceptions= */ false);
+  const json document = parse_json(text, source);
   if (!document.is_object() || document.value("format", json()) != CALIBRATION_FORMAT)
     throw Error(source + ": is no calibration of lamp");
   if (document.value("version", json()) != VERSION)

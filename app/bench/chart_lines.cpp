@@ -19,14 +19,14 @@ using nlohmann::json;
 // lines of one.
 constexpr std::array<const char*, 7> SPLITS{"scene", "camera", "projection", "size", "range", "spots", "lights"};
 
-std::string text_of(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string plain_text(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 /// A split's value in words.
 std::string named(const std::string& split, const json& value) {
-  if (split == "lights") return text_of(value) + " lights";
+  if (split == "lights") return plain_text(value) + " lights";
   if (split == "spots") return fmt::format("{:g} % spots", 100.0 * value.get<double>());
-  if (split == "range") return "range " + text_of(value);
-  return text_of(value);
+  if (split == "range") return "range " + plain_text(value);
+  return plain_text(value);
 }
 
 /// The splits that differ within a series, but for its x.
@@ -52,7 +52,7 @@ std::string line_of(const json& result, const std::string& x) {
   if (x == "method") return "";
   std::string line = result.at("label");
   for (const auto& [key, value] : result.at("parameters").items())
-    if (key.starts_with("option:") && key != x) line += fmt::format(" {}={}", key.substr(7), text_of(value));
+    if (key.starts_with("option:") && key != x) line += fmt::format(" {}={}", key.substr(7), plain_text(value));
   return line;
 }
 
@@ -61,7 +61,7 @@ json x_of(const json& result, const std::string& x) {
   if (x != "method") return result.at("parameters").value(x, json());
   std::string label = result.at("label");
   for (const auto& [key, value] : result.at("parameters").items())
-    if (key.starts_with("option:")) label += fmt::format(" {}={}", key.substr(7), text_of(value));
+    if (key.starts_with("option:")) label += fmt::format(" {}={}", key.substr(7), plain_text(value));
   return label;
 }
 

@@ -11,6 +11,7 @@
 
 #include "error.h"
 #include "files/read_file.h"
+#include "files/read_json.h"
 
 namespace lamp::app {
 namespace {
@@ -129,7 +130,7 @@ json new_results(const RunInfo& run, const Suite& suite) {
 
 json load_results(const std::filesystem::path& file) {
   const std::vector<std::byte> text = read_file(file, {.expected = "a results.json of lamp bench"});
-  const json document = json::parse(text_of(text), nullptr, /* allow_exceptions= */ false);
+  const json document = parse_json(text_of(text), file.string());
   if (!document.is_object() || document.value("format", json()) != RESULTS_FORMAT)
     throw Error(fmt::format("{}: is no results file; expected a results.json of lamp bench", file.string()));
   if (document.value("version", json()) != RESULTS_VERSION)

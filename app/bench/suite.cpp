@@ -13,6 +13,7 @@
 #include "bench/suite_json.h"
 #include "error.h"
 #include "files/read_file.h"
+#include "files/read_json.h"
 #include "lamplight/method.h"
 
 namespace lamp::app {
@@ -172,12 +173,7 @@ const EmbeddedFile* builtin_suite(const std::string& name) {
 std::span<const std::string_view> chart_values() { return VALUES; }
 
 Suite parse_suite(std::string_view text, const std::string& source) {
-  json document;
-  try {
-    document = json::parse(text);
-  } catch (const json::parse_error& error) {
-    throw Error(fmt::format("{}: byte {}: is no JSON: {}", source, error.byte, error.what()));
-  }
+  const json document = parse_json(text, source);
   SuiteJson object(document, source);
   std::uint32_t version = 0;
   object.read("version", version, 0, ~0U);

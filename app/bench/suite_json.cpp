@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "error.h"
+#include "files/json_values.h"
 #include "lamplight/method.h"
 
 namespace lamp::app {
@@ -43,7 +44,7 @@ bool SuiteJson::has(std::string_view key) {
 const json& SuiteJson::at(std::string_view key) const { return json_.at(std::string(key)); }
 
 void SuiteJson::wrong(std::string_view key, const std::string& expected) const {
-  throw Error(fmt::format("{}: {}: expected {}, got {}", where_, key, expected, at(key).dump()));
+  throw Error(fmt::format("{}: {}: expected {}, got {}", where_, key, expected, shown(at(key))));
 }
 
 void SuiteJson::read(std::string_view key, std::string& out) {

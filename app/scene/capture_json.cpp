@@ -10,14 +10,14 @@
 
 #include "error.h"
 #include "lamplight/method.h"
-#include "scene/json_values.h"
+#include "files/json_values.h"
+#include "files/read_json.h"
 
 namespace lamp::app {
 namespace {
 
 constexpr std::uint32_t VERSION = 1;
 constexpr std::uint32_t LARGEST_SIDE = 65536;  // pixels; far more than a device takes
-constexpr int DEEPEST = 8;                     // nesting; the format needs 3
 constexpr std::string_view DIRECTIONAL = "directional_lights";
 constexpr std::array<std::string_view, 16> KEYS{
     "version", "generator", "width",    "height", "clip_from_view", "view_from_world", "depth", "depth_kind",
@@ -121,20 +121,6 @@ void read_lights(const JsonObject& frame, Manifest& manifest) {
     frame.fail(fmt::format("lights is {}, expected {}", shown(lights), EXPECTED));
 }
 
-nlohmann::json parse(std::string_view text, const std::string& file) {
-  const auto check_depth = [&](int depth, nlohmann::json::parse_event_t /*event*/, nlohmann::json& /*value*/) {
-    if (depth > DEEPEST) throw Error(fmt::format("{}: is nested more than {} deep, expected a frame", file, DEEPEST));
-    return true;
-  };
-  try {
-    return nlohmann::json::parse(text, check_depth);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(fmt::format("{}: is no JSON from byte {} on, expected an object", file, error.byte));
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(fmt::format("{}: is no JSON, expected an object: {}", file, error.what()));
-  }
-}
-
 }  // namespace
 
 std::span<const std::string_view> depth_kind_names() {
@@ -143,7 +129,7 @@ std::span<const std::string_view> depth_kind_names() {
 }
 
 Manifest parse_manifest(std::string_view text, const std::string& file) {
-  const nlohmann::json json = parse(text, file);
+  const nlohmann::json json = parse_json(text, file);
   const JsonObject frame{json, file, ""};
   if (!json.is_object()) frame.fail(fmt::format("is {}, expected an object", shown(json)));
   // First, as another version may have other keys.

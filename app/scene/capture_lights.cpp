@@ -8,7 +8,7 @@
 
 #include "error.h"
 #include "scene/capture_json.h"
-#include "scene/json_values.h"
+#include "files/json_values.h"
 #include "scene/npy.h"
 
 namespace lamp::app {

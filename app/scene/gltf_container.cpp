@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "files/read_file.h"
 #include "scene/gltf_error.h"
 
 namespace lamp::app {
@@ -60,7 +61,9 @@ GltfContainer split_glb(std::span<const std::byte> bytes, const std::string& fil
   if (json.type != CHUNK_JSON) {
     gltf_fail(file, "GLB chunk 0", fmt::format("type {:#010x}, expected {:#010x} (JSON)", json.type, CHUNK_JSON));
   }
-  GltfContainer container{.json = {reinterpret_cast<const char*>(json.bytes.data()), json.bytes.size()}};
+  GltfContainer container{.json = text_of(json.bytes)};
+  // Some exporters fill the chunk up with NULs instead of spaces.
+  while (container.json.ends_with('\0')) container.json.remove_suffix(1);
 
   const std::size_t next = HEADER_BYTES + CHUNK_HEADER_BYTES + json.bytes.size();
   if (next < glb.size()) {
@@ -76,7 +79,7 @@ GltfContainer split_glb(std::span<const std::byte> bytes, const std::string& fil
 GltfContainer split_container(std::span<const std::byte> bytes, const std::string& file) {
   if (bytes.empty()) gltf_fail(file, "", "the file is empty, expected glTF 2.0");
   if (bytes.size() >= 4 && little_endian(bytes, 0) == MAGIC) return split_glb(bytes, file);
-  return {.json = {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, .binary = std::nullopt};
+  return {.json = text_of(bytes), .binary = std::nullopt};
 }
 
 }  // namespace lamp::app

@@ -9,12 +9,12 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "files/printable.h"
+#include "files/read_json.h"
 #include "scene/gltf_check.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_error.h"
@@ -24,40 +24,12 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t MOST_VALUES = MOST_JSON_VALUES / 4;  // they are converted for tinygltf, which keeps its own
+
 constexpr auto EXTENSIONS = std::to_array<std::string_view>(
     {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization", "KHR_texture_transform"});
 
 bool is_supported(std::string_view extension) { return std::ranges::find(EXTENSIONS, extension) != EXTENSIONS.end(); }
-
-/// Nothing in glTF nests deeply, and converting a value recurses as deep as it nests.
-void check_depth(std::string_view text, const std::string& file) {
-  constexpr int DEEPEST = 64;
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\')
-      ++i;
-    else if (text[i] == '"')
-      quoted = !quoted;
-    else if (!quoted && (text[i] == '{' || text[i] == '['))
-      ++depth;
-    else if (!quoted && (text[i] == '}' || text[i] == ']'))
-      --depth;
-    if (depth > DEEPEST) gltf_fail(file, "JSON", fmt::format("nested too deep, expected at most {} levels", DEEPEST));
-  }
-}
-
-json parse_json(std::string_view text, const std::string& file) {
-  check_depth(text, file);
-  try {
-    return json::parse(text);
-  } catch (const json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 1 ...": the code in brackets helps nobody.
-    const std::string_view what = error.what();
-    const std::size_t bracket = what.find("] ");
-    gltf_fail(file, "JSON", bracket == std::string_view::npos ? what : what.substr(bracket + 2));
-  }
-}
 
 void check_version(const json& document, const std::string& file) {
   const auto version = document["asset"]["version"].get<std::string>();
@@ -214,7 +186,7 @@ GltfDocument read_document(std::span<const std::byte> bytes, GltfOrigin origin) 
   const std::string& file = document.origin.file;
 
   const GltfContainer container = split_container(bytes, file);
-  json parsed = parse_json(container.json, file);
+  json parsed = parse_json(container.json, file, MOST_VALUES);
   check_gltf(parsed, file);
   check_version(parsed, file);
   check_extensions(parsed, file, document.notes);

@@ -287,7 +287,7 @@ TEST_F(Bench, EarlierResultsAreKept) {
   expect_error(BAD_INPUT, MINE, {"results.json", "device \"another\"", "another --out"});
   EXPECT_EQ(results(), earlier);
   write("out/results.json", "torn {");
-  expect_error(BAD_INPUT, MINE, {"results.json: is no results file"});
+  expect_error(BAD_INPUT, MINE, {"results.json: is no JSON: "});
   EXPECT_EQ(read("out/results.json"), "torn {");
 }
 

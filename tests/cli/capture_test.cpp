@@ -125,7 +125,7 @@ TEST_F(Capture, ThatIsDamagedIsBadInput) {
   for (const char* command : {"render", "verify"})
     expect_error(BAD_INPUT, {command, "frame"}, {"frame/depth.exr: is 64x36 pixels, expected 63x36"});
   write("frame/frame.json", frame.substr(0, frame.size() / 2));
-  expect_error(BAD_INPUT, {"render", "frame"}, {"frame/frame.json: is no JSON from byte"});
+  expect_error(BAD_INPUT, {"render", "frame"}, {"frame/frame.json: ", "is no JSON: parse error at line"});
   write("frame/frame.json", frame);
   const std::string depth = read("frame/depth.exr");
   write("frame/depth.exr", depth.substr(0, depth.size() / 2));

@@ -101,7 +101,7 @@ class BenchResults : public ::testing::Test {
 };
 
 TEST_F(BenchResults, FilesThatAreNoneOrOfAnotherVersion) {
-  EXPECT_NE(load_error("not json").find("is no results file"), std::string::npos);
+  EXPECT_NE(load_error("not json").find("is no JSON: "), std::string::npos);
   EXPECT_NE(load_error("{}").find("is no results file"), std::string::npos);
   json old = run_of(SWEEP);
   old["version"] = RESULTS_VERSION + 1;

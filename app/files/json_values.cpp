@@ -1,6 +1,6 @@
 // Checks values of JSON documents.
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/json_values.h"
+#include "files/json_values.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +21,8 @@ bool is_number(const nlohmann::json& value) { return value.is_number() && std::a
 
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t LONGEST = 60;
+  if (value.is_array() && value.size() > 16) return fmt::format("an array of {} elements", value.size());
+  if (value.is_object() && !value.empty()) return "an object";
   std::string text = value.dump(-1, ' ', /* ensure_ascii= */ true, nlohmann::json::error_handler_t::replace);
   if (text.size() > LONGEST) text.replace(LONGEST, std::string::npos, "...");
   return text;
