@@ -10,15 +10,11 @@
 #include <set>
 
 #include "error.h"
-#include "files/read_file.h"
-#include "files/read_json.h"
 
 namespace lamp::app {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::string_view RESULTS_FORMAT = "lamplight-results";
 
 json to_json(const Series& series) {
   return {
@@ -30,10 +26,9 @@ json to_json(const Series& series) {
        {{"x", series.chart.x}, {"y", series.chart.y}, {"log_x", series.chart.log_x}, {"log_y", series.chart.log_y}}}};
 }
 
-const json* find_key(const json& results, const std::string& key) {
-  for (const json& entry : results["results"])
-    if (entry["key"] == key) return &entry;
-  return nullptr;
+bool has_key(const json& results, const std::string& key) {
+  return std::ranges::any_of(results["results"],
+                             [&](const json& entry) { return entry["key"].get_ref<const std::string&>() == key; });
 }
 
 /// Throws Error unless both runs agree on a field of `run`.
@@ -128,19 +123,6 @@ json new_results(const RunInfo& run, const Suite& suite) {
           {"results", json::array()}};
 }
 
-json load_results(const std::filesystem::path& file) {
-  const std::vector<std::byte> text = read_file(file, {.expected = "a results.json of lamp bench"});
-  const json document = parse_json(text_of(text), file.string());
-  if (!document.is_object() || document.value("format", json()) != RESULTS_FORMAT)
-    throw Error(fmt::format("{}: is no results file; expected a results.json of lamp bench", file.string()));
-  if (document.value("version", json()) != RESULTS_VERSION)
-    throw Error(fmt::format("{}: version: expected {}, got {}; measure anew, or use the lamp that wrote it",
-                            file.string(), RESULTS_VERSION, document.value("version", json()).dump()));
-  for (const char* part : {"run", "suite", "results"})
-    if (!document.contains(part)) throw Error(fmt::format("{}: {}: is missing", file.string(), part));
-  return document;
-}
-
 void take_over(json& results, const json& earlier, const std::string& file, std::span<const Group> groups) {
   if (earlier["suite"]["name"] != results["suite"]["name"])
     throw Error(fmt::format("{}: holds the suite {}; expected {}, or another --out", file,
@@ -155,8 +137,8 @@ void take_over(json& results, const json& earlier, const std::string& file, std:
 }
 
 bool has_group(const json& results, const Group& group) {
-  return std::ranges::all_of(
-      group.entries, [&](const GroupEntry& entry) { return find_key(results, key_of(group, entry)) != nullptr; });
+  return std::ranges::all_of(group.entries,
+                             [&](const GroupEntry& entry) { return has_key(results, key_of(group, entry)); });
 }
 
 void add_group(json& results, const std::vector<json>& entries) {

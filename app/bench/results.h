@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "bench/groups.h"
 #include "bench/statistics.h"
 
 namespace lamp::app {
 
+inline constexpr std::string_view RESULTS_FORMAT = "lamplight-results";
 inline constexpr int RESULTS_VERSION = 1;
 
 /// Where, with what and how a run was made.
@@ -25,7 +27,10 @@ struct RunInfo {
 /// A document without results.
 [[nodiscard]] nlohmann::json new_results(const RunInfo& run, const Suite& suite);
 
-/// Throws Error, naming the file, when it is no results file or one of another version.
+/// A document that holds what docs/bench.md says, all of it of its type and range. Throws Error: `file`, the element,
+/// what was expected; also for another version.
+[[nodiscard]] nlohmann::json parse_results(std::string_view text, const std::string& file);
+/// The same from a file.
 [[nodiscard]] nlohmann::json load_results(const std::filesystem::path& file);
 
 /// Takes over from an earlier run the results that the same configurations would give again. Throws Error when the

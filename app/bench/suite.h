@@ -74,6 +74,9 @@ struct Series {
   bool pictures = false;  ///< picture and heat maps of the first group of each scene that has the most lights
 };
 
+/// More configurations than a device measures in a day.
+inline constexpr std::size_t MOST_CONFIGURATIONS = 65536;
+
 struct Suite {
   std::string name, title, about, source;
   std::vector<Series> series;

@@ -15,9 +15,9 @@
 
 #include "files/printable.h"
 #include "files/read_json.h"
-#include "scene/gltf_check.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_error.h"
+#include "scene/gltf_rules.h"
 
 namespace lamp::app {
 namespace {

@@ -5,6 +5,10 @@
 #include "scene/gltf_rules.h"
 
 #include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "files/json_rules.h"
 
 namespace lamp::app {
 namespace {
@@ -131,17 +135,17 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = LIGHT, .key = "color", .want = Want::numbers, .min = 0, .size = 3},
     {.at = LIGHT, .key = "intensity", .want = Want::number, .min = 0},
     {.at = LIGHT, .key = "range", .want = Want::number, .min = POSITIVE},
-    {.at = LIGHT, .key = "spot", .want = Want::object},
+    {.at = LIGHT, .key = "spot", .want = Want::object, .required = true, .when = "spot"},
     {.at = "extensions/KHR_lights_punctual/lights/*/spot", .key = "innerConeAngle", .want = Want::number, .min = 0},
     {.at = "extensions/KHR_lights_punctual/lights/*/spot", .key = "outerConeAngle", .want = Want::number, .min = 0},
 
     {.at = "cameras/*", .key = "type", .want = Want::text, .required = true, .words = "perspective orthographic"},
     {.at = "cameras/*", .key = "name", .want = Want::text},
-    {.at = "cameras/*", .key = "perspective", .want = Want::object},
+    {.at = "cameras/*", .key = "perspective", .want = Want::object, .required = true, .when = "perspective"},
     {.at = "cameras/*/perspective", .key = "yfov", .want = Want::number, .required = true, .min = POSITIVE},
     {.at = "cameras/*/perspective", .key = "znear", .want = Want::number, .required = true, .min = POSITIVE},
     {.at = "cameras/*/perspective", .key = "zfar", .want = Want::number, .min = POSITIVE},
-    {.at = "cameras/*", .key = "orthographic", .want = Want::object},
+    {.at = "cameras/*", .key = "orthographic", .want = Want::object, .required = true, .when = "orthographic"},
     {.at = "cameras/*/orthographic", .key = "xmag", .want = Want::number, .required = true},
     {.at = "cameras/*/orthographic", .key = "ymag", .want = Want::number, .required = true},
     {.at = "cameras/*/orthographic", .key = "znear", .want = Want::number, .required = true, .min = 0},
@@ -188,8 +192,9 @@ constexpr auto TEXTURE_PLACES = std::to_array<std::string_view>({
 
 }  // namespace
 
-std::span<const Rule> gltf_rules() { return RULES; }
-std::span<const std::string_view> gltf_texture_places() { return TEXTURE_PLACES; }
-std::span<const Rule> gltf_texture_rules() { return TEXTURE_RULES; }
+void check_gltf(const nlohmann::json& document, const std::string& file) {
+  check_rules(document, RULES, file);
+  for (const std::string_view place : TEXTURE_PLACES) check_rules(document, TEXTURE_RULES, file, place);
+}
 
 }  // namespace lamp::app

@@ -297,7 +297,7 @@ TEST_F(Bench, ReportOfWhatIsNone) {
   write("old.json", R"({"format": "lamplight-results", "version": 0})");
   expect_error(BAD_INPUT, {"report", "old.json"}, {"old.json: version: expected 1, got 0"});
   write("odd.json", R"({"format": "lamplight-results", "version": 1, "run": {}, "suite": {}, "results": []})");
-  expect_error(BAD_INPUT, {"report", "odd.json"}, {"odd.json: is damaged"});
+  expect_error(BAD_INPUT, {"report", "odd.json"}, {"odd.json: run: command is missing, expected a string"});
   expect_error(BAD_INPUT, {"report", "old.json", "--out", "page.txt"}, {"--out 'page.txt'", ".html"});
 }
 

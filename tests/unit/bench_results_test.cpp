@@ -109,9 +109,50 @@ TEST_F(BenchResults, FilesThatAreNoneOrOfAnotherVersion) {
   EXPECT_NE(line.find("results.json: version: expected 1, got 2"), std::string::npos) << line;
   json damaged = run_of(SWEEP);
   damaged.erase("results");
-  EXPECT_NE(load_error(damaged.dump()).find("results: is missing"), std::string::npos);
+  EXPECT_NE(load_error(damaged.dump()).find("results is missing, expected an array"), std::string::npos);
   EXPECT_EQ(load_error(run_of(SWEEP).dump()), "no error");
   EXPECT_THROW(static_cast<void>(load_results(folder_ / "nowhere.json")), Error);
+}
+
+/// Replaces the value at a pointer.
+struct Fault {
+  std::string pointer;
+  std::string value;
+  std::string says;
+};
+
+TEST_F(BenchResults, WhatNoBenchWritesIsNamed) {
+  for (const Fault& fault : std::vector<Fault>{
+           {"/results/1/times/cull/median", "-1", "result 1 times cull: median is -1, expected a number >= 0"},
+           {"/results/1/times/frame/p95", "\"1\"", "result 1 times frame: p95 is \"1\", expected a number >= 0"},
+           {"/results/1/times/cull+shade", "null", "result 1 times: cull+shade is null, expected an object"},
+           {"/results/1/times", "[]", "result 1: times is [], expected an object"},
+           {"/results/1/verdict", "\"fine\"", "result 1: verdict is \"fine\", expected one of exact approximate"},
+           {"/results/1/key", "5", "result 1: key is 5, expected a string"},
+           {"/results/1/parameters/lights", "-1", "result 1 parameters: lights is -1, expected an integer 0 .. "},
+           {"/results/1/parameters/spots", "2", "result 1 parameters: spots is 2, expected a number 0 .. 1"},
+           {"/results/1/stats/options/tile", "16",
+            "result 1 stats: options is an object, expected an object of strings"},
+           {"/results/1/stats/missed", "-5", "result 1 stats: missed is -5, expected an integer 0 .. "},
+           {"/results/1/samples", R"([{"frame": 0, "lights": 1, "cull": 1, "shade": -2, "frame_ms": 3}])",
+            "result 1 sample 0: shade is -2, expected a number >= 0"},
+           {"/results/1/rounds", "[1, -1]", "result 1: rounds is [1,-1], expected numbers >= 0"},
+           {"/results/1/pictures", R"({"picture": 1})",
+            "result 1: pictures is an object, expected an object of strings"},
+           {"/results/1", "7", "results is [{\"key\":"},
+           {"/results", "7", "results is 7, expected an array of objects, at most 65536 in the file"},
+           {"/suite/series/0/chart/x", "1", "series 0 chart: x is 1, expected a string"},
+           {"/run/complete", "1", "run: complete is 1, expected true or false"},
+           {"/run/device", "null", "run: device is null, expected a string"}}) {
+    SCOPED_TRACE(fault.pointer + " = " + fault.value);
+    json results = run_of(SWEEP);
+    results[json::json_pointer(fault.pointer)] = json::parse(fault.value);
+    const std::string line = load_error(results.dump());
+    EXPECT_NE(line.find("results.json: " + fault.says), std::string::npos) << line;
+  }
+  json untimed = run_of(SWEEP);
+  untimed["results"][0]["times"] = nullptr;
+  EXPECT_EQ(load_error(untimed.dump()), "no error");
 }
 
 TEST_F(BenchResults, ARunGoesOnWhereItStopped) {

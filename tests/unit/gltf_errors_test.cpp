@@ -47,8 +47,8 @@ const std::vector<Fault>& faults() {
       {"/asset/version", "\"1.0\"", "asset: version is '1.0', expected 2.0"},
       {"/extensionsRequired", R"(["KHR_draco_mesh_compression"])",
        "extensionsRequired: KHR_draco_mesh_compression not supported, expected none but KHR_lights_punctual"},
-      {"/nodes", "{}", "nodes is an object, expected an array of at most"},
-      {"/nodes", "[7]", "nodes is [7], expected an array of at most 262144 objects"},
+      {"/nodes", "{}", "nodes is {}, expected an array of objects, at most"},
+      {"/nodes", "[7]", "nodes is [7], expected an array of objects, at most 262144 in the file"},
       {"/scene", "3", "scene is 3, expected an index into scenes (1 there)"},
       {"/scenes/0/nodes", "[0, 9]", "scene 0: nodes is [0,9], expected an array of indices into nodes (4 there)"},
       {"/nodes/0/mesh", "1", "node 0: mesh is 1, expected an index into meshes (1 there)"},
@@ -121,7 +121,7 @@ const std::vector<Fault>& faults() {
       {LIGHTS + "/0/intensity", "-2", "light 0: intensity is -2, expected a number >= 0"},
       {LIGHTS + "/0/intensity", "1e300", "light 0: intensity is 1e+300, expected a number >= 0"},
       {LIGHTS + "/0/color", "[1, -1, 0]", "light 0: color is [1,-1,0], expected 3 numbers >= 0"},
-      {LIGHTS + "/1/spot", "", "light 1: spot is missing, expected an object, as type is spot"},
+      {LIGHTS + "/1/spot", "", "light 1: spot is missing, expected an object"},
       {LIGHTS + "/1/spot/outerConeAngle", "1.6", "light 1: outerConeAngle is 1.6, expected 0 .. pi/2 radians"},
       {LIGHTS + "/1/spot/innerConeAngle", "0.6",
        "light 1: innerConeAngle is 0.6, expected at most outerConeAngle, 0.5"},
@@ -162,7 +162,7 @@ TEST(GltfErrors, ContainersThatAreBroken) {
   expect_error("", "the file is empty, expected glTF 2.0");
   expect_error("{\n\"asset\": \n", "asset: is no JSON: parse error at line");
   expect_error("[1e999]", "0: is no JSON: number overflow parsing '1e999'");
-  expect_error("7", "the JSON is not an object, expected a glTF document");
+  expect_error("7", "is 7, expected an object");
   expect_error(std::string(100000, '['), "is nested too deep, expected at most 64 levels");
   const std::string glb = full_scene().glb();
   EXPECT_EQ(error_text(glb), "");

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "bench/calibration_file.h"
+#include "bench/results.h"
 #include "bench/suite.h"
 #include "error.h"
 #include "scene/capture_json.h"
@@ -24,6 +25,7 @@ const std::vector<Reader>& readers() {
       [](const std::string& text) { static_cast<void>(app::load_gltf(std::as_bytes(std::span(text)), {}, "file")); },
       [](const std::string& text) { static_cast<void>(app::parse_manifest(text, "file")); },
       [](const std::string& text) { static_cast<void>(app::parse_suite(text, "file")); },
+      [](const std::string& text) { static_cast<void>(app::parse_results(text, "file")); },
       [](const std::string& text) { static_cast<void>(app::parse_calibration(text, "file")); },
   };
   return READERS;

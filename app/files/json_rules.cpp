@@ -1,20 +1,17 @@
-// Checks a glTF document before anything trusts it: types, ranges, lengths, and that every index points into its array.
-// Based on: Khronos, glTF 2.0 specification and its JSON schemas, cut down to what the loader reads.
-// Promise: after it, every value in the rules (gltf_rules.cpp) that is there has the type and range its rule says.
+// Walks a document by the paths of its rules.
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/gltf_check.h"
+#include "files/json_rules.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string_view>
 #include <vector>
 
-#include "scene/gltf_error.h"
-#include "scene/gltf_rules.h"
+#include "error.h"
+#include "files/json_values.h"
 
 namespace lamp::app {
 namespace {
@@ -31,6 +28,7 @@ std::string_view next_key(std::string_view& path) {
 
 std::string_view singular(std::string_view key) {
   if (key == "meshes") return "mesh";
+  if (key == "series") return key;
   return key.ends_with('s') ? key.substr(0, key.size() - 1) : key;
 }
 
@@ -53,11 +51,11 @@ std::string element_name(std::string_view path, const std::vector<std::size_t>& 
   return numbered.empty() && !plain.empty() ? plain.substr(1) : numbered + plain;
 }
 
-/// Calls visit(value, indices) for everything at a path.
+/// Calls visit(object, indices) for every object at a path.
 template <class Visit>
 void for_each_at(const json& value, std::string_view path, std::vector<std::size_t>& indices, const Visit& visit) {
   if (path.empty()) {
-    visit(value, indices);
+    if (value.is_object()) visit(value, indices);
     return;
   }
   const std::string_view key = next_key(path);
@@ -107,11 +105,13 @@ bool fits(const Rule& rule, const json& value, std::size_t into_size) {
   const auto is_index = [into_size](const json& index) {
     return index.is_number_unsigned() && index.get<std::size_t>() < into_size;
   };
+  const auto is_text = [](const json& text) { return text.is_string(); };
+  if (rule.nullable && value.is_null()) return true;
   switch (rule.want) {
     case Want::object:
       return value.is_object();
     case Want::objects:
-      return value.size() <= rule.size && all_of(value, [](const json& element) { return element.is_object(); });
+      return all_of(value, [](const json& element) { return element.is_object(); });
     case Want::index:
       return is_index(value);
     case Want::indices:
@@ -120,15 +120,19 @@ bool fits(const Rule& rule, const json& value, std::size_t into_size) {
       return value.is_object() && std::all_of(value.begin(), value.end(), is_index);
     case Want::natural:
       if (!value.is_number_unsigned()) return false;
-      return rule.words.empty() ? in_range(rule, value) : is_word(rule.words, value.dump());
+      if (!rule.words.empty()) return is_word(rule.words, value.dump());
+      return in_range(rule, value) && value.get<std::uint64_t>() % rule.step == 0;
     case Want::number:
       return in_range(rule, value);
     case Want::numbers:
-      return value.size() == rule.size && all_of(value, [&rule](const json& number) { return in_range(rule, number); });
+      return (rule.size == 0 || value.size() == rule.size) &&
+             all_of(value, [&rule](const json& number) { return in_range(rule, number); });
     case Want::text:
       return value.is_string() && (rule.words.empty() || is_word(rule.words, value.get_ref<const std::string&>()));
     case Want::texts:
-      return all_of(value, [](const json& text) { return text.is_string(); });
+      return all_of(value, is_text);
+    case Want::named_texts:
+      return value.is_object() && std::all_of(value.begin(), value.end(), is_text);
     case Want::flag:
       return value.is_boolean();
   }
@@ -142,12 +146,18 @@ std::string range_text(const Rule& rule) {
   return rule.min >= 0.0 ? fmt::format(" >= {}", rule.min) : std::string();
 }
 
+std::string natural_text(const Rule& rule) {
+  if (!rule.words.empty()) return fmt::format("one of {}", rule.words);
+  return rule.step == 1 ? fmt::format("an integer{}", range_text(rule))
+                        : fmt::format("a multiple of {}{}", rule.step, range_text(rule));
+}
+
 std::string expectation(const Rule& rule, std::size_t into_size) {
   switch (rule.want) {
     case Want::object:
       return "an object";
     case Want::objects:
-      return fmt::format("an array of at most {} objects", rule.size);
+      return fmt::format("an array of objects, at most {} in the file", rule.size);
     case Want::index:
       return fmt::format("an index into {} ({} there)", rule.into, into_size);
     case Want::indices:
@@ -155,27 +165,22 @@ std::string expectation(const Rule& rule, std::size_t into_size) {
     case Want::named_indices:
       return fmt::format("an object of indices into {} ({} there)", rule.into, into_size);
     case Want::natural:
-      return rule.words.empty() ? fmt::format("an integer{}", range_text(rule)) : fmt::format("one of {}", rule.words);
+      return natural_text(rule);
     case Want::number:
       return fmt::format("a number{}", range_text(rule));
     case Want::numbers:
-      return fmt::format("{} numbers{}", rule.size, range_text(rule));
+      return rule.size == 0 ? fmt::format("numbers{}", range_text(rule))
+                            : fmt::format("{} numbers{}", rule.size, range_text(rule));
     case Want::text:
       return rule.words.empty() ? "a string" : fmt::format("one of {}", rule.words);
     case Want::texts:
       return "an array of strings";
+    case Want::named_texts:
+      return "an object of strings";
     case Want::flag:
       return "true or false";
   }
   return {};
-}
-
-std::string shown(const json& value) {
-  if (value.is_array() && value.size() > 16) return fmt::format("an array of {} elements", value.size());
-  if (value.is_object()) return "an object";
-  std::string text = value.dump();
-  if (text.size() > 80) text = text.substr(0, 60) + "...";
-  return text;
 }
 
 /// What is wrong with a value that breaks its rule, and what was expected; of named indices, the first that is none.
@@ -189,42 +194,35 @@ std::string complaint(const Rule& rule, const json& value, std::size_t into_size
   return fmt::format("{} is {}, expected {}", rule.key, shown(value), expectation(rule, into_size));
 }
 
+bool is_required(const Rule& rule, const json& object) {
+  return rule.required && (rule.when.empty() || object.value("type", "") == rule.when);
+}
+
 /// Checks one rule below `place`, everywhere it applies.
 void check_rule(const json& document, std::string_view place, const Rule& rule, const std::string& file) {
   const std::string path =
       place.empty() || rule.at.empty() ? fmt::format("{}{}", place, rule.at) : fmt::format("{}/{}", place, rule.at);
   const std::size_t into_size = rule.into.empty() ? 0 : array_size(document, rule.into);
+  std::size_t objects = 0;
   std::vector<std::size_t> indices;
   for_each_at(document, path, indices, [&](const json& object, const std::vector<std::size_t>& where) {
     const auto found = object.find(rule.key);
     const bool there = found != object.end();
-    if (there ? fits(rule, *found, into_size) : !rule.required) return;
-    gltf_fail(file, element_name(path, where),
-              there ? complaint(rule, *found, into_size)
-                    : fmt::format("{} is missing, expected {}", rule.key, expectation(rule, into_size)));
-  });
-}
-
-/// A camera and a spot light hold an object that is named like their type.
-void check_typed(const json& document, std::string_view path, std::string_view type, const std::string& file) {
-  std::vector<std::size_t> indices;
-  for_each_at(document, path, indices, [&](const json& object, const std::vector<std::size_t>& where) {
-    if (object.at("type") != type || object.contains(type)) return;
-    gltf_fail(file, element_name(path, where), fmt::format("{0} is missing, expected an object, as type is {0}", type));
+    if (!there && !is_required(rule, object)) return;
+    if (there && rule.want == Want::objects) objects += found->size();
+    if (there && objects <= rule.size && fits(rule, *found, into_size)) return;
+    const std::string element = element_name(path, where);
+    throw Error(fmt::format("{}: {}{}{}", file, element, element.empty() ? "" : ": ",
+                            there ? complaint(rule, *found, into_size)
+                                  : fmt::format("{} is missing, expected {}", rule.key, expectation(rule, into_size))));
   });
 }
 
 }  // namespace
 
-void check_gltf(const json& document, const std::string& file) {
-  if (!document.is_object()) gltf_fail(file, "", "the JSON is not an object, expected a glTF document");
-  for (const Rule& rule : gltf_rules()) check_rule(document, {}, rule, file);
-  for (const std::string_view place : gltf_texture_places()) {
-    for (const Rule& rule : gltf_texture_rules()) check_rule(document, place, rule, file);
-  }
-  check_typed(document, "cameras/*", "perspective", file);
-  check_typed(document, "cameras/*", "orthographic", file);
-  check_typed(document, "extensions/KHR_lights_punctual/lights/*", "spot", file);
+void check_rules(const json& document, std::span<const Rule> rules, const std::string& file, std::string_view place) {
+  if (!document.is_object()) throw Error(fmt::format("{}: is {}, expected an object", file, shown(document)));
+  for (const Rule& rule : rules) check_rule(document, place, rule, file);
 }
 
 }  // namespace lamp::app
