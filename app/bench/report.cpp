@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,10 +17,12 @@
 #include "bench/suite.h"
 #include "bench/summary.h"
 #include "error.h"
+#include "files/read_file.h"
 
 namespace lamp::app {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::string_view part(std::string_view name) {
@@ -52,16 +53,43 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
+/// Whether a file lies below a folder once all links are followed.
+bool lies_below(const fs::path& file, const fs::path& folder) {
+  return stays_below(fs::canonical(file).lexically_relative(fs::canonical(folder)));
+}
+
+/// The bytes of a picture that results name, or nothing when it is gone. A page is made to be sent: nothing but
+/// pictures of the results' own folder may come into it. Throws Error that begins with `where`.
+std::optional<std::vector<std::byte>> read_picture(const fs::path& folder, const std::string& name,
+                                                   const std::string& where) {
+  constexpr std::uint64_t LARGEST = 1U << 26;  // bytes
+  constexpr std::string_view SIGNATURE = "\x89PNG\r\n\x1a\n";
+  const auto fail = [&] {
+    throw Error(
+        fmt::format("{} is '{}', expected the name of a PNG file below the folder of results.json", where, name));
+  };
+  if (!stays_below(name)) fail();
+  const fs::path file = folder / name;
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  if (!lies_below(file, folder)) fail();
+  std::vector<std::byte> bytes =
+      read_file(file, {.name = fmt::format("{}: '{}'", where, name), .expected = "a PNG file", .most_bytes = LARGEST});
+  if (!text_of(bytes).starts_with(SIGNATURE)) fail();
+  return bytes;
+}
+
 /// Pictures of all runs, each kept once: methods that are right draw the same.
 class Pictures {
  public:
-  /// The picture's place among all(), or null when the file is gone.
-  json add(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (bytes.empty()) return nullptr;
-    const auto [found, fresh] = places_.emplace(bytes, all_.size());
-    if (fresh) all_.push_back("data:image/png;base64," + base64(bytes));
+  /// The place among all() of a picture of a result, or null when the file is gone.
+  json add(const ReportRun& run, std::size_t result, const std::string& kind, const std::string& name) {
+    const fs::path folder = run.file.has_parent_path() ? run.file.parent_path() : fs::path(".");
+    const auto bytes =
+        read_picture(folder, name, fmt::format("{}: result {}: pictures {}", run.file.string(), result, kind));
+    if (!bytes) return nullptr;
+    const auto [found, fresh] = places_.emplace(text_of(*bytes), all_.size());
+    if (fresh) all_.push_back("data:image/png;base64," + base64(text_of(*bytes)));
     return found->second;
   }
   [[nodiscard]] const json& all() const { return all_; }
@@ -73,10 +101,11 @@ class Pictures {
 
 json run_json(const ReportRun& run, Pictures& pictures) {
   json data = run.results;
-  for (json& result : data.at("results")) {
-    if (!result.contains("pictures")) continue;
-    for (auto& [kind, file] : result["pictures"].items())
-      file = pictures.add(run.file.parent_path() / file.get<std::string>());
+  json& results = data.at("results");
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i].contains("pictures")) continue;
+    for (auto& [kind, name] : results[i]["pictures"].items())
+      name = pictures.add(run, i, kind, name.get<std::string>());
   }
   data["file"] = run.file.string();
   data["summary"] = run_summary(run.results);
@@ -98,7 +127,7 @@ json run_json(const ReportRun& run, Pictures& pictures) {
 
 /// JSON that may stand in a script element: nothing in it can end the element.
 std::string script_safe(const json& data) {
-  const std::string text = data.dump(-1, ' ', /* ensure_ascii= */ true);
+  const std::string text = data.dump(-1, ' ', /* ensure_ascii= */ true, json::error_handler_t::replace);
   std::string safe;
   for (const char c : text) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return safe;

@@ -47,4 +47,10 @@ std::vector<std::byte> read_file(const fs::path& file, const FileWanted& wanted)
   return bytes;
 }
 
+bool stays_below(const fs::path& name) {
+  const fs::path normal = name.lexically_normal();
+  return !normal.empty() && normal.is_relative() && *normal.begin() != ".." &&
+         normal.native().find('\0') == std::string::npos;
+}
+
 }  // namespace lamp::app

@@ -29,6 +29,10 @@ struct FileWanted {
 /// The same check for files that a library opens; returns the size in bytes.
 std::uint64_t check_file(const std::filesystem::path& file, const FileWanted& wanted);
 
+/// Whether a name in a file leads to a place below that file's folder: relative, and without a way up out of it. Links
+/// are not looked at.
+[[nodiscard]] bool stays_below(const std::filesystem::path& name);
+
 [[nodiscard]] inline std::string_view text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

@@ -9,9 +9,10 @@
 #include <filesystem>
 
 #include "error.h"
-#include "lamplight/method.h"
 #include "files/json_values.h"
+#include "files/read_file.h"
 #include "files/read_json.h"
+#include "lamplight/method.h"
 
 namespace lamp::app {
 namespace {
@@ -74,11 +75,9 @@ DepthKind depth_kind_of(const JsonObject& frame) {
 std::string file_of(const JsonObject& frame, std::string_view key, std::string_view extension) {
   const std::string expected = fmt::format("the name of a file in the same folder that ends in {}", extension);
   const std::string name = frame.text(key, expected);
-  const std::filesystem::path path(name);
-  const bool below = path.is_relative() && std::ranges::find(path, "..") == path.end();
-  if (!below || path.extension() != extension || name.find('\0') != std::string::npos)
+  if (!stays_below(name) || std::filesystem::path(name).extension() != extension)
     frame.fail(fmt::format("{} is {}, expected {}", key, shown(frame.json.at(key)), expected));
-  return name;
+  return std::filesystem::path(name).lexically_normal().string();
 }
 
 std::optional<std::string> optional_file(const JsonObject& frame, std::string_view key) {

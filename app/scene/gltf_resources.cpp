@@ -96,14 +96,15 @@ std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin
     return bytes;
   }
   const std::filesystem::path relative = decode_percent(uri);
-  if (uri.empty() || relative.is_absolute() || uri.find("://") != std::string::npos) {
-    gltf_fail(origin.file, element, fmt::format("uri is '{}', expected a data URI or a relative path", uri));
+  if (!stays_below(relative) || uri.find("://") != std::string::npos) {
+    gltf_fail(origin.file, element,
+              fmt::format("uri is '{}', expected a data URI or a path below the file's own folder", uri));
   }
   if (origin.folder.empty()) {
     gltf_fail(origin.file, element,
               fmt::format("uri is '{}', expected a data URI, as the scene does not come from a folder", uri));
   }
-  const std::filesystem::path file = origin.folder / relative;
+  const std::filesystem::path file = origin.folder / relative.lexically_normal();
   return read_file(file, {.name = fmt::format("{}: {}: file '{}'", origin.file, element, file.string()),
                           .most_bytes = LARGEST_FILE,
                           .first_bytes = limit});

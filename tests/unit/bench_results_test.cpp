@@ -13,10 +13,12 @@
 #include "bench/report.h"
 #include "bench/summary.h"
 #include "error.h"
+#include "image/image.h"
 
 namespace lamp::app {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 const RunInfo RUN{.command = "lamp bench mine.json",
@@ -246,6 +248,43 @@ TEST_F(BenchResults, ThePageIsWholeAndNothingInTheDataEndsItsScript) {
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   for (const char* left : {"@TITLE@", "@DATA@", "@SCRIPT@"}) EXPECT_EQ(page.find(left), std::string::npos) << left;
+}
+
+TEST_F(BenchResults, ThePageTakesPicturesOfItsFolderAlone) {
+  const fs::path elsewhere = folder_ / "elsewhere";
+  const fs::path own = folder_ / "own";
+  for (const fs::path& folder : {elsewhere, own / "pictures"}) fs::create_directories(folder);
+  write_png(own / "pictures" / "a.png", {1, 1, {glm::u8vec4(255)}});
+  write_png(elsewhere / "a.png", {1, 1, {glm::u8vec4(0)}});
+  std::ofstream(own / "secret.png") << "root:x:0:0";
+  fs::create_symlink(elsewhere / "a.png", own / "link.png");
+  fs::create_symlink(elsewhere, own / "links");
+  fs::create_symlink("pictures/a.png", own / "within.png");
+  fs::copy_file(own / "pictures" / "a.png", own / "large.png");
+  fs::resize_file(own / "large.png", (std::uintmax_t{1} << 26U) + 1);
+  const auto page_of = [&](const std::string& name) {
+    json results = run_of(SWEEP);
+    results["results"][1]["pictures"] = {{"picture", name}};
+    const ReportRun run{.results = results, .file = own / "results.json"};
+    return report_html({&run, 1});
+  };
+  for (const char* name : {"pictures/a.png", "./pictures/../pictures/a.png", "within.png"})
+    EXPECT_NE(page_of(name).find("data:image/png;base64,iVBORw0KGgo"), std::string::npos) << name;
+  EXPECT_EQ(page_of("pictures/gone.png").find("data:image/png"), std::string::npos);
+  for (const std::string& name : {(elsewhere / "a.png").string(), std::string("../elsewhere/a.png"),
+                                  std::string("pictures/../../elsewhere/a.png"), std::string("link.png"),
+                                  std::string("links/a.png"), std::string("secret.png"), std::string("")}) {
+    const std::string line = error_of([&] { static_cast<void>(page_of(name)); });
+    EXPECT_NE(line.find("results.json: result 1: pictures picture is '" + name +
+                        "', expected the name of a PNG file below the folder of results.json"),
+              std::string::npos)
+        << line;
+  }
+  for (const auto& [name, says] :
+       {std::pair{"pictures", "is a folder"}, {"large.png", "has 67108865 bytes, expected"}}) {
+    const std::string line = error_of([&] { static_cast<void>(page_of(name)); });
+    EXPECT_NE(line.find(says), std::string::npos) << line;
+  }
 }
 
 TEST_F(BenchResults, ADamagedRunIsNamed) {

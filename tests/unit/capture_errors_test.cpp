@@ -47,6 +47,7 @@ const std::vector<Fault>& faults() {
       {"/depth_kind", "\"inverse\"", "depth_kind is \"inverse\", expected reversed, standard, linear"},
       {"/depth_kind", "\"standard\"", "clip_from_view has reversed depth (near 1, far 0), expected near 0, far 1"},
       {"/albedo", "3", "albedo is 3, expected the name of a file in the same folder that ends in .exr"},
+      {"/depth", "\"a/../../depth.exr\"", "expected the name of a file in the same folder that ends in .exr"},
       {"/ambient", "[1, 2]", "ambient has 2 elements, expected 3 numbers"},
       {"/ambient", "[1, 2, -1]", "ambient is [1,2,-1], expected numbers >= 0"},
       {"/directional_lights", "{}", "directional_lights is {}, expected an array"},
