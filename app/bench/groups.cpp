@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace lamp::app {
 namespace {
@@ -146,18 +146,27 @@ void for_each_group(const Series& series, const Limits& limits, const Use& use) 
 /// Marks, for every scene of a series, the first group with the most lights.
 void choose_pictures(const Series& series, std::span<Group> groups) {
   if (!series.pictures) return;
-  std::set<std::string> done;
+  std::map<std::string_view, Group*> most;
   for (Group& group : groups) {
-    if (done.contains(group.scene)) continue;
-    Group* best = &group;
-    for (Group& other : groups)
-      if (other.scene == group.scene && other.lights > best->lights) best = &other;
-    best->pictures = true;
-    done.insert(group.scene);
+    Group*& best = most.emplace(group.scene, &group).first->second;
+    if (group.lights > best->lights) best = &group;
   }
+  for (const auto& [scene, group] : most) group->pictures = true;
 }
 
 }  // namespace
+
+double configurations(const Series& series) {
+  double entries = 0.0;
+  for (const SuiteMethod& method : series.methods)
+    entries += method.path.empty() ? static_cast<double>(series.paths.size()) : 1.0;
+  double product = entries * (series.flight ? 1.0 : static_cast<double>(series.lights.size()));
+  for (const auto& [key, values] : series.options) product *= static_cast<double>(values.size());
+  for (const std::size_t swept : {series.scenes.size(), series.cameras.size(), series.projections.size(),
+                                  series.sizes.size(), series.ranges.size(), series.spots.size()})
+    product *= static_cast<double>(swept);
+  return product;
+}
 
 Expansion expand(const Suite& suite, const Limits& limits) {
   Expansion expansion;

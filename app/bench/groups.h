@@ -35,6 +35,9 @@ struct Group {
   std::vector<GroupEntry> entries;
 };
 
+/// How many configurations a series multiplies out to.
+[[nodiscard]] double configurations(const Series& series);
+
 /// What the command line changes in every series.
 struct Limits {
   std::optional<std::uint32_t> frames;

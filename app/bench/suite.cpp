@@ -10,6 +10,7 @@
 #include <set>
 
 #include "bench/embedded_files.h"
+#include "bench/groups.h"
 #include "bench/suite_json.h"
 #include "error.h"
 #include "files/read_file.h"
@@ -25,12 +26,20 @@ constexpr std::uint32_t MAX_FRAMES = 100000;
 constexpr std::uint64_t LARGEST_SUITE = 1U << 24;  // bytes
 constexpr std::array<std::string_view, 11> VALUES{"cull",   "shade",       "cull+shade", "frame",    "excess", "waste",
                                                   "missed", "evaluations", "list_mean",  "list_max", "bytes"};
+constexpr std::span<const std::string_view> TIMES = std::span(VALUES).first(4);
+constexpr std::string_view OPTION = "option:";
 constexpr std::array<std::string_view, 9> AXES{"lights", "size",   "spots",      "range", "scene",
                                                "camera", "method", "projection", "path"};
 
 std::string joined(std::span<const std::string_view> words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
-Chart parse_chart(const json& value, const std::string& where) {
+bool is_swept(const Series& series, const std::string& option) {
+  return std::ranges::find(series.options, option, [](const auto& swept) { return swept.first; }) !=
+         series.options.end();
+}
+
+/// The chart of a series whose options and flight are known.
+Chart parse_chart(const json& value, const Series& series, const std::string& where) {
   SuiteJson object(value, where + ": chart");
   Chart chart;
   object.read("x", chart.x);
@@ -38,9 +47,12 @@ Chart parse_chart(const json& value, const std::string& where) {
   object.read("log_x", chart.log_x);
   object.read("log_y", chart.log_y);
   object.finish();
-  if (std::ranges::find(AXES, chart.x) == AXES.end() && !chart.x.starts_with("option:"))
-    object.wrong("x", joined(AXES) + " or option:KEY");
+  const bool is_option = chart.x.starts_with(OPTION) && is_swept(series, chart.x.substr(OPTION.size()));
+  if (std::ranges::find(AXES, chart.x) == AXES.end() && !is_option)
+    object.wrong("x", joined(AXES) + " or option:KEY of a KEY in the series' options");
   if (std::ranges::find(VALUES, chart.y) == VALUES.end()) object.wrong("y", joined(VALUES));
+  if (series.flight && std::ranges::find(TIMES, chart.y) == TIMES.end())
+    object.wrong("y", joined(TIMES) + ", as each frame of a flight has them alone");
   return chart;
 }
 
@@ -134,7 +146,6 @@ Series parse_series(const json& value, const std::string& source) {
   series.title = series.name;
   object.read("title", series.title);
   object.read("about", series.about);
-  if (object.has("chart")) series.chart = parse_chart(object.at("chart"), where);
   series.methods = parse_methods(object);
   series.options = parse_options(object);
   object.read("scenes", series.scenes);
@@ -154,6 +165,7 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("warm_up", series.warm_up, 0, MAX_FRAMES);
   object.read("timed", series.timed);
   series.flight = parse_flight(object);
+  if (object.has("chart")) series.chart = parse_chart(object.at("chart"), series, where);
   series.verify = parse_verify(object);
   if (!series.timed && (series.flight || object.has("verify") || object.has("pictures")))
     object.wrong("timed", "true where there is a flight, something to verify, or pictures");
@@ -161,6 +173,23 @@ Series parse_series(const json& value, const std::string& source) {
   object.finish();
   return series;
 }
+
+/// What series multiply out to: a short text can give more than memory holds.
+struct Size {
+  double count = 0.0;  ///< configurations
+  double bytes = 0.0;  ///< of their texts, about
+
+  void add(const Series& series, std::size_t text_bytes, const std::string& source) {
+    constexpr double MOST_BYTES = 1U << 30;
+    count += configurations(series);
+    bytes += configurations(series) * static_cast<double>(text_bytes);
+    if (count <= static_cast<double>(MOST_CONFIGURATIONS) && bytes <= MOST_BYTES) return;
+    throw Error(
+        fmt::format("{}: series '{}': multiplies the suite out to {:.0f} configurations and {:.0f} bytes of text, "
+                    "expected at most {} and {:.0f}",
+                    source, series.name, count, bytes, MOST_CONFIGURATIONS, MOST_BYTES));
+  }
+};
 
 /// The file of a built-in suite, or nothing.
 const EmbeddedFile* builtin_suite(const std::string& name) {
@@ -190,8 +219,10 @@ Suite parse_suite(std::string_view text, const std::string& source) {
   if (!object.at("series").is_array() || object.at("series").empty()) object.wrong("series", "a list of series");
   object.finish();
   std::set<std::string> names;
+  Size size;
   for (const json& value : object.at("series")) {
     suite.series.push_back(parse_series(value, source));
+    size.add(suite.series.back(), value.dump().size(), source);
     if (!names.insert(suite.series.back().name).second)
       throw Error(fmt::format("{}: series '{}': has the name of another", source, suite.series.back().name));
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/suite.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,9 +87,37 @@ TEST(BenchSuite, ValuesThatAreWrong) {
   expect_error(suite_with(R"("methods": [])"), {"methods"});
   expect_error(suite_with(R"("chart": {"y": "speed"})"), {"chart", "y", "cull+shade", "speed"});
   expect_error(suite_with(R"("chart": {"x": "weather"})"), {"chart", "x", "option:KEY"});
+  expect_error(suite_with(R"("chart": {"x": "option:weather"})"), {"chart", "x", "option:KEY of a KEY"});
+  expect_error(suite_with(R"("chart": {"x": "option:tile"}, "options": {"test": ["aabb"]})"), {"chart", "x"});
+  EXPECT_EQ(error_of(suite_with(R"("chart": {"x": "option:tile"}, "options": {"tile": ["8"]})")), "no error");
   expect_error(suite_with(R"("flight": {"from": 9, "to": 3})"), {"flight", "from <= to"});
+  expect_error(suite_with(R"("flight": {"from": 1, "to": 3}, "chart": {"y": "bytes"})"),
+               {"chart", "y", "cull, shade, cull+shade, frame, as each frame of a flight has them alone"});
   expect_error(suite_with(R"("verify": 3)"), {"verify", "true, false or"});
   EXPECT_THROW(static_cast<void>(load_suite("nowhere.json")), Error);
+}
+
+std::string numbers(std::size_t count) {
+  std::string text = "[0";
+  for (std::size_t i = 1; i < count; ++i) text += ", 0";
+  return text + "]";
+}
+
+TEST(BenchSuite, WhatMultipliesBeyondMemoryIsCountedFirst) {
+  const std::string lists = R"("methods": ["tiled"], "spots": )" + numbers(4000) + R"(, "lights": )" + numbers(4000);
+  expect_error(suite_with(lists), {"series 'one'", "out to 16000000 configurations", "expected at most 65536"});
+  std::string options;
+  for (char key = 'a'; key <= 'z'; ++key)
+    options += fmt::format(R"({}"{}": ["1", "2", "3", "4", "5", "6", "7", "8"])", key == 'a' ? "" : ", ", key);
+  expect_error(suite_with(R"("methods": ["tiled"], "options": {)" + options + "}"), {"series 'one'", "configurations"});
+  std::string series;
+  for (int i = 0; i < 20; ++i)
+    series +=
+        fmt::format(R"({}{{"name": "{}", "methods": ["tiled"], "lights": {}}})", i == 0 ? "" : ", ", i, numbers(4000));
+  expect_error(R"({"version": 1, "name": "mine", "series": [)" + series + "]}",
+               {"series '16'", "out to 68000 configurations"});
+  const std::string label = R"("methods": [{"name": "tiled", "label": ")" + std::string(100'000, 'x') + "\"}]";
+  expect_error(suite_with(label + R"(, "lights": )" + numbers(20'000)), {"series 'one'", "bytes of text"});
 }
 
 TEST(BenchSuite, ASeriesThatIsNotTimed) {
