@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -76,8 +77,17 @@ void note_left_out(const json& document, std::vector<std::string>& notes) {
   if (morphed > 0) notes.push_back(fmt::format("morph targets of {} primitives left out", morphed));
 }
 
+/// Buffers may be parts of one file.
+void check_buffer_bytes(const json& document, const std::string& file) {
+  constexpr std::size_t MOST = std::size_t{1} << 32;
+  std::size_t total = 0;
+  for (const json& buffer : elements(document, "buffers")) total += buffer["byteLength"].get<std::size_t>();
+  if (total > MOST) gltf_fail(file, "buffers", fmt::format("have {} bytes together, expected at most {}", total, MOST));
+}
+
 std::vector<std::vector<std::byte>> read_buffers(const json& document, const GltfOrigin& origin,
                                                  std::optional<std::span<const std::byte>> binary) {
+  check_buffer_bytes(document, origin.file);
   std::vector<std::vector<std::byte>> buffers;
   for (const json& buffer : elements(document, "buffers")) {
     const std::string element = fmt::format("buffer {}", buffers.size());
@@ -102,13 +112,20 @@ std::vector<std::vector<std::byte>> read_buffers(const json& document, const Glt
 
 std::vector<GltfImage> read_images(const json& document, const std::string& file) {
   std::vector<GltfImage> images;
+  std::map<std::pair<std::string_view, int>, int> sources;
   for (const json& image : elements(document, "images")) {
     if (image.contains("uri") == image.contains("bufferView")) {
       gltf_fail(file, fmt::format("image {}", images.size()), "expected either a uri or a bufferView");
     }
-    const std::string uri = image.value("uri", "");
-    const std::string fallback = uri.starts_with("data:") ? fmt::format("image {}", images.size()) : uri;
-    images.push_back({image.value("name", fallback), uri, image.value("bufferView", -1)});
+    const auto found = image.find("uri");
+    const std::string_view uri = found == image.end() ? std::string_view() : found->get_ref<const std::string&>();
+    const int view = image.value("bufferView", -1);
+    const int index = static_cast<int>(images.size());
+    const std::string fallback = uri.starts_with("data:") ? fmt::format("image {}", index) : std::string(uri);
+    images.push_back({.name = image.value("name", fallback),
+                      .uri = std::string(uri),
+                      .buffer_view = view,
+                      .first_alike = sources.try_emplace({uri, view}, index).first->second});
   }
   return images;
 }

@@ -15,11 +15,12 @@
 
 namespace lamp::app {
 
-/// An image that nobody has decoded yet: from a URI, or a part of a buffer (`uri` empty).
+/// An image that nobody has decoded yet: a part of a buffer, or where there is none (-1) from a URI.
 struct GltfImage {
   std::string name;
   std::string uri;
   int buffer_view = -1;
+  int first_alike = 0;  ///< the first image of the same source
 };
 
 struct GltfDocument {

@@ -60,7 +60,7 @@ struct TextureReader {
       document.notes.push_back(fmt::format("texture {}: no image in a format that is supported, left out", info.index));
       return texture;
     }
-    texture.image = place(from.source, srgb);
+    texture.image = place(document.images[static_cast<std::size_t>(from.source)].first_alike, srgb);
     texture.uv = static_cast<std::uint32_t>(info.texCoord);
     if (from.sampler >= 0) {
       const tinygltf::Sampler& sampler = document.model.samplers[static_cast<std::size_t>(from.sampler)];

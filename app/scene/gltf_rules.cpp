@@ -46,7 +46,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.key = "textures", .want = Want::objects, .size = SOME},
     {.key = "scene", .want = Want::index, .into = "scenes"},
 
-    {.at = "buffers/*", .key = "byteLength", .want = Want::natural, .required = true, .min = 1, .max = BYTES_MAX},
+    {.at = "buffers/*", .key = "byteLength", .want = Want::natural, .required = true, .min = 1, .max = UINT_LIMIT},
     {.at = "buffers/*", .key = "uri", .want = Want::text},
     {.at = "bufferViews/*", .key = "buffer", .want = Want::index, .required = true, .into = "buffers"},
     {.at = "bufferViews/*", .key = "byteOffset", .want = Want::natural, .min = 0, .max = BYTES_MAX},

@@ -84,6 +84,11 @@ const std::vector<Fault>& faults() {
       {"/accessors/2/count", "2", "mesh 0 primitive 0: NORMAL (accessor 2) has 2 elements, expected 3, as many as"},
       {"/accessors/2/componentType", "5125", "NORMAL (accessor 2) has componentType 5125, expected floats or normal"},
       {"/bufferViews/0/buffer", "1", "bufferView 0: buffer is 1, expected an index into buffers (1 there)"},
+      {"/buffers/0/byteLength", "4294967296",
+       "buffer 0: byteLength is 4294967296, expected an integer 1 .. 4294967295"},
+      {"/buffers/1", R"({"byteLength": 4294967295})",
+       "buffers: have 4294967375 bytes together, expected at most 4294967296"},
+      {"/nodes/1/name", '"' + std::string(5000, 'n') + '"', "node 1: name is \"nnn"},
       {"/bufferViews/0/byteLength", "1000",
        "bufferView 0: 1000 bytes from byte 0, expected to end within the 80 bytes"},
       {"/bufferViews/0/byteOffset", "9007199254740000",
@@ -219,6 +224,40 @@ TEST(GltfErrors, SparseAccessors) {
   sparse["indices"]["bufferView"] = values;
   sparse["indices"]["componentType"] = UNSIGNED_INT;
   expect_error(builder.gltf(), "accessor 0 sparse indices: index 0 is 1065353216, expected more than the one before");
+/// The begin of a PNG of this size: all that is looked at before what images add up to is known.
+std::string png_header(std::uint32_t width, std::uint32_t height, char last) {
+  std::string bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  for (const std::uint32_t side : {width, height})
+    for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes += static_cast<char>(side >> shift & 0xFFU);
+  bytes += last;
+  return "data:image/png;base64," + base64(std::as_bytes(std::span(bytes)));
+}
+
+TEST(GltfErrors, ImagesThatAreTooLarge) {
+  GltfBuilder builder = full_scene();
+  builder.document["images"][0]["uri"] = png_header(30000, 30000, 0);
+  expect_error(builder.gltf(), "image 0: 30000 x 30000 pixels, expected 1 .. 16384 a side");
+  builder.document["images"].clear();
+  builder.document["textures"].clear();
+  builder.document["materials"].clear();
+  for (int i = 0; i < 5; ++i) {
+    builder.add("images", {{"uri", png_header(16384, 16384, static_cast<char>(i))}});
+    builder.add("textures", {{"source", i}});
+    builder.add("materials", {{"emissiveTexture", {{"index", i}}}});
+  }
+  expect_error(builder.gltf(), "image 4: all images up to it have 1342177280 pixels and ");
+  expect_error(builder.gltf(), " bytes, expected at most 1073741824 and 2147483648");
+}
+
+TEST(GltfErrors, PrimitivesAreCountedOverAllMeshes) {
+  GltfBuilder builder = triangle();
+  const json primitive = builder.document["meshes"][0]["primitives"][0];
+  const json mesh = {{"primitives", json(std::vector<json>(1000, primitive))}};
+  builder.document["meshes"] = std::vector<json>(263, mesh);
+  expect_error(builder.gltf(),
+               "mesh 262: primitives is an array of 1000 elements, expected an array of objects, at most");
+}
+
   sparse["count"] = 7;
   expect_error(builder.gltf(), "accessor 0 sparse indices: 7 elements of 4 bytes, 4 apart, from byte 0, expected to");
 }

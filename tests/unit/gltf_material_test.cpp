@@ -95,6 +95,21 @@ TEST(GltfMaterial, DecodesImagesFromUrisAndBufferViews) {
   EXPECT_EQ(load_text(builder.glb()).images.at(0).rgba, expected);
 }
 
+TEST(GltfMaterial, DecodesASourceOnce) {
+  GltfBuilder builder = with_material({{"normalTexture", {{"index", 0}}}, {"emissiveTexture", {{"index", 1}}}});
+  for (int i = 1; i < 4; ++i) {
+    builder.add("images", {{"uri", png_uri()}});
+    builder.add("textures", {{"source", i}});
+    builder.add("materials", {{"emissiveTexture", {{"index", i + 1}}}});
+  }
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.images.size(), 2U) << "one image in two colour spaces, though the file has four of its bytes";
+  EXPECT_EQ(scene.images[0].rgba, scene.images[1].rgba);
+  EXPECT_NE(scene.images[0].srgb, scene.images[1].srgb);
+  for (std::size_t i = 1; i < 4; ++i)
+    EXPECT_EQ(scene.materials.at(i).emissive_texture.image, scene.materials[0].emissive_texture.image);
+}
+
 TEST(GltfMaterial, ReadsSamplers) {
   const json textures = {{"baseColorTexture", {{"index", 1}, {"texCoord", 1}}},
                          {"metallicRoughnessTexture", {{"index", 0}}}};
