@@ -50,10 +50,11 @@ glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target) {
 
 // The window of a camera at 1 m ahead.
 Window window_of(const Camera& camera, double aspect) {
-  const bool sensible = camera.fov_y > 0.0F && camera.fov_y < 3.14F;  // false for a NaN
+  constexpr float WIDEST = 3.14F;  // radians; towards pi, the window grows beyond all numbers
+  const bool sensible = camera.fov_y > 0.0F && camera.fov_y < WIDEST;  // false for a NaN
   if (!sensible) {
-    throw Error(fmt::format("camera '{}': the vertical field of view must lie between 0 and pi, got {}", camera.name,
-                            camera.fov_y));
+    throw Error(fmt::format("camera '{}': the vertical field of view must lie between 0 and {} radians, got {}",
+                            camera.name, WIDEST, camera.fov_y));
   }
   return symmetric_window(camera.fov_y, aspect);
 }

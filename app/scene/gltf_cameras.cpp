@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <map>
+#include <set>
 
+#include "error.h"
+#include "scene/flight.h"
 #include "scene/gltf_error.h"
 
 namespace lamp::app {
@@ -29,44 +31,49 @@ glm::mat4 rigid_pose(const GltfDocument& document, const PlacedNode& placed) {
   return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), world[3]));
 }
 
-void set_perspective(const tinygltf::PerspectiveCamera& from, const std::string& file, const std::string& element,
-                     Camera& camera) {
-  if (from.yfov >= glm::pi<double>()) {
-    gltf_fail(file, element, fmt::format("yfov is {}, expected less than pi radians", from.yfov));
-  }
-  if (from.zfar != 0.0 && from.zfar <= from.znear) {
-    gltf_fail(file, element, fmt::format("zfar is {}, expected more than znear, {}", from.zfar, from.znear));
-  }
-  camera.fov_y = static_cast<float>(from.yfov);
-  camera.near_m = static_cast<float>(from.znear);
-  camera.far_m = static_cast<float>(from.zfar);  // missing: 0, which is infinite here
-}
-
-void set_orthographic(const tinygltf::OrthographicCamera& from, const std::string& file, const std::string& element,
-                      Camera& camera) {
-  if (from.ymag == 0.0) gltf_fail(file, element, "ymag is 0, expected another number");
-  if (from.zfar <= from.znear) {
-    gltf_fail(file, element, fmt::format("zfar is {}, expected more than znear, {}", from.zfar, from.znear));
+void set_projection(const tinygltf::Camera& from, Camera& camera) {
+  if (from.type == "perspective") {
+    camera.fov_y = static_cast<float>(from.perspective.yfov);
+    camera.near_m = static_cast<float>(from.perspective.znear);
+    camera.far_m = static_cast<float>(from.perspective.zfar);  // missing: 0, which is infinite here
+    return;
   }
   camera.orthographic = true;
-  camera.half_height = static_cast<float>(std::abs(from.ymag));
-  camera.near_m = static_cast<float>(from.znear);
-  camera.far_m = static_cast<float>(from.zfar);
+  camera.half_height = static_cast<float>(std::abs(from.orthographic.ymag));
+  camera.near_m = static_cast<float>(from.orthographic.znear);
+  camera.far_m = static_cast<float>(from.orthographic.zfar);
 }
 
-/// The first of NAME, "NAME 2", "NAME 3", ... that no camera has.
-std::string unique_name(const std::string& name, const std::vector<Camera>& cameras) {
-  std::string candidate = name;
-  for (int number = 2; std::ranges::find(cameras, candidate, &Camera::name) != cameras.end(); ++number) {
-    candidate = fmt::format("{} {}", name, number);
+/// What no picture can be made of is the file's fault, and known here alone.
+void check_view(const Camera& camera, const std::string& file, const std::string& element) {
+  try {
+    static_cast<void>(view_of(camera, 1, 1, "camera"));
+  } catch (const Error& error) {
+    gltf_fail(file, element, error.what());
   }
-  return candidate;
 }
+
+/// Names that no other camera has: NAME, "NAME 2", "NAME 3", ...
+class UniqueNames {
+ public:
+  std::string add(const std::string& name) {
+    std::size_t& count = counts_[name];
+    std::string unique = ++count == 1 ? name : fmt::format("{} {}", name, count);
+    // A camera may be named "NAME 2" by the file.
+    while (!taken_.insert(unique).second) unique = fmt::format("{} {}", name, ++count);
+    return unique;
+  }
+
+ private:
+  std::map<std::string, std::size_t> counts_;  ///< how far the numbers of a name have got
+  std::set<std::string> taken_;
+};
 
 }  // namespace
 
 std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const PlacedNode> nodes) {
   std::vector<Camera> cameras;
+  UniqueNames names;
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(placed.node)];
     if (node.camera < 0) continue;
@@ -75,13 +82,10 @@ std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const P
     const std::string& own = from.name.empty() ? element : from.name;
 
     Camera camera;
-    camera.name = unique_name(node.name.empty() ? own : node.name, cameras);
+    camera.name = names.add(node.name.empty() ? own : node.name);
     camera.world_from_camera = rigid_pose(document, placed);
-    if (from.type == "perspective") {
-      set_perspective(from.perspective, document.origin.file, element, camera);
-    } else {
-      set_orthographic(from.orthographic, document.origin.file, element, camera);
-    }
+    set_projection(from, camera);
+    check_view(camera, document.origin.file, element);
     cameras.push_back(camera);
   }
   return cameras;

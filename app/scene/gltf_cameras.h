@@ -1,6 +1,6 @@
 // The cameras that nodes of a glTF file carry.
 // Based on: Khronos, glTF 2.0 specification, section 3.10 (cameras).
-// Promise: rigid poses, whatever scale the nodes have.
+// Promise: rigid poses, whatever scale the nodes have; every camera gives a view.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

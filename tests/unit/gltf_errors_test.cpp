@@ -140,9 +140,13 @@ const std::vector<Fault>& faults() {
 
       {"/cameras/0/type", "\"fisheye\"", "camera 0: type is \"fisheye\", expected one of perspective orthographic"},
       {"/cameras/0/type", "\"orthographic\"", "camera 0: orthographic is missing, expected an object"},
-      {"/cameras/0/perspective/yfov", "4", "camera 0: yfov is 4, expected less than pi radians"},
+      {"/cameras/0/perspective/yfov", "4",
+       "camera 0: camera 'camera': the vertical field of view must lie between 0 and 3.14 radians, got 4"},
+      {"/cameras/0/perspective/yfov", "3.1414180", "must lie between 0 and 3.14 radians, got 3.141418"},
       {"/cameras/0/perspective/znear", "0", "camera 0 perspective: znear is 0, expected a number > 0"},
-      {"/cameras/0/perspective/zfar", "0.5", "camera 0: zfar is 0.5, expected more than znear, 1"},
+      {"/cameras/0/perspective/zfar", "1.00000000001", "camera 0: camera 'camera': the far plane must lie beyond"},
+      {"/cameras/0/perspective/zfar", "0.5",
+       "camera 0: camera 'camera': the far plane must lie beyond the near plane (1 m), got 0.5"},
   };
   return FAULTS;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "unit/gltf_builder.h"
 
@@ -120,6 +121,35 @@ TEST(Gltf, ReadsPerspectiveAndOrthographicCameras) {
   EXPECT_TRUE(scene.cameras[2].orthographic);
   EXPECT_FLOAT_EQ(scene.cameras[2].half_height, 3.0F);
   EXPECT_FLOAT_EQ(scene.cameras[2].far_m, 9.0F);
+}
+
+TEST(Gltf, NamesManyCamerasApartInNoTime) {
+  GltfBuilder builder = triangle();
+  builder.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.25}}}});
+  builder.root({{"name", "camera 0 3"}, {"camera", 0}});
+  constexpr int COUNT = 20000;  // comparing each with each took minutes
+  for (int i = 0; i < COUNT; ++i) builder.root({{"camera", 0}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.cameras.size(), COUNT + 1U);
+  EXPECT_EQ(scene.cameras[1].name, "camera 0");
+  EXPECT_EQ(scene.cameras[2].name, "camera 0 2");
+  EXPECT_EQ(scene.cameras[3].name, "camera 0 4") << "a node has 3 already";
+  std::set<std::string> names;
+  for (const lamp::app::Camera& camera : scene.cameras) EXPECT_TRUE(names.insert(camera.name).second) << camera.name;
+}
+
+TEST(Gltf, FollowsPathsBelowItsFolderAndLinksInIt) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "lamp gltf links";
+  std::filesystem::create_directories(folder / "parts");
+  GltfBuilder builder = triangle();
+  const std::string contents(reinterpret_cast<const char*>(builder.bytes.data()), builder.bytes.size());
+  std::ofstream(folder / "a.bin", std::ios::binary) << contents;
+  std::filesystem::create_symlink(std::filesystem::absolute(folder / "a.bin"), folder / "parts" / "link.bin");
+  for (const char* uri : {"./a.bin", "parts/../a.bin", "nowhere/../a.bin", "parts/link.bin"}) {
+    builder.document["buffers"][0] = {{"byteLength", builder.bytes.size()}, {"uri", uri}};
+    EXPECT_EQ(error_text(builder.document.dump(), folder), "") << uri;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 /// Whether a world point is ahead of a camera and within its vertical field of view.
