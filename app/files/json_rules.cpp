@@ -95,6 +95,10 @@ bool in_range(const Rule& rule, const json& value) {
   return number >= rule.min && number <= rule.max;
 }
 
+bool is_allowed_text(const Rule& rule, const std::string& text) {
+  return (rule.words.empty() || is_word(rule.words, text)) && (rule.size == 0 || text.size() <= rule.size);
+}
+
 template <class Test>
 bool all_of(const json& array, const Test& test) {
   return array.is_array() && std::all_of(array.begin(), array.end(), test);
@@ -128,7 +132,7 @@ bool fits(const Rule& rule, const json& value, std::size_t into_size) {
       return (rule.size == 0 || value.size() == rule.size) &&
              all_of(value, [&rule](const json& number) { return in_range(rule, number); });
     case Want::text:
-      return value.is_string() && (rule.words.empty() || is_word(rule.words, value.get_ref<const std::string&>()));
+      return value.is_string() && is_allowed_text(rule, value.get_ref<const std::string&>());
     case Want::texts:
       return all_of(value, is_text);
     case Want::named_texts:
@@ -148,8 +152,8 @@ std::string range_text(const Rule& rule) {
 
 std::string natural_text(const Rule& rule) {
   if (!rule.words.empty()) return fmt::format("one of {}", rule.words);
-  return rule.step == 1 ? fmt::format("an integer{}", range_text(rule))
-                        : fmt::format("a multiple of {}{}", rule.step, range_text(rule));
+  const std::string step = rule.step == 1 ? std::string() : fmt::format(", a multiple of {}", rule.step);
+  return fmt::format("an integer{}{}", range_text(rule), step);
 }
 
 std::string expectation(const Rule& rule, std::size_t into_size) {
@@ -172,6 +176,7 @@ std::string expectation(const Rule& rule, std::size_t into_size) {
       return rule.size == 0 ? fmt::format("numbers{}", range_text(rule))
                             : fmt::format("{} numbers{}", rule.size, range_text(rule));
     case Want::text:
+      if (rule.size != 0) return fmt::format("a string of at most {} bytes", rule.size);
       return rule.words.empty() ? "a string" : fmt::format("one of {}", rule.words);
     case Want::texts:
       return "an array of strings";

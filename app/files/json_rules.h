@@ -38,7 +38,8 @@ struct Rule {
   double min = -static_cast<double>(std::numeric_limits<float>::max());
   double max = static_cast<double>(std::numeric_limits<float>::max());
   std::size_t step = 1;    ///< natural: a multiple of this
-  std::size_t size = 0;    ///< numbers: exactly so many, 0: any; objects: at most so many in all arrays of the rule
+  std::size_t size = 0;    ///< numbers: exactly so many, 0: any; objects: at most so many in all arrays of the rule;
+                           ///< text: at most so many bytes, 0: any
   std::string_view words;  ///< natural, text: the values allowed, between spaces (empty: any)
   std::string_view into;   ///< index and its kin: where the array is
 };

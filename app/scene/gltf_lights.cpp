@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 #include <limits>
 #include <optional>
@@ -36,6 +37,15 @@ glm::vec3 color_of(const tinygltf::Light& from) {
   return from.color.empty() ? glm::vec3(1.0F) : glm::vec3(from.color[0], from.color[1], from.color[2]);
 }
 
+/// Both are finite, their product may not be.
+glm::vec3 power_of(const tinygltf::Light& from, const std::string& file, const std::string& element) {
+  const glm::vec3 power = color_of(from) * static_cast<float>(from.intensity);
+  if (!(std::max({power.r, power.g, power.b}) <= std::numeric_limits<float>::max())) {
+    gltf_fail(file, element, "color times intensity is infinite, expected a finite 32-bit number");
+  }
+  return power;
+}
+
 void set_cone(const tinygltf::SpotLight& from, const std::string& file, const std::string& element, Light& light) {
   light.inner_angle = static_cast<float>(from.innerConeAngle);
   light.outer_angle = static_cast<float>(from.outerConeAngle);
@@ -58,9 +68,10 @@ GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode>
     const auto index = light_index(document.model.nodes[static_cast<std::size_t>(placed.node)]);
     if (!index) continue;
     const tinygltf::Light& from = document.model.lights[*index];
+    const std::string element = fmt::format("light {}", *index);
+    const glm::vec3 power = power_of(from, document.origin.file, element);
     if (from.type == "directional") {
-      const float lux = static_cast<float>(from.intensity);
-      result.directional_lights.push_back({forward(document, placed), color_of(from) * lux});
+      result.directional_lights.push_back({forward(document, placed), power});
       continue;
     }
     Light light;
@@ -72,7 +83,7 @@ GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode>
     light.range = from.range > 0.0 ? static_cast<float>(from.range) : std::numeric_limits<float>::infinity();
     if (light.type == LightType::spot) {
       light.direction = forward(document, placed);
-      set_cone(from.spot, document.origin.file, fmt::format("light {}", *index), light);
+      set_cone(from.spot, document.origin.file, element, light);
     }
     result.lights.push_back(light);
   }

@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t MANY = 1 << 18;
 constexpr std::size_t SOME = 1 << 16;
 
+constexpr std::size_t NAME_BYTES = 4096;  // a camera's may be taken by every node
+
 constexpr double POSITIVE = std::numeric_limits<float>::min();
 constexpr double BYTES_MAX = 9007199254740992.0;  // 2^53: sums of a few of these stay within 64 bits
 constexpr double INT_LIMIT = std::numeric_limits<std::int32_t>::max();
@@ -30,6 +32,7 @@ constexpr std::string_view PBR = "materials/*/pbrMetallicRoughness";
 constexpr auto RULES = std::to_array<Rule>({
     {.key = "asset", .want = Want::object, .required = true},
     {.at = "asset", .key = "version", .want = Want::text, .required = true},
+    {.at = "asset", .key = "minVersion", .want = Want::text, .words = "2.0"},
     {.key = "extensionsUsed", .want = Want::texts},
     {.key = "extensionsRequired", .want = Want::texts},
     {.key = "extensions", .want = Want::object},
@@ -51,7 +54,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "bufferViews/*", .key = "buffer", .want = Want::index, .required = true, .into = "buffers"},
     {.at = "bufferViews/*", .key = "byteOffset", .want = Want::natural, .min = 0, .max = BYTES_MAX},
     {.at = "bufferViews/*", .key = "byteLength", .want = Want::natural, .required = true, .min = 1, .max = BYTES_MAX},
-    {.at = "bufferViews/*", .key = "byteStride", .want = Want::natural, .min = 4, .max = 252},
+    {.at = "bufferViews/*", .key = "byteStride", .want = Want::natural, .min = 4, .max = 252, .step = 4},
 
     {.at = "accessors/*", .key = "bufferView", .want = Want::index, .into = "bufferViews"},
     {.at = "accessors/*", .key = "byteOffset", .want = Want::natural, .min = 0, .max = BYTES_MAX},
@@ -91,14 +94,14 @@ constexpr auto RULES = std::to_array<Rule>({
 
     {.at = "images/*", .key = "uri", .want = Want::text},
     {.at = "images/*", .key = "bufferView", .want = Want::index, .into = "bufferViews"},
-    {.at = "images/*", .key = "name", .want = Want::text},
+    {.at = "images/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "samplers/*", .key = "magFilter", .want = Want::natural, .words = "9728 9729"},
     {.at = "samplers/*", .key = "wrapS", .want = Want::natural, .words = "10497 33071 33648"},
     {.at = "samplers/*", .key = "wrapT", .want = Want::natural, .words = "10497 33071 33648"},
     {.at = "textures/*", .key = "sampler", .want = Want::index, .into = "samplers"},
     {.at = "textures/*", .key = "source", .want = Want::index, .into = "images"},
 
-    {.at = "materials/*", .key = "name", .want = Want::text},
+    {.at = "materials/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "materials/*", .key = "extensions", .want = Want::object},
     {.at = "materials/*", .key = "emissiveFactor", .want = Want::numbers, .min = 0, .size = 3},
     {.at = "materials/*", .key = "alphaMode", .want = Want::text, .words = "OPAQUE MASK BLEND"},
@@ -121,7 +124,7 @@ constexpr auto RULES = std::to_array<Rule>({
      .want = Want::number,
      .min = 0},
 
-    {.at = "meshes/*", .key = "name", .want = Want::text},
+    {.at = "meshes/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "meshes/*", .key = "primitives", .want = Want::objects, .required = true, .size = MANY},
     {.at = PRIMITIVE, .key = "attributes", .want = Want::named_indices, .required = true, .into = "accessors"},
     {.at = PRIMITIVE, .key = "indices", .want = Want::index, .into = "accessors"},
@@ -131,7 +134,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "extensions", .key = "KHR_lights_punctual", .want = Want::object},
     {.at = "extensions/KHR_lights_punctual", .key = "lights", .want = Want::objects, .required = true, .size = MANY},
     {.at = LIGHT, .key = "type", .want = Want::text, .required = true, .words = "point spot directional"},
-    {.at = LIGHT, .key = "name", .want = Want::text},
+    {.at = LIGHT, .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = LIGHT, .key = "color", .want = Want::numbers, .min = 0, .size = 3},
     {.at = LIGHT, .key = "intensity", .want = Want::number, .min = 0},
     {.at = LIGHT, .key = "range", .want = Want::number, .min = POSITIVE},
@@ -140,7 +143,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "extensions/KHR_lights_punctual/lights/*/spot", .key = "outerConeAngle", .want = Want::number, .min = 0},
 
     {.at = "cameras/*", .key = "type", .want = Want::text, .required = true, .words = "perspective orthographic"},
-    {.at = "cameras/*", .key = "name", .want = Want::text},
+    {.at = "cameras/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "cameras/*", .key = "perspective", .want = Want::object, .required = true, .when = "perspective"},
     {.at = "cameras/*/perspective", .key = "yfov", .want = Want::number, .required = true, .min = POSITIVE},
     {.at = "cameras/*/perspective", .key = "znear", .want = Want::number, .required = true, .min = POSITIVE},
@@ -151,7 +154,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "cameras/*/orthographic", .key = "znear", .want = Want::number, .required = true, .min = 0},
     {.at = "cameras/*/orthographic", .key = "zfar", .want = Want::number, .required = true, .min = POSITIVE},
 
-    {.at = "nodes/*", .key = "name", .want = Want::text},
+    {.at = "nodes/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "nodes/*", .key = "camera", .want = Want::index, .into = "cameras"},
     {.at = "nodes/*", .key = "mesh", .want = Want::index, .into = "meshes"},
     {.at = "nodes/*", .key = "children", .want = Want::indices, .into = "nodes"},

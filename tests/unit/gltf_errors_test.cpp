@@ -44,6 +44,7 @@ const std::vector<Fault>& faults() {
   static const std::vector<Fault> FAULTS{
       {"/asset", "", "asset is missing, expected an object"},
       {"/asset/version", "", "asset: version is missing, expected a string"},
+      {"/asset/minVersion", "\"2.9\"", "asset: minVersion is \"2.9\", expected one of 2.0"},
       {"/asset/version", "\"1.0\"", "asset: version is '1.0', expected 2.0"},
       {"/extensionsRequired", R"(["KHR_draco_mesh_compression"])",
        "extensionsRequired: KHR_draco_mesh_compression not supported, expected none but KHR_lights_punctual"},
@@ -83,17 +84,20 @@ const std::vector<Fault>& faults() {
       {"/accessors/1/count", "2", "mesh 0 primitive 0: 2 indices, expected a multiple of 3 for triangles"},
       {"/accessors/2/count", "2", "mesh 0 primitive 0: NORMAL (accessor 2) has 2 elements, expected 3, as many as"},
       {"/accessors/2/componentType", "5125", "NORMAL (accessor 2) has componentType 5125, expected floats or normal"},
-      {"/bufferViews/0/buffer", "1", "bufferView 0: buffer is 1, expected an index into buffers (1 there)"},
       {"/buffers/0/byteLength", "4294967296",
        "buffer 0: byteLength is 4294967296, expected an integer 1 .. 4294967295"},
       {"/buffers/1", R"({"byteLength": 4294967295})",
        "buffers: have 4294967375 bytes together, expected at most 4294967296"},
       {"/nodes/1/name", '"' + std::string(5000, 'n') + '"', "node 1: name is \"nnn"},
+      {"/bufferViews/0/buffer", "1", "bufferView 0: buffer is 1, expected an index into buffers (1 there)"},
       {"/bufferViews/0/byteLength", "1000",
        "bufferView 0: 1000 bytes from byte 0, expected to end within the 80 bytes"},
       {"/bufferViews/0/byteOffset", "9007199254740000",
        "bufferView 0: 36 bytes from byte 9007199254740000, expected to"},
-      {"/bufferViews/0/byteStride", "2", "bufferView 0: byteStride is 2, expected an integer 4 .. 252"},
+      {"/bufferViews/0/byteStride", "2",
+       "bufferView 0: byteStride is 2, expected an integer 4 .. 252, a multiple of 4"},
+      {"/bufferViews/0/byteStride", "13",
+       "bufferView 0: byteStride is 13, expected an integer 4 .. 252, a multiple of 4"},
       {"/bufferViews/0/byteStride", "8", "byteStride of bufferView 0 is 8, expected at least 12, the size of an"},
 
       {"/meshes/0/primitives", "", "mesh 0: primitives is missing, expected an array"},
@@ -132,6 +136,10 @@ const std::vector<Fault>& faults() {
       {LIGHTS + "/0/range", "\"NaN\"", "light 0: range is \"NaN\", expected a number > 0"},
       {LIGHTS + "/0/intensity", "-2", "light 0: intensity is -2, expected a number >= 0"},
       {LIGHTS + "/0/intensity", "1e300", "light 0: intensity is 1e+300, expected a number >= 0"},
+      {LIGHTS + "/0", R"({"type": "directional", "color": [1e20, 0, 0], "intensity": 1e20})",
+       "light 0: color times intensity is infinite, expected a finite 32-bit number"},
+      {LIGHTS + "/0", R"({"type": "point", "color": [1e20, 0, 0], "intensity": 1e20})",
+       "light 0: color times intensity is infinite, expected a finite 32-bit number"},
       {LIGHTS + "/0/color", "[1, -1, 0]", "light 0: color is [1,-1,0], expected 3 numbers >= 0"},
       {LIGHTS + "/1/spot", "", "light 1: spot is missing, expected an object"},
       {LIGHTS + "/1/spot/outerConeAngle", "1.6", "light 1: outerConeAngle is 1.6, expected 0 .. pi/2 radians"},
@@ -216,18 +224,6 @@ TEST(GltfErrors, DataThatIsWrong) {
   expect_error(builder.document.dump(), "buffer 0: uri is missing, expected one");
 }
 
-TEST(GltfErrors, SparseAccessors) {
-  GltfBuilder builder = triangle();
-  const int at = builder.view(std::vector<std::uint8_t>{1, 1});
-  const int values = builder.view(std::vector<float>{1, 2, 3, 4, 5, 6});
-  json& sparse = builder.document["accessors"][0]["sparse"];
-  sparse = {{"count", 2},
-            {"indices", {{"bufferView", at}, {"componentType", UNSIGNED_BYTE}}},
-            {"values", {{"bufferView", values}}}};
-  expect_error(builder.gltf(), "accessor 0 sparse indices: index 1 is 1, expected more than the one before");
-  sparse["indices"]["bufferView"] = values;
-  sparse["indices"]["componentType"] = UNSIGNED_INT;
-  expect_error(builder.gltf(), "accessor 0 sparse indices: index 0 is 1065353216, expected more than the one before");
 /// The begin of a PNG of this size: all that is looked at before what images add up to is known.
 std::string png_header(std::uint32_t width, std::uint32_t height, char last) {
   std::string bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
@@ -262,6 +258,18 @@ TEST(GltfErrors, PrimitivesAreCountedOverAllMeshes) {
                "mesh 262: primitives is an array of 1000 elements, expected an array of objects, at most");
 }
 
+TEST(GltfErrors, SparseAccessors) {
+  GltfBuilder builder = triangle();
+  const int at = builder.view(std::vector<std::uint8_t>{1, 1});
+  const int values = builder.view(std::vector<float>{1, 2, 3, 4, 5, 6});
+  json& sparse = builder.document["accessors"][0]["sparse"];
+  sparse = {{"count", 2},
+            {"indices", {{"bufferView", at}, {"componentType", UNSIGNED_BYTE}}},
+            {"values", {{"bufferView", values}}}};
+  expect_error(builder.gltf(), "accessor 0 sparse indices: index 1 is 1, expected more than the one before");
+  sparse["indices"]["bufferView"] = values;
+  sparse["indices"]["componentType"] = UNSIGNED_INT;
+  expect_error(builder.gltf(), "accessor 0 sparse indices: index 0 is 1065353216, expected more than the one before");
   sparse["count"] = 7;
   expect_error(builder.gltf(), "accessor 0 sparse indices: 7 elements of 4 bytes, 4 apart, from byte 0, expected to");
 }
