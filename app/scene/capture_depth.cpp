@@ -13,7 +13,6 @@
 namespace lamp::app {
 namespace {
 
-constexpr double FURTHEST_M = 1e15;     // squares of distances must fit floats
 constexpr double NEAR_ROUNDING = 1e-6;  // how far beyond 1 a pixel on the near plane may come out
 
 const char* expectation(DepthKind kind) {

@@ -18,7 +18,8 @@ namespace lamp::app {
 namespace {
 
 constexpr std::uint32_t VERSION = 1;
-constexpr std::uint32_t LARGEST_SIDE = 65536;  // pixels; far more than a device takes
+constexpr std::uint32_t LARGEST_SIDE = 65536;                  // pixels; far more than a device takes
+constexpr std::uint64_t MOST_PIXELS = std::uint64_t{1} << 26;  // 3.5 GB of surfaces
 constexpr std::string_view DIRECTIONAL = "directional_lights";
 constexpr std::array<std::string_view, 16> KEYS{
     "version", "generator", "width",    "height", "clip_from_view", "view_from_world", "depth", "depth_kind",
@@ -55,9 +56,17 @@ View view_of(const JsonObject& frame, DepthKind kind) {
     frame.fail(
         "clip_from_view has reversed depth (near 1, far 0), expected near 0, far 1, as depth_kind says standard");
   if (kind != DepthKind::reversed && slope < 0.0) clip_from_view = turned_around(clip_from_view);
-  const Result<View> view = View::create(frame.whole("width", 1, LARGEST_SIDE), frame.whole("height", 1, LARGEST_SIDE),
-                                         clip_from_view, matrix_of(frame, "view_from_world"));
+  const std::uint32_t width = frame.whole("width", 1, LARGEST_SIDE);
+  const std::uint32_t height = frame.whole("height", 1, LARGEST_SIDE);
+  if (std::uint64_t{width} * height > MOST_PIXELS)
+    frame.fail(fmt::format("width and height are {} and {}, expected at most {} pixels", width, height, MOST_PIXELS));
+  const Result<View> view = View::create(width, height, clip_from_view, matrix_of(frame, "view_from_world"));
   if (!view) frame.fail(view.error().message);
+  const glm::dvec3 reach = glm::abs(glm::dvec3(view.value().world_from_view()[3]));
+  const double furthest = std::max({reach.x, reach.y, reach.z});
+  if (!(furthest <= FURTHEST_M))
+    frame.fail(
+        fmt::format("view_from_world puts the eye {} m from the origin, expected at most {} m", furthest, FURTHEST_M));
   return view.value();
 }
 
@@ -112,6 +121,9 @@ std::vector<DirectionalLight> directional_lights_of(const JsonObject& frame) {
 void read_lights(const JsonObject& frame, Manifest& manifest) {
   constexpr std::string_view EXPECTED = "an array of lights or the name of a .npy file";
   const nlohmann::json& lights = frame.at("lights", EXPECTED);
+  if (lights.is_array() && lights.size() > MOST_JSON_LIGHTS)
+    frame.fail(
+        fmt::format("lights has {} elements, expected at most {}, or a .npy file", lights.size(), MOST_JSON_LIGHTS));
   if (lights.is_array())
     manifest.lights = parse_lights(lights, frame.file);
   else if (lights.is_string())

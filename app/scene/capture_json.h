@@ -45,6 +45,9 @@ struct Manifest {
 /// The text of the frame.json that says this; with the lights in it unless they have a file.
 [[nodiscard]] std::string manifest_text(const Manifest& manifest);
 
+/// The most lights of a frame.json; a .npy file has room for all.
+inline constexpr std::size_t MOST_JSON_LIGHTS = std::size_t{1} << 20;
+
 /// Columns of a light's row in a .npy file.
 inline constexpr std::uint32_t LIGHT_COLUMNS = 16;
 

@@ -3,12 +3,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "error.h"
-#include "scene/capture_json.h"
 #include "files/json_values.h"
+#include "scene/capture_json.h"
 #include "scene/npy.h"
 
 namespace lamp::app {
@@ -19,6 +20,15 @@ constexpr std::array<std::string_view, 8> LIGHT_KEYS{"type",      "position",  "
 
 void check(std::span<const Light> lights, const std::string& file) {
   if (const auto error = check_lights(lights)) throw Error(fmt::format("{}: {}", file, error->text()));
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const glm::vec3 reach = glm::abs(lights[i].position);
+    const float furthest = std::max({reach.x, reach.y, reach.z});
+    if (furthest > FURTHEST_M)
+      throw Error(
+          fmt::format("{}: light {}: position reaches {:g} m, expected at most {:g} m, as squares of distances must "
+                      "fit 32-bit numbers",
+                      file, i, furthest, FURTHEST_M));
+  }
 }
 
 LightType type_of(const JsonObject& object) {

@@ -119,6 +119,9 @@ void write_capture(const fs::path& folder, const Scene& scene, LightsFormat ligh
   assert(scene.captured && "a capture is written from a captured frame");
   check_capture_folder(folder);
   check_emission(*scene.captured, folder);
+  if (lights == LightsFormat::json && scene.lights.size() > MOST_JSON_LIGHTS)
+    throw Error(fmt::format("{}: {} lights, expected at most {} in frame.json; a .npy file takes them", folder.string(),
+                            scene.lights.size(), MOST_JSON_LIGHTS));
   const fs::path place = place_of(folder);
   const fs::path name = temporary_name(place);
   try {

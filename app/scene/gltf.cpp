@@ -26,13 +26,11 @@ namespace {
 constexpr glm::vec3 AMBIENT{0.02F, 0.02F, 0.025F};
 constexpr glm::vec3 SKY{0.01F, 0.012F, 0.02F};
 
-/// Squares of distances in the scene must fit floats.
 void check_extent(const Box& box, const std::string& file) {
-  constexpr float FURTHEST = 1e15F;
   const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
   const float furthest = std::max({reach.x, reach.y, reach.z});
-  if (!(furthest <= FURTHEST)) {
-    gltf_fail(file, "scene", fmt::format("reaches {} m, expected at most {} m from the origin", furthest, FURTHEST));
+  if (!(furthest <= FURTHEST_M)) {
+    gltf_fail(file, "scene", fmt::format("reaches {} m, expected at most {} m from the origin", furthest, FURTHEST_M));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "scene/gltf_error.h"
+#include "scene/scene.h"
 
 namespace lamp::app {
 namespace {
@@ -47,7 +48,7 @@ glm::dmat4 local_transform(const GltfDocument& document, int index) {
 /// Whether products with positions stay well within floats.
 bool is_moderate(const glm::dmat4& matrix) {
   const double* numbers = glm::value_ptr(matrix);
-  return std::all_of(numbers, numbers + 16, [](double number) { return std::abs(number) <= 1e15; });
+  return std::all_of(numbers, numbers + 16, [](double number) { return std::abs(number) <= FURTHEST_M; });
 }
 
 /// The nodes that the scene begins with.

@@ -16,6 +16,9 @@
 
 namespace lamp::app {
 
+/// Of anything from the origin: squares of distances must fit 32-bit numbers.
+inline constexpr float FURTHEST_M = 1e15F;
+
 struct Vertex {
   glm::vec3 position{0.0F};
   glm::vec3 normal{0.0F, 1.0F, 0.0F};

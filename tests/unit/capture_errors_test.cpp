@@ -26,6 +26,7 @@ const std::vector<Fault>& faults() {
       {"/height", "-3", "height is -3, expected a whole number 1 .. 65536"},
       {"/height", "2.5", "height is 2.5, expected a whole number 1 .. 65536"},
       {"/heigth", "3", "\"heigth\" is not a key of the format; the nearest are height"},
+      {"/width", "22369622", "width is 22369622, expected a whole number 1 .. 65536"},
       {"/clip_from_view", "", "clip_from_view is missing, expected 16 numbers"},
       {"/clip_from_view", "[1, 2]", "clip_from_view has 2 elements, expected 16 numbers"},
       {"/clip_from_view", "7", "clip_from_view is 7, expected an array of 16 numbers"},
@@ -37,6 +38,8 @@ const std::vector<Fault>& faults() {
       {"/clip_from_view/14", "-0.5", "clip_from_view must have reversed depth (near 1, far 0)"},
       {"/view_from_world", "[0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1]", "view_from_world must be rigid"},
       {"/view_from_world/0", "2", "view_from_world must be rigid"},
+      {"/view_from_world/12", "1e38",
+       "view_from_world puts the eye 9.999999680285692e+37 m from the origin, expected at"},
       {"/view_from_world/3", "1", "view_from_world[0][3] must be 0, got 1"},
       {"/depth", "", "depth is missing, expected the name of a file in the same folder that ends in .exr"},
       {"/depth", "5", "depth is 5, expected the name of a file in the same folder that ends in .exr"},
@@ -44,10 +47,10 @@ const std::vector<Fault>& faults() {
        "depth is \"depth.png\", expected the name of a file in the same folder that ends in .exr"},
       {"/depth", "\"/etc/depth.exr\"", "expected the name of a file in the same folder that ends in .exr"},
       {"/depth", "\"../depth.exr\"", "expected the name of a file in the same folder that ends in .exr"},
+      {"/depth", "\"a/../../depth.exr\"", "expected the name of a file in the same folder that ends in .exr"},
       {"/depth_kind", "\"inverse\"", "depth_kind is \"inverse\", expected reversed, standard, linear"},
       {"/depth_kind", "\"standard\"", "clip_from_view has reversed depth (near 1, far 0), expected near 0, far 1"},
       {"/albedo", "3", "albedo is 3, expected the name of a file in the same folder that ends in .exr"},
-      {"/depth", "\"a/../../depth.exr\"", "expected the name of a file in the same folder that ends in .exr"},
       {"/ambient", "[1, 2]", "ambient has 2 elements, expected 3 numbers"},
       {"/ambient", "[1, 2, -1]", "ambient is [1,2,-1], expected numbers >= 0"},
       {"/directional_lights", "{}", "directional_lights is {}, expected an array"},
@@ -62,6 +65,8 @@ const std::vector<Fault>& faults() {
       {"/lights/0/type", "", "light 0: type is missing, expected \"point\" or \"spot\""},
       {"/lights/0/type", "\"area\"", "light 0: type is \"area\", expected \"point\" or \"spot\""},
       {"/lights/0/position", "", "light 0: position is missing, expected 3 numbers"},
+      {"/lights/0/position", "[0, -1e38, 0]",
+       "light 0: position reaches 1e+38 m, expected at most 1e+15 m, as squares of distances must fit 32-bit numbers"},
       {"/lights/0/range", "-1", "light 0: range must be >= 0 m, got -1"},
       {"/lights/0/range", "\"far\"", "light 0: range is \"far\", expected a finite 32-bit number"},
       {"/lights/1/direction", "", "light 1: direction is missing, expected 3 numbers"},
@@ -81,6 +86,18 @@ TEST_F(CaptureErrors, NameTheElementAndWhatWasExpected) {
     change(fault.pointer, fault.value);
     expect_error("frame.json", fault.says);
   }
+}
+
+TEST_F(CaptureErrors, MoreThanMemoryHolds) {
+  json frame = frame_json();
+  frame["width"] = 65536;
+  frame["height"] = 1025;
+  write("frame.json", frame.dump());
+  expect_error("frame.json", "width and height are 65536 and 1025, expected at most 67108864 pixels");
+  frame = frame_json();
+  frame["lights"] = std::vector<int>(1'048'577);
+  write("frame.json", frame.dump());
+  expect_error("frame.json", "lights has 1048577 elements, expected at most 1048576, or a .npy file");
 }
 
 TEST_F(CaptureErrors, TextThatIsNoFrame) {
@@ -221,6 +238,7 @@ TEST_F(CaptureErrors, RowsThatAreNoLights) {
   expect_fault(3, -1.0F, "light 0: range must be >= 0 m, got -1");
   expect_fault(3, std::numeric_limits<float>::quiet_NaN(), "light 0: range must be >= 0 m, got nan");
   expect_fault(16, std::numeric_limits<float>::infinity(), "light 1: position must be finite");
+  expect_fault(16, -2e15F, "light 1: position reaches 2e+15 m, expected at most 1e+15 m");
   expect_fault(16 + 12, 2.0F, "light 1: outer angle must be 0 .. pi/2 radians, got 2");
   expect_fault(16 + 13, 2.0F, "light 1: type (column 13) is 2, expected 0 (point) or 1 (spot)");
   expect_fault(15, 1.0F, "light 0: column 15 is 1, expected 0 (reserved)");
