@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "error.h"
+#include "files/json_values.h"
 #include "files/read_file.h"
 #include "files/read_json.h"
 #include "image/write_file.h"
@@ -66,7 +67,7 @@ Calibration parse_calibration(std::string_view text, const std::string& source) 
     throw Error(source + ": is no calibration of lamp");
   if (document.value("version", json()) != VERSION)
     throw Error(
-        fmt::format("{}: version: expected {}, got {}", source, VERSION, document.value("version", json()).dump()));
+        fmt::format("{}: version: expected {}, got {}", source, VERSION, shown(document.value("version", json()))));
   Calibration calibration;
   for (const auto& [key, out] : {std::pair{"device", &calibration.device}, {"driver", &calibration.driver}}) {
     if (!document.contains(key) || !document[key].is_string())
@@ -121,7 +122,7 @@ std::string keep_calibration(const std::string& file, const Calibration& calibra
   if (file.empty()) return "there is neither XDG_CACHE_HOME nor HOME";
   try {
     NewFolders folders(fs::path(file).parent_path());
-    write_file(file, to_json(calibration).dump(1) + "\n");
+    write_file(file, json_text(to_json(calibration), 1) + "\n");
     folders.keep();
   } catch (const fs::filesystem_error& failure) {
     return fmt::format("{}: its folder cannot be made: {}", file, failure.code().message());

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "error.h"
+#include "files/read_json.h"
 
 namespace lamp::app {
 namespace {
@@ -19,7 +20,9 @@ using nlohmann::json;
 // lines of one.
 constexpr std::array<const char*, 7> SPLITS{"scene", "camera", "projection", "size", "range", "spots", "lights"};
 
-std::string plain_text(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string plain_text(const json& value) {
+  return value.is_string() ? value.get<std::string>() : json_text(value, -1);
+}
 
 /// A split's value in words.
 std::string named(const std::string& split, const json& value) {

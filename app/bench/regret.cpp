@@ -12,6 +12,7 @@
 
 #include "bench/statistics.h"
 #include "bench/summary.h"
+#include "files/read_json.h"
 
 namespace lamp::app {
 namespace {
@@ -26,7 +27,7 @@ std::string frames_of(const json& result) {
   for (const auto& [key, value] : parameters.items())
     if (key.starts_with("option:")) options.push_back(key);
   for (const std::string& key : options) parameters.erase(key);
-  return result["series"].dump() + parameters.dump();
+  return json_text(result["series"], -1) + json_text(parameters, -1);
 }
 
 bool is_auto_result(const json& result) { return result["parameters"]["method"] == "auto"; }
@@ -83,7 +84,7 @@ void add_regret(json& results) {
     ++count;
     if (factor <= worst) continue;
     worst = factor;
-    where = fmt::format("{}: {} instead of {}", where_of(result), result["stats"]["method"].get<std::string>(),
+    where = fmt::format("{}: {} instead of {}", where_of(result), result["stats"].value("method", ""),
                         result["regret"]["best"].get<std::string>());
   }
   if (count == 0) return;

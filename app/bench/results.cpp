@@ -10,6 +10,8 @@
 #include <set>
 
 #include "error.h"
+#include "files/json_values.h"
+#include "files/read_json.h"
 
 namespace lamp::app {
 namespace {
@@ -37,13 +39,13 @@ void check_same(const json& results, const json& earlier, const std::string& fil
   const json& then = earlier["run"][field];
   if (now == then) return;
   throw Error(fmt::format("{}: was measured with {} {}, and now it is {}; expected the same, or another --out", file,
-                          field, then.dump(), now.dump()));
+                          field, shown(then), shown(now)));
 }
 
 /// A cell of the table: quoted where it must be.
 std::string csv_cell(const json& value) {
   if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
+  if (!value.is_string()) return json_text(value, -1);
   std::string text = value.get<std::string>();
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -126,7 +128,7 @@ json new_results(const RunInfo& run, const Suite& suite) {
 void take_over(json& results, const json& earlier, const std::string& file, std::span<const Group> groups) {
   if (earlier["suite"]["name"] != results["suite"]["name"])
     throw Error(fmt::format("{}: holds the suite {}; expected {}, or another --out", file,
-                            earlier["suite"]["name"].dump(), results["suite"]["name"].dump()));
+                            shown(earlier["suite"]["name"]), shown(results["suite"]["name"])));
   for (const char* field : {"device", "driver", "commit"}) check_same(results, earlier, file, field);
   std::set<std::string> wanted;
   for (const Group& group : groups)

@@ -19,6 +19,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
+#include "files/read_json.h"
 #include "image/write_file.h"
 #include "render/judgement.h"
 #include "scene/builtin.h"
@@ -120,7 +121,8 @@ int measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gro
     const std::string where = fmt::format("{}: {} {} {} lights: ", group.series, group.scene, group.size, group.lights);
     const auto say = [&](const std::string& words) {
       progress.clear();
-      print_out("{}\n{}", where, words);
+      print_out("{}\n", where);
+      write_out(words);
     };
     try {
       add_group(results, measure({.device = device,
@@ -136,7 +138,7 @@ int measure_all(BenchDevice& device, const fs::path& folder, std::span<const Gro
       break;
     }
     done += weight_of(group);
-    write_text(folder / "results.json", results.dump(1) + "\n");
+    write_text(folder / "results.json", json_text(results, 1) + "\n");
   }
   progress.clear();
   return StopRequest::signal();
@@ -197,7 +199,7 @@ Exit bench(const BenchOptions& o) {
   results["run"]["complete"] = complete;
   results["run"]["left_out"] = expansion.left_out;
   add_regret(results);
-  write_text(folder / "results.json", results.dump(1) + "\n");
+  write_text(folder / "results.json", json_text(results, 1) + "\n");
   write_text(folder / "results.csv", results_csv(results));
   const ReportRun run{.results = results, .file = folder / "results.json"};
   write_text(folder / "report.html", report_html({&run, 1}));

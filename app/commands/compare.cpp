@@ -13,6 +13,7 @@
 #include "commands/panels.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
+#include "files/read_json.h"
 #include "render/heatmap.h"
 #include "system/print.h"
 
@@ -95,7 +96,7 @@ Exit compare(const CompareOptions& o) {
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
     const nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};
-    print_out("{}\n", json.dump(2));
+    write_out(json_text(json, 2) + "\n");
     return Exit::done;
   }
   print_out("{:<24} {:>14} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "method", "evaluations", "mean", "longest",

@@ -9,6 +9,7 @@
 
 #include "commands/commands.h"
 #include "commands/request.h"
+#include "files/read_json.h"
 #include "scene/builtin.h"
 #include "scene/scene_info.h"
 #include "system/print.h"
@@ -136,7 +137,7 @@ Exit info(const InfoOptions& o) {
   if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
   const SceneInfo found = describe(scene);
   if (o.json)
-    print_out("{}\n", to_json(o, scene, found).dump(2));
+    write_out(json_text(to_json(o, scene, found), 2) + "\n");
   else
     print_info(o, scene, found);
   return Exit::done;

@@ -11,6 +11,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/request.h"
+#include "files/read_json.h"
 #include "gpu/context.h"
 #include "lamplight/method.h"
 #include "scene/builtin.h"
@@ -73,7 +74,7 @@ void print_methods() {
 Exit list_method(const std::string& name, bool json) {
   const Method& method = parse_method(name);
   if (json) {
-    print_out("{}\n", method_json(method).dump(2));
+    write_out(json_text(method_json(method), 2) + "\n");
     return Exit::done;
   }
   print_method(method);
@@ -138,7 +139,7 @@ Exit list(const std::string& what, const std::string& name, bool json) {
   if (what == "devices") {
     const std::vector<DeviceRow> rows = list_devices();
     if (json)
-      print_out("{}\n", devices_json(rows).dump(2));
+      write_out(json_text(devices_json(rows), 2) + "\n");
     else
       print_devices(rows);
     return rows.empty() ? Exit::no_device : Exit::done;
@@ -147,7 +148,7 @@ Exit list(const std::string& what, const std::string& name, bool json) {
                                 : what == "suites" ? std::pair(&suites_json, &print_suites)
                                                    : std::pair(&scenes_json, &print_scenes);
   if (json)
-    print_out("{}\n", as_json().dump(2));
+    write_out(json_text(as_json(), 2) + "\n");
   else
     print();
   return Exit::done;

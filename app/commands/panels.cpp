@@ -12,6 +12,7 @@
 
 #include "commands/pictures.h"
 #include "commands/stats.h"
+#include "files/read_json.h"
 #include "render/heatmap.h"
 #include "system/print.h"
 
@@ -116,7 +117,7 @@ void print_rows(std::span<const Row> rows, bool json) {
     add_number(one, "waste", f.waste(), NONE_USEFUL);
     array.push_back(std::move(one));
   }
-  if (json) print_out("{}\n", array.dump(2));
+  if (json) write_out(json_text(array, 2) + "\n");
 }
 
 LdrImage stacked(const LdrImage& above, const LdrImage& below) {

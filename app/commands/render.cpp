@@ -13,6 +13,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
+#include "files/read_json.h"
 #include "image/write_file.h"
 #include "render/antialias.h"
 #include "system/print.h"
@@ -129,9 +130,9 @@ Exit render(const RenderOptions& o) {
   write_map(o.heatmap, nullptr);
   write_map(o.overlay, &toned);
   const nlohmann::json json = to_json(stats);
-  if (!o.stats.empty()) write_output(o.stats, [&](const auto& file) { write_text(file, json.dump(2) + "\n"); });
+  if (!o.stats.empty()) write_output(o.stats, [&](const auto& file) { write_text(file, json_text(json, 2) + "\n"); });
   if (o.json)
-    print_out("{}\n", json.dump(2));
+    write_out(json_text(json, 2) + "\n");
   else
     print_summary(o, stats, setup, chosen);
   return Exit::done;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "files/read_json.h"
 #include "system/print.h"
 
 namespace lamp::app {
@@ -70,7 +71,7 @@ void print_table(std::span<const Stats> rows) {
 void print_json(std::span<const Stats> rows) {
   nlohmann::json array = nlohmann::json::array();
   for (const Stats& row : rows) array.push_back(to_json(row));
-  print_out("{}\n", array.dump(2));
+  write_out(json_text(array, 2) + "\n");
 }
 
 }  // namespace lamp::app

@@ -103,7 +103,7 @@ json parse_json(std::string_view text, const std::string& file, std::size_t most
 }
 
 std::string json_text(const json& document, int indent) {
-  return document.dump(indent, ' ', /* ensure_ascii= */ false, json::error_handler_t::replace);
+  return document.dump(indent, ' ', /* ensure_ascii= */ true, json::error_handler_t::replace);
 }
 
 }  // namespace lamp::app

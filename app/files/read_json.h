@@ -18,7 +18,8 @@ inline constexpr std::size_t MOST_JSON_VALUES = std::size_t{1} << 25;
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, const std::string& file,
                                         std::size_t most_values = MOST_JSON_VALUES);
 
-/// The document as text for others: what is no UTF-8 (names of files may be) is replaced, as JSON cannot hold it.
+/// The document as text, all ASCII, so that no terminal acts on it. What is no UTF-8 (names of files may be) is
+/// replaced, as JSON cannot hold it.
 [[nodiscard]] std::string json_text(const nlohmann::json& document, int indent);
 
 }  // namespace lamp::app

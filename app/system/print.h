@@ -5,8 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+
+#include "files/printable.h"
 
 namespace lamp::app {
 
@@ -14,19 +18,32 @@ namespace lamp::app {
 /// receives what is printed. Writing to them is still an error. To be called first of all.
 void open_standard_streams();
 
+/// Text of the program's own, as it is.
 void write_out(std::string_view text);
 void write_error(std::string_view text);
 
-/// Like fmt::print, to stdout.
+/// fmt::format with the texts among its arguments made printable: names come from anywhere.
 template <class... Arguments>
-void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  write_out(fmt::format(format, std::forward<Arguments>(arguments)...));
+std::string format_printable(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  const auto shown = [](const auto& argument) {
+    if constexpr (std::is_convertible_v<decltype(argument), std::string_view>)
+      return printable(argument);
+    else
+      return argument;
+  };
+  return fmt::format(fmt::runtime(fmt::string_view(format)), shown(arguments)...);
 }
 
-/// Like fmt::print, to stderr.
+/// Like fmt::print, to stdout, with printable arguments.
+template <class... Arguments>
+void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  write_out(format_printable(format, std::forward<Arguments>(arguments)...));
+}
+
+/// Like fmt::print, to stderr, with printable arguments.
 template <class... Arguments>
 void print_error(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  write_error(fmt::format(format, std::forward<Arguments>(arguments)...));
+  write_error(format_printable(format, std::forward<Arguments>(arguments)...));
 }
 
 /// Whether progress is shown: on a terminal, unless it was hidden.

@@ -230,5 +230,20 @@ TEST_F(BadInput, ShaderFolderThatIsNone) {
                {"--shader-dir nowhere", "a checkout of Lamplight"});
 }
 
+TEST_F(BadInput, NamesOfFilesThatNoTerminalAndNoJsonCanHold) {
+  const std::filesystem::path whole =
+      std::filesystem::path(LAMPLIGHT_SOURCE_DIR) / "tests/fuzz/corpus_gltf/triangle.glb";
+  const std::string name = "red\x1b[31mcaf\xe9.glb";
+  std::filesystem::copy_file(whole, path(name));
+  const nlohmann::json stats = json_of({"render", name, "--lights", "2", "--size", "16x9", "--json"});
+  EXPECT_EQ(stats["scene"], "red\x1b[31mcaf\xef\xbf\xbd.glb");
+  const std::string summary = output_of({"render", name, "--lights", "2", "--size", "16x9"});
+  EXPECT_NE(summary.find("red\\x1b[31mcaf\\xe9.glb"), std::string::npos) << summary;
+  const Arguments bench{"bench", name, "--method", "tiled", "--lights", "2", "--size", "16x9", "--frames", "1"};
+  EXPECT_EQ(output_of(bench).find('\x1b'), std::string::npos);
+  EXPECT_NE(read("bench/results.json").find("caf\\ufffd.glb"), std::string::npos);
+  expect_error(BAD_INPUT, {"render", "\x1b[31m\xc2\x9b.glb"}, {"\\x1b[31m\\xc2\\x9b.glb: is not there"});
+}
+
 }  // namespace
 }  // namespace lamp::cli
