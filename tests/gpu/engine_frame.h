@@ -1,0 +1,72 @@
+// What an engine around a Culler has: a frame with its lights and depth, and a shader that walks the look-up.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "gpu/dispatch.h"
+#include "lamplight/view.h"
+
+namespace lamp::app {
+
+constexpr std::uint32_t ENGINE_WIDTH = 85;  // no multiple of any tile
+constexpr std::uint32_t ENGINE_HEIGHT = 51;
+constexpr std::uint32_t ENGINE_LIGHTS = 64;  ///< capacity: one bit a light in walk.comp
+
+struct EngineFrame {
+  View view;
+  std::vector<shared::Light> lights;
+  std::vector<float> depth;
+  GpuImage depth_image;
+  vulkan::Buffer light_buffer;
+  vulkan::Buffer sphere_buffer;
+};
+
+struct EngineFrameInfo {
+  std::string_view projection = "infinite";
+  std::uint32_t lights = ENGINE_LIGHTS;
+  std::uint32_t seed = 1;
+};
+
+/// The corridor as one projection shows it.
+[[nodiscard]] EngineFrame engine_frame(const EngineFrameInfo& info = {});
+
+/// All that a Culler may be told of it; which of it is read depends on the method.
+[[nodiscard]] vulkan::CullerFrame culler_frame(const EngineFrame& frame);
+
+/// A Culler for these frames.
+[[nodiscard]] Result<vulkan::Culler> engine_culler(std::string_view method, std::vector<std::string> options = {},
+                                                   bool brings_spheres = false);
+
+/// A pixel's lights, a bit each.
+using Masks = std::vector<glm::uvec2>;
+
+/// Asks the look-up for the lights of every pixel of a frame.
+class MaskPass {
+ public:
+  MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame);
+
+  /// The dispatch alone: nothing is ordered before or after.
+  void record(VkCommandBuffer commands, const vulkan::BoundLookUp& lookup) const;
+  /// Makes what it wrote visible to the host.
+  static void record_to_host(VkCommandBuffer commands);
+  [[nodiscard]] Masks masks() const { return contents<glm::uvec2>(masks_); }
+
+ private:
+  const EngineFrame& frame_;
+  vulkan::Pipeline pipeline_;
+  vulkan::Buffer frames_;
+  vulkan::Buffer masks_;
+};
+
+/// Culls and walks in one command buffer. The engine orders nothing between the two: the Culler has done so.
+[[nodiscard]] Masks cull_and_walk(vulkan::Culler& culler, const EngineFrame& frame);
+
+/// Every light that reaches a pixel, by the oracle, is in its mask.
+void expect_no_miss(const EngineFrame& frame, const Masks& masks);
+
+/// Lights of all pixels together.
+[[nodiscard]] std::uint64_t walked(const Masks& masks);
+
+}  // namespace lamp::app
