@@ -8,8 +8,11 @@ namespace lamp::app {
 using Passes = vulkan::PlanRunner::Passes;
 
 OverDepth::OverDepth(const View& view, const std::vector<float>& depth, const std::vector<shared::Light>& lights)
+    : OverDepth(view, depth_image(view.width(), view.height(), depth), lights) {}
+
+OverDepth::OverDepth(const View& view, GpuImage depth, const std::vector<shared::Light>& lights)
     : size_(view.width(), view.height()),
-      depth_(depth_image(size_.x, size_.y, depth)),
+      depth_(std::move(depth)),
       data_(test_context().device(), static_cast<std::uint32_t>(lights.size())) {
   data_.set(view, lights);
 }

@@ -15,6 +15,8 @@ class OverDepth {
  public:
   /// `depth`: device depths of all the view's pixels, row by row.
   OverDepth(const View& view, const std::vector<float>& depth, const std::vector<shared::Light>& lights);
+  /// Of an image that is larger than the picture.
+  OverDepth(const View& view, GpuImage depth, const std::vector<shared::Light>& lights);
 
   /// Records the plan, then `shader`, compiled against the plan's look-up: 0 is the frame, 1 a word for each pixel,
   /// which it writes and this returns.

@@ -24,7 +24,7 @@ using ResourceId = std::uint32_t;
 
 inline constexpr ResourceId INPUT_FRAME = 0;    ///< one shared::Frame: a uniform buffer in compute passes, else storage
 inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, shared::Light[light capacity]
-inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth, one sample a pixel
+inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth, one sample a pixel; may be larger
 inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]
 inline constexpr ResourceId PLAN_BUFFER = 4;    ///< the first buffer of the plan
 inline constexpr ResourceId NO_RESOURCE = ~0U;

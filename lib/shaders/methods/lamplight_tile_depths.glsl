@@ -19,10 +19,15 @@ const uint MOST_HELD = 2u;
 const uint SQUARES_ACROSS = TILE_PX / 2u;
 const uint SQUARES = SQUARES_ACROSS * SQUARES_ACROSS;
 
-// Beyond the picture its edge again, which is of the same tile.
+// 0 beyond the picture, whatever a larger image holds there. Gathered are the four around the corner that they share, in
+// the order of Vulkan: (0, 1), (1, 1), (1, 0), (0, 0).
 vec4 square_depths(uvec2 tile, uint square) {
   const uvec2 pixel = tile * TILE_PX + 2u * uvec2(square % SQUARES_ACROSS, square / SQUARES_ACROSS);
-  return textureGather(depth_squares, vec2(pixel + 1u) / vec2(frame.size_px));  // around the corner that they share
+  const vec4 depths = textureGather(depth_squares, vec2(pixel + 1u) / vec2(textureSize(depth_squares, 0)));
+  const uvec4 x = pixel.x + uvec4(0u, 1u, 1u, 0u);
+  const uvec4 y = pixel.y + uvec4(1u, 1u, 0u, 0u);
+  const vec4 in_rows = mix(vec4(0.0), depths, lessThan(y, uvec4(frame.size_px.y)));
+  return mix(vec4(0.0), in_rows, lessThan(x, uvec4(frame.size_px.x)));
 }
 
 void load_depths(uvec2 tile, uint first, out vec4 depths[MOST_HELD]) {

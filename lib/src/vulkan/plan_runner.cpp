@@ -68,7 +68,7 @@ Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const Sh
   return Pipeline::graphics(device, pipeline_info(pass), vertex.value(), shader.value(), graphics_state(pass.raster));
 }
 
-/// Of the depth image, whose shaders may gather four pixels at once: beyond the picture its edge again.
+/// Of the depth image, whose shaders may gather four pixels at once, and leave out what lies beyond the picture.
 Result<OwnedSampler> depth_sampler(const Device& device) {
   const VkSamplerCreateInfo create{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                    .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
