@@ -34,7 +34,7 @@ bool has_debug_utils(const char* layer) {
 
 VkInstance make_instance(ContextInfo::Validation validation) {
   const VkApplicationInfo application{
-      .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "lamp", .apiVersion = VK_API_VERSION_1_3};
+      .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "lamp", .apiVersion = INSTANCE_VERSION};
   constexpr std::array FEATURES{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                          .enabledValidationFeatureCount = FEATURES.size(),
@@ -197,7 +197,7 @@ void Context::create_device(bool pipeline_statistics) {
                                   .ppEnabledExtensionNames = extensions.data()};
   check(vkCreateDevice(physical_, &create, nullptr, &handle_), "creating the device");
   vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
-  device_ = take(vulkan::make_device(physical_, handle_), Exit::no_device);
+  device_ = take(vulkan::make_device(physical_, handle_, INSTANCE_VERSION), Exit::no_device);
   device_.traits.conservative_raster = optional.conservative_raster;
   device_.pipeline_statistics = optional.describes;
   device_.pipeline_robustness = optional.unchecked;

@@ -49,7 +49,7 @@ DeviceRow describe(VkPhysicalDevice physical) {
   VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
   vkGetPhysicalDeviceProperties2(physical, &properties);
-  const std::optional<lamp::Error> problem = vulkan::check_device(physical);
+  const std::optional<lamp::Error> problem = vulkan::check_device(physical, INSTANCE_VERSION);
   return {.name = properties.properties.deviceName,
           .kind = KINDS[rank(properties.properties.deviceType)],
           .driver = fmt::format("{} {}", driver.driverName, driver.driverInfo),

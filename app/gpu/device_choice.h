@@ -8,6 +8,8 @@
 
 namespace lamp::app {
 
+inline constexpr std::uint32_t INSTANCE_VERSION = VK_API_VERSION_1_3;  ///< of every instance that the tool makes
+
 [[nodiscard]] DeviceRow describe(VkPhysicalDevice physical);
 
 /// Throws Error (Exit::no_device) with the devices there are when none fits.

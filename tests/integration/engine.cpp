@@ -51,9 +51,8 @@ Engine::Engine() {
 }
 
 void Engine::create_instance() {
-  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                      .pApplicationName = "small engine",
-                                      .apiVersion = VK_API_VERSION_1_3};
+  const VkApplicationInfo application{
+      .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "small engine", .apiVersion = API_VERSION};
   const VkDebugUtilsMessengerCreateInfoEXT messenger{
       .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
       .messageSeverity =
@@ -86,7 +85,7 @@ void Engine::create_device() {
   std::uint32_t count = 1;
   vkEnumeratePhysicalDevices(instance_, &count, &physical_);
   if (count == 0) throw std::runtime_error("there is no Vulkan device");
-  if (const auto lack = lamp::vulkan::check_device(physical_)) throw std::runtime_error(lack->text());
+  if (const auto lack = lamp::vulkan::check_device(physical_, API_VERSION)) throw std::runtime_error(lack->text());
 
   const lamp::vulkan::RequiredFeatures features;  // an engine with features of its own sets these among them
   const auto extensions = lamp::vulkan::required_extensions();

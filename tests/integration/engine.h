@@ -54,6 +54,8 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
+  static constexpr std::uint32_t API_VERSION = VK_API_VERSION_1_3;  ///< of the instance
+
   [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
   [[nodiscard]] VkDevice device() const { return device_; }
   [[nodiscard]] std::string device_name() const;

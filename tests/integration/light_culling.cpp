@@ -17,7 +17,8 @@ T value_of(lamp::Result<T> result) {
 
 LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info)
     : engine_(engine), spirv_(info.spirv), size_(info.size) {
-  const lamp::vulkan::Device device = value_of(lamp::vulkan::make_device(engine.physical(), engine.device()));
+  const lamp::vulkan::Device device =
+      value_of(lamp::vulkan::make_device(engine.physical(), engine.device(), Engine::API_VERSION));
   culler_ = value_of(lamp::vulkan::Culler::create(device, {.width = info.size.width,
                                                            .height = info.size.height,
                                                            .light_capacity = info.light_capacity,

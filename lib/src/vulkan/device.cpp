@@ -25,21 +25,39 @@ void load(VkDevice device, const char* name, Function& out) {
   out = reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
 }
 
+std::string version_text(std::uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+}
+
+/// Calls `function(feature, name)` for each feature that Lamplight needs.
+template <class Features, class Function>
+void for_each_feature(Features& features, Function function) {
+  function(features.vulkan12.scalarBlockLayout, "scalarBlockLayout");
+  function(features.vulkan13.subgroupSizeControl, "subgroupSizeControl");
+  function(features.vulkan13.computeFullSubgroups, "computeFullSubgroups");
+  function(features.vulkan13.synchronization2, "synchronization2");
+  function(features.vulkan13.dynamicRendering, "dynamicRendering");
+  function(features.vulkan13.maintenance4, "maintenance4");
+  function(features.base.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
+}
+
 }  // namespace
 
-RequiredFeatures::RequiredFeatures() {
+RequiredFeatures::RequiredFeatures(VkBool32 enabled) {
   vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  vulkan13.subgroupSizeControl = VK_TRUE;
-  vulkan13.computeFullSubgroups = VK_TRUE;
-  vulkan13.synchronization2 = VK_TRUE;
-  vulkan13.dynamicRendering = VK_TRUE;
-  vulkan13.maintenance4 = VK_TRUE;
   vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-  vulkan12.scalarBlockLayout = VK_TRUE;
   vulkan12.pNext = &vulkan13;
   base.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  base.features.fragmentStoresAndAtomics = VK_TRUE;
   base.pNext = &vulkan12;
+  for_each_feature(*this, [&](VkBool32& feature, std::string_view /*name*/) { feature = enabled; });
+}
+
+std::optional<std::string_view> missing_feature(const RequiredFeatures& has) {
+  std::optional<std::string_view> missing;
+  for_each_feature(has, [&](VkBool32 feature, std::string_view name) {
+    if (feature == VK_FALSE && !missing) missing = name;
+  });
+  return missing;
 }
 
 std::span<const char* const> required_extensions() { return EXTENSIONS; }
@@ -58,27 +76,20 @@ bool has_pipeline_robustness(VkPhysicalDevice physical) {
   return has.pipelineRobustness == VK_TRUE;
 }
 
-std::optional<Error> check_device(VkPhysicalDevice physical) {
+std::optional<Error> check_device(VkPhysicalDevice physical, std::uint32_t instance_version) {
+  if (instance_version < VK_API_VERSION_1_3)
+    return Error{"instance", "needs Vulkan 1.3 as VkApplicationInfo::apiVersion, was made with " +
+                                 version_text(instance_version == 0 ? VK_API_VERSION_1_0 : instance_version)};
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(physical, &properties);
   const std::string source = "device " + std::string(properties.deviceName);
   if (properties.apiVersion < VK_API_VERSION_1_3)
-    return Error{source, "needs Vulkan 1.3, has " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
-                             std::to_string(VK_API_VERSION_MINOR(properties.apiVersion))};
+    return Error{source, "needs Vulkan 1.3, has " + version_text(properties.apiVersion)};
   for (const char* extension : EXTENSIONS)
     if (!has_extension(physical, extension)) return Error{source, std::string("lacks the extension ") + extension};
-  RequiredFeatures has;
+  RequiredFeatures has(VK_FALSE);
   vkGetPhysicalDeviceFeatures2(physical, &has.base);
-  const std::pair<VkBool32, const char*> needed[] = {
-      {has.vulkan12.scalarBlockLayout, "scalarBlockLayout"},
-      {has.vulkan13.subgroupSizeControl, "subgroupSizeControl"},
-      {has.vulkan13.computeFullSubgroups, "computeFullSubgroups"},
-      {has.vulkan13.synchronization2, "synchronization2"},
-      {has.vulkan13.dynamicRendering, "dynamicRendering"},
-      {has.vulkan13.maintenance4, "maintenance4"},
-      {has.base.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics"}};
-  for (const auto& [supported, name] : needed)
-    if (supported == VK_FALSE) return Error{source, std::string("lacks the feature ") + name};
+  if (const auto missing = missing_feature(has)) return Error{source, "lacks the feature " + std::string(*missing)};
   return std::nullopt;
 }
 
@@ -140,8 +151,8 @@ void Device::name(VkObjectType type, std::uint64_t object, std::string_view text
   set_object_name(handle, &info);
 }
 
-Result<Device> make_device(VkPhysicalDevice physical, VkDevice handle) {
-  if (auto error = check_device(physical)) return *error;
+Result<Device> make_device(VkPhysicalDevice physical, VkDevice handle, std::uint32_t instance_version) {
+  if (auto error = check_device(physical, instance_version)) return *error;
   Device device{.physical = physical, .handle = handle, .traits = traits_of(physical)};
   vkGetPhysicalDeviceMemoryProperties(physical, &device.memory);
   VkPhysicalDeviceProperties properties{};

@@ -19,7 +19,8 @@ namespace lamp::vulkan {
 /// Vulkan 1.3: scalar block layout, subgroup size control, full subgroups, synchronization2, dynamic rendering,
 /// maintenance4.
 struct LAMPLIGHT_API RequiredFeatures {
-  RequiredFeatures();
+  /// VK_FALSE: none of them yet, for vkGetPhysicalDeviceFeatures2 to fill.
+  explicit RequiredFeatures(VkBool32 enabled = VK_TRUE);
   RequiredFeatures(const RequiredFeatures&) = delete;
   RequiredFeatures& operator=(const RequiredFeatures&) = delete;
 
@@ -39,8 +40,14 @@ struct LAMPLIGHT_API RequiredFeatures {
 /// Device::pipeline_robustness.
 [[nodiscard]] LAMPLIGHT_API bool has_pipeline_robustness(VkPhysicalDevice physical);
 
+/// The name of the first of the required features that is VK_FALSE, or nothing.
+[[nodiscard]] LAMPLIGHT_API std::optional<std::string_view> missing_feature(const RequiredFeatures& has);
+
 /// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
-[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(VkPhysicalDevice physical);
+/// `instance_version`: VkApplicationInfo::apiVersion of its instance. A device does not know it, and one of 1.3 does no
+/// more than 1.0 for an instance that asked for no more.
+[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(VkPhysicalDevice physical,
+                                                              std::uint32_t instance_version);
 
 /// Limits for planning.
 [[nodiscard]] LAMPLIGHT_API DeviceTraits traits_of(VkPhysicalDevice physical);
@@ -69,7 +76,8 @@ struct LAMPLIGHT_API Device {
 };
 
 /// Errors: `check_device`'s, or a device on which the extension was not enabled.
-[[nodiscard]] LAMPLIGHT_API Result<Device> make_device(VkPhysicalDevice physical, VkDevice device);
+[[nodiscard]] LAMPLIGHT_API Result<Device> make_device(VkPhysicalDevice physical, VkDevice device,
+                                                       std::uint32_t instance_version);
 
 /// The index of a memory type with all of `wanted`, preferring one that also has `preferred`.
 [[nodiscard]] LAMPLIGHT_API Result<std::uint32_t> find_memory_type(const Device& device, std::uint32_t type_bits,
