@@ -37,7 +37,9 @@ void FrameData::set(const View& view, std::span<const shared::Light> lights, std
   assert((lights.size() + decals.size()) * sizeof(shared::Light) <= lights_.bytes() &&
          decals.size_bytes() <= decals_.bytes() && "make FrameData with a larger capacity");
   host_lights_ = entity_records(lights, boxes_of(decals));
-  host_frame_ = view.frame(static_cast<std::uint32_t>(host_lights_.size()));
+  // Room for as many as there are: plans of any capacity from there on take it.
+  const auto count = static_cast<std::uint32_t>(host_lights_.size());
+  host_frame_ = view.frame(count, count);
   host_frame_.box_count = static_cast<std::uint32_t>(decals.size());
   changed_ = true;
   const std::span<std::byte> to = staging_.mapped();

@@ -140,13 +140,14 @@ glm::dvec3 View::world_position(std::uint32_t x, std::uint32_t y, double device_
   return {world_from_view_ * glm::dvec4(position, 1.0)};
 }
 
-shared::Frame View::frame(std::uint32_t light_count) const {
+shared::Frame View::frame(std::uint32_t light_count, std::uint32_t light_capacity) const {
   shared::Frame frame{};
   frame.clip_from_view = glm::mat4(clip_from_view_);
   frame.view_from_world = glm::mat4(view_from_world_);
   frame.world_from_view = glm::mat4(world_from_view_);
   frame.eye_world = glm::vec3(world_from_view_[3]);
   frame.light_count = light_count;
+  frame.light_capacity = light_capacity;
   frame.size_px = {width_, height_};
   frame.stretch = static_cast<float>(stretch_);
   return frame;

@@ -12,11 +12,11 @@
 namespace lamp::app {
 namespace {
 
-vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup) {
+vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup, glm::uvec2 group_px) {
   vulkan::PipelineInfo info{
       .name = "walk", .constants = lookup.constants, .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {2}}};
-  info.constants.push_back({0, 8});
-  info.constants.push_back({1, 8});
+  info.constants.push_back({0, group_px.x});
+  info.constants.push_back({1, group_px.y});
   for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
   return take(
       vulkan::Pipeline::compute(test_context().device(), info, test_shader("walk@" + std::string(lookup.name))));
@@ -60,11 +60,12 @@ Result<vulkan::Culler> engine_culler(std::string_view method, std::vector<std::s
                                                           .brings_spheres = brings_spheres});
 }
 
-MaskPass::MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame)
+MaskPass::MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px)
     : frame_(frame),
-      pipeline_(walk_pipeline(lookup)),
-      frames_(host_buffer_of("engine frame",
-                             std::vector{frame.view.frame(static_cast<std::uint32_t>(frame.lights.size()))})),
+      group_px_(group_px),
+      pipeline_(walk_pipeline(lookup, group_px)),
+      frames_(host_buffer_of("engine frame", std::vector{frame.view.frame(
+                                                 static_cast<std::uint32_t>(frame.lights.size()), ENGINE_LIGHTS)})),
       masks_(host_buffer("masks", frame.depth.size() * sizeof(glm::uvec2))) {}
 
 void MaskPass::record(VkCommandBuffer commands, const vulkan::BoundLookUp& lookup) const {
@@ -75,7 +76,8 @@ void MaskPass::record(VkCommandBuffer commands, const vulkan::BoundLookUp& looku
   vulkan::AccessTracker tracker;
   vulkan::Recorder recorder(test_context().device(), commands, tracker);
   recorder.bind(pipeline_, bound);
-  vkCmdDispatch(commands, (frame_.view.width() + 7) / 8, (frame_.view.height() + 7) / 8, 1);
+  const glm::uvec2 groups = (glm::uvec2(ENGINE_WIDTH, ENGINE_HEIGHT) + group_px_ - 1U) / group_px_;
+  vkCmdDispatch(commands, groups.x, groups.y, 1);
 }
 
 void MaskPass::record_to_host(VkCommandBuffer commands) {

@@ -45,7 +45,8 @@ using Masks = std::vector<glm::uvec2>;
 /// Asks the look-up for the lights of every pixel of a frame.
 class MaskPass {
  public:
-  MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame);
+  /// `group_px`: of a fused look-up, its work group.
+  MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px = {8, 8});
 
   /// The dispatch alone: nothing is ordered before or after.
   void record(VkCommandBuffer commands, const vulkan::BoundLookUp& lookup) const;
@@ -55,6 +56,7 @@ class MaskPass {
 
  private:
   const EngineFrame& frame_;
+  glm::uvec2 group_px_;
   vulkan::Pipeline pipeline_;
   vulkan::Buffer frames_;
   vulkan::Buffer masks_;

@@ -59,7 +59,7 @@ void PlanHarness::read_back(vulkan::Recorder& recorder, const std::vector<vulkan
 std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
   const auto light_count = static_cast<std::uint32_t>(lights_.size());
   shared::Frame frame{};
-  if (view_) frame = view_->frame(light_count);
+  if (view_) frame = view_->frame(light_count, light_count);
   std::memcpy(frame_.mapped().data(), &frame, sizeof(frame));
   std::vector<vulkan::Buffer> copies;
   for (const BufferDesc& buffer : runner_.plan().buffers) copies.push_back(host_buffer(buffer.name, buffer.bytes));

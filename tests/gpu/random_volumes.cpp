@@ -126,7 +126,7 @@ RandomBatch draw_batch(std::uint32_t seed, std::uint32_t tiles, Lights kind) {
   RandomBatch batch;
   for (std::uint32_t i = 0; i < BATCH_VIEWS; ++i) {
     views.push_back(random.view());
-    batch.frames.push_back(views.back().frame(0));
+    batch.frames.push_back(views.back().frame(0, 0));
   }
   for (std::uint32_t i = 0; i < tiles; ++i) {
     const View& view = views[i % BATCH_VIEWS];

@@ -46,7 +46,7 @@ Batch draw(std::uint32_t seed, Lights kind) {
 
 void ask(Batch& batch) {
   std::vector<shared::Frame> frames;
-  for (const View& view : batch.views) frames.push_back(view.frame(0));
+  for (const View& view : batch.views) frames.push_back(view.frame(0, 0));
   std::vector<shared::VolumeCase> cases;
   for (const RandomTile& tile : batch.tiles) cases.push_back(tile.volume);
   const vulkan::Buffer buffers[] = {host_buffer_of("frames", frames), host_buffer_of("cases", cases),

@@ -135,8 +135,9 @@ TEST(View, NumbersAreThirtyTwoBitValues) {
 
 TEST(View, FrameHoldsTheView) {
   const View view = make_view(lamp::perspective(OFF_CENTRE, NEAR, FAR), pose());
-  const lamp::shared::Frame frame = view.frame(77);
+  const lamp::shared::Frame frame = view.frame(77, 99);
   EXPECT_EQ(frame.light_count, 77U);
+  EXPECT_EQ(frame.light_capacity, 99U);
   EXPECT_EQ(frame.size_px, glm::uvec2(WIDTH, HEIGHT));
   EXPECT_EQ(glm::dmat4(frame.clip_from_view), view.clip_from_view());
   EXPECT_EQ(glm::dmat4(frame.view_from_world), view.view_from_world());

@@ -99,7 +99,7 @@ Sorted sort_on_host(const View& view, const std::vector<Placed>& lights, std::ve
   Sorted sorted{std::vector<std::uint32_t>(words(0)), std::vector<std::uint32_t>(words(1))};
   const std::span<std::byte> buffers[] = {std::as_writable_bytes(std::span(sorted.order)),
                                           std::as_writable_bytes(std::span(sorted.bins))};
-  const shared::Frame frame = view.frame(count);
+  const shared::Frame frame = view.frame(count, count);
   pass.host({.lights = packed, .frame = &frame, .buffers = buffers, .constants = pass.constants});
   sorted.order.resize(count);
   return sorted;

@@ -35,6 +35,6 @@ void main() {
     ++place;
     // Most are marked already, and an atomic is dear.
     if ((LOAD_OF_DEVICE(marks[word]) & bit) != 0u) continue;
-    if (light < frame.light_count && surely_reaches(light, position)) atomicOr(marks[word], bit);
+    if (light < light_count_of(frame) && surely_reaches(light, position)) atomicOr(marks[word], bit);
   }
 }

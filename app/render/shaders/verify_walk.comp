@@ -21,7 +21,7 @@ layout(push_constant) uniform Push {
 #include "lookup/parts/each.glsl"
 #include "common/frame.glsl"
 
-bool reaches(uint light, dvec3 position) { return light < frame.light_count && surely_reaches(light, position); }
+bool reaches(uint light, dvec3 position) { return light < light_count_of(frame) && surely_reaches(light, position); }
 
 void main() {
   lookup_prepare();

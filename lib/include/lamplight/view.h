@@ -43,8 +43,8 @@ class LAMPLIGHT_API View {
   /// World-space position of the depth sample of a pixel.
   [[nodiscard]] glm::dvec3 world_position(std::uint32_t x, std::uint32_t y, double device_depth) const;
 
-  /// The GPU's record of this view.
-  [[nodiscard]] shared::Frame frame(std::uint32_t light_count) const;
+  /// The GPU's record of this view, for a plan with room for `light_capacity` lights.
+  [[nodiscard]] shared::Frame frame(std::uint32_t light_count, std::uint32_t light_capacity) const;
 
   friend bool operator==(const View&, const View&) = default;
 

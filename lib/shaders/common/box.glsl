@@ -6,7 +6,8 @@
 #include "lamplight/shared/entity.h"
 #include "lamplight/shared/frame.h"
 
-uint first_box(Frame frame) { return frame.light_count - frame.box_count; }
+// An id; those of boxes that there is no room for are never met.
+uint first_box(Frame frame) { return frame.light_count - min(frame.box_count, frame.light_count); }
 
 // Metres from the box's centre along its axes.
 vec3 box_local(OrientedBox box, vec3 position) {

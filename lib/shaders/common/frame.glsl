@@ -1,10 +1,14 @@
-// From pixels and device depth to positions, and the planes of a tile, for every projection of view.h.
+// How many lights there are; from pixels and device depth to positions, and the planes of a tile, for every projection of
+// view.h.
 // Based on: planes straight from the matrix: Gribb, Hartmann, Fast Extraction of Viewing Frustum Planes (2001).
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_FRAME
 #define LAMP_COMMON_FRAME
 #extension GL_EXT_scalar_block_layout : require
 #include "lamplight/shared/frame.h"
+
+// Lights of the frame. Whatever was counted, there are no more than there is room for: nothing is indexed beyond.
+uint light_count_of(Frame frame) { return min(frame.light_count, frame.light_capacity); }
 
 // Metres ahead of the eye of a device depth in (0, 1]: clip.z = A z + B and clip.w = C z + D, solved for -z.
 float z_view_of(Frame frame, float device_depth) {

@@ -1,6 +1,6 @@
 // Look-up: every light.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
 
@@ -14,11 +14,11 @@ void lookup_prepare() {}
 
 uint lookup_cell(uvec2 pixel, float z_view) { return 0u; }
 
-Walk walk_begin(uvec2 pixel, float z_view) { return Walk(0u, lookup_frame.light_count); }
+Walk walk_begin(uvec2 pixel, float z_view) { return Walk(0u, light_count_of(lookup_frame)); }
 
 #define LOOKUP_RANGED
 Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
-  return Walk(first, min(end, lookup_frame.light_count));
+  return Walk(first, min(end, light_count_of(lookup_frame)));
 }
 
 uint lookup_light_at(Walk walk, uint place) { return place; }

@@ -21,7 +21,7 @@ struct Walk {
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint index = lookup_light_cell(pixel, z_view);
   const LightCell cell = lookup_cells[index];
-  if (cell.pieces == ALL_LIGHTS) return Walk(0u, 0u, 0u, (lookup_frame.light_count + 31u) / 32u, 0u, 0u, 0u, true);
+  if (cell.pieces == ALL_LIGHTS) return Walk(0u, 0u, 0u, (light_count_of(lookup_frame) + 31u) / 32u, 0u, 0u, 0u, true);
   const bool at_cell = LOOKUP_FIRST_AT_CELL != 0u;
   return Walk(0u, 0u, 0u, (cell.entries + 31u) / 32u, lookup_row(pixel, z_view), at_cell ? index : cell.first_piece,
               at_cell ? cell.first_piece - 1u : cell.first_piece, false);
@@ -32,7 +32,7 @@ void lookup_next_word(inout Walk walk) {
   const uint word = walk.word++;
   walk.base = 32u * word;
   if (walk.all) {
-    const uint left = lookup_frame.light_count - walk.base;
+    const uint left = light_count_of(lookup_frame) - walk.base;
     walk.bits = left < 32u ? (1u << left) - 1u : ~0u;
     return;
   }

@@ -19,7 +19,7 @@ struct Walk {
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint index = lookup_light_cell(pixel, z_view);
   const LightCell cell = lookup_cells[index];
-  if (cell.pieces == ALL_LIGHTS) return Walk(0u, lookup_frame.light_count, 0u, 0u, true);
+  if (cell.pieces == ALL_LIGHTS) return Walk(0u, light_count_of(lookup_frame), 0u, 0u, true);
   const uint row = lookup_row(pixel, z_view);
   const uint next = cell.first_piece * LOOKUP_CELL_ROWS + row;
   if (LOOKUP_FIRST_AT_CELL == 0u) return Walk(0u, 0u, next, next + cell.pieces * LOOKUP_CELL_ROWS, false);

@@ -2,7 +2,7 @@
 // A tile that did not fit walks every light. Shading may walk points and spots in two loops without a branch.
 // Based on: Primal engine, Light Culling with Approximate Sphere-Cone Intersection, listing 9.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #define LOOKUP_BY_TYPE
 #define LOOKUP_TOGETHER (LOOKUP_RANGES == 1u)
 
@@ -28,7 +28,7 @@ void lookup_prepare() {}
 // Both kinds, points first.
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uvec2 header = lookup_headers[lookup_cell(pixel, z_view)];
-  if (header.x == LOOKUP_OVERFLOWED) return Walk(0u, lookup_frame.light_count, true);
+  if (header.x == LOOKUP_OVERFLOWED) return Walk(0u, light_count_of(lookup_frame), true);
   return Walk(header.x, header.x + (header.y & 0xffffu) + (header.y >> 16), false);
 }
 

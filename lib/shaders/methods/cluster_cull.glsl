@@ -44,10 +44,10 @@ void visit_clusters(uvec2 tile) {
   vec4 planes[4];
   side_planes(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), planes);
 
-  for (uint first = 0u; first < frame.light_count; first += threads) {
+  for (uint first = 0u; first < light_count_of(frame); first += threads) {
     if (thread < threads / 32u) s_survivors[thread] = 0u;
     barrier();  // cleared bits before they are set
-    if (first + thread < frame.light_count) {
+    if (first + thread < light_count_of(frame)) {
       const LightBounds sphere = bounds[first + thread];
       s_bounds[thread] = sphere;
       if (sphere_touches_sides(sphere, planes)) atomicOr(s_survivors[thread / 32u], 1u << (thread % 32u));

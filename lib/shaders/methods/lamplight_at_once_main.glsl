@@ -44,7 +44,7 @@ void look_at_all_lights(vec2 depths) {
   const vec2 corner_px = vec2(gl_WorkGroupID.xy * TILE_PX * CELL_TILES);
   const vec2 end_px = min(corner_px + float(TILE_PX * CELL_TILES), vec2(frame.size_px));
   const RectangleEdges sides = rectangle_edges(frame, corner_px, end_px);
-  for (uint light = gl_LocalInvocationIndex; light < frame.light_count; light += gl_WorkGroupSize.x) {
+  for (uint light = gl_LocalInvocationIndex; light < light_count_of(frame); light += gl_WorkGroupSize.x) {
     const LightBounds sphere = view_bounds(frame, spheres[light]);
     if (sphere_touches_depths(sphere, depths.x, depths.y) && inside_edges(sphere.center, sphere.radius, sides))
       atomicOr(s_words[light / 32u], 1u << (light % 32u));
@@ -83,7 +83,7 @@ void write_rows(uint cell, uint count) {
 
 void main() {
   const uint index = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
-  if (frame.light_count == 0u) {
+  if (light_count_of(frame) == 0u) {
     if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, 0u, 0u);
     return;
   }

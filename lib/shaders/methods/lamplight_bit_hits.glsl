@@ -11,7 +11,7 @@ layout(set = 0, binding = 3, scalar) buffer BitBuffer { uint cell_bits[]; };  //
 layout(set = 0, binding = 4, scalar) buffer CellBuffer { LightCell cells[]; };
 
 uint group_share() { return SHARE; }
-uint lights_to_find() { return frame.light_count; }
+uint lights_to_find() { return light_count_of(frame); }
 uint light_to_find(uint i) { return i; }
 
 void clear_hits() {}
@@ -19,7 +19,7 @@ void clear_hits() {}
 // Each thread with a hit of its own, or none.
 void keep_hit(bool is_hit, uint light, uint cell, inout uint waiting) {
   if (!is_hit) return;
-  const uint words = (frame.light_count + 31u) / 32u;
+  const uint words = (light_count_of(frame) + 31u) / 32u;
   atomicOr(cell_bits[cell * words + light / 32u], 1u << (light % 32u));
   atomicAdd(cells[cell].entries, 1u);
 }

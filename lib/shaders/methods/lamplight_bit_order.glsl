@@ -23,7 +23,7 @@ void load_words(uint from, uint to, out uint held[HELD]) {
 }
 
 OrderLoad load_order(CellPiece piece) {
-  const uint words = (frame.light_count + 31u) / 32u;
+  const uint words = (light_count_of(frame) + 31u) / 32u;
   const uint strip = (words + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;  // words of a thread
   OrderLoad load;
   const uint before = min(scan_thread() * strip, words);

@@ -33,7 +33,7 @@ void clear_totals() {
 // buffer.
 void clear_counts() {
   const uint cells = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-  const uint words = (frame.light_count + BLOCK - 1u) / BLOCK * cells;
+  const uint words = (light_count_of(frame) + BLOCK - 1u) / BLOCK * cells;
   const uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
   for (uint i = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex; i < words; i += cells * gl_WorkGroupSize.x)
     counts[i] = 0u;

@@ -51,7 +51,7 @@ void place_light(Window window, uint at) {
 
 // By all threads of the group together.
 void place_long_run(Window window, LightPiece piece, uint block) {
-  const uint blocks = (frame.light_count + BLOCK - 1u) / BLOCK;
+  const uint blocks = (light_count_of(frame) + BLOCK - 1u) / BLOCK;
   const uint begin = places[block * CELLS + piece.cell];
   const uint end = block + 1u < blocks ? places[(block + 1u) * CELLS + piece.cell] : piece.end;
   for (uint i = gl_LocalInvocationIndex; i < BLOCK_WORDS; i += gl_WorkGroupSize.x) s_run_bits[i] = 0u;

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "lamplight/shared/lamplight.h"
 
 const uint COLUMNS = 16u;  // 64 bytes of a row
@@ -75,7 +75,7 @@ void main() {
   const uint column = gl_LocalInvocationID.x;
   const uint strip = gl_LocalInvocationID.y;
   const uint cell = gl_WorkGroupID.x * COLUMNS + column;
-  const uint blocks = (frame.light_count + BLOCK - 1u) / BLOCK;
+  const uint blocks = (light_count_of(frame) + BLOCK - 1u) / BLOCK;
   const uint height = (blocks + STRIPS - 1u) / STRIPS;
   const uint from = cell < CELLS ? min(strip * height, blocks) : 0u;
   const uint to = cell < CELLS ? min(from + height, blocks) : 0u;

@@ -34,7 +34,7 @@ void main() {
   if (light == 0u) totals.find_y = totals.find_z = 1u;
   const RectangleEdges picture = rectangle_edges(frame, vec2(0.0), vec2(frame.size_px));
   LightBounds sphere = LightBounds(vec3(0.0), REACHES_NOTHING);
-  if (light < frame.light_count) sphere = view_bounds(frame, spheres[light]);
+  if (light < light_count_of(frame)) sphere = view_bounds(frame, spheres[light]);
   const bool is_seen = sphere.radius >= 0.0 && inside_edges(sphere.center, sphere.radius, picture);
   const uvec4 those = subgroupBallot(is_seen);
   barrier();  // a count of zero before it is added to

@@ -12,5 +12,5 @@ layout(set = 0, binding = 2, scalar) writeonly buffer BoundsBuffer { LightBounds
 
 void main() {
   const uint light = gl_GlobalInvocationID.x;
-  if (light < frame.light_count) bounds[light] = view_bounds(frame, spheres[light]);
+  if (light < light_count_of(frame)) bounds[light] = view_bounds(frame, spheres[light]);
 }

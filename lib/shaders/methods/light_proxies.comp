@@ -20,7 +20,7 @@ void main() {
     draws[PROXIES_OUTSIDE].vertices = PROXY_VERTICES;
     draws[PROXIES_INSIDE].vertices = PROXY_VERTICES;
   }
-  if (light >= frame.light_count) return;
+  if (light >= light_count_of(frame)) return;
   const LightBounds sphere = light_bounds(frame, lights[light]);
   if (sphere.radius < 0.0) return;
   const LightProxy proxy = light_proxy(frame, lights[light], sphere, float(REACH_1024) / 1024.0);

@@ -12,5 +12,5 @@ layout(set = 0, binding = 2, scalar) writeonly buffer SphereBuffer { LightSphere
 
 void main() {
   const uint light = gl_GlobalInvocationID.x;
-  if (light < frame.light_count) spheres[light] = light_sphere(lights[light]);
+  if (light < light_count_of(frame)) spheres[light] = light_sphere(lights[light]);
 }

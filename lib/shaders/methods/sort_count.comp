@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "common/sort_key.glsl"
 
 layout(local_size_x_id = 0) in;
@@ -22,7 +22,7 @@ void main() {
   for (uint digit = thread; digit < SORT_DIGITS; digit += gl_WorkGroupSize.x) s_counts[digit] = 0u;
   barrier();  // cleared before counting
   const uint first = gl_WorkGroupID.x * SORT_BLOCK;
-  for (uint i = first + thread; i < min(first + SORT_BLOCK, frame.light_count); i += gl_WorkGroupSize.x)
+  for (uint i = first + thread; i < min(first + SORT_BLOCK, light_count_of(frame)); i += gl_WorkGroupSize.x)
     atomicAdd(s_counts[sort_digit(bounds[FIRST ? i : order[i]], SHIFT)], 1u);
   barrier();  // all counted before they are written
   for (uint digit = thread; digit < SORT_DIGITS; digit += gl_WorkGroupSize.x)

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "lamplight/shared/slices.h"
 
 layout(local_size_x_id = 0) in;
@@ -13,7 +13,7 @@ layout(set = 0, binding = 2, scalar) writeonly buffer TotalBuffer { uint totals[
 #include "common/group_scan.glsl"
 
 void main() {
-  const uint blocks = (frame.light_count + SORT_BLOCK - 1u) / SORT_BLOCK;
+  const uint blocks = (light_count_of(frame) + SORT_BLOCK - 1u) / SORT_BLOCK;
   const uint row = gl_WorkGroupID.x * blocks;
   uint before = 0u;
   for (uint first = 0u; first < blocks; first += gl_WorkGroupSize.x) {

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "common/sort_key.glsl"
 
 layout(local_size_x_id = 0) in;
@@ -45,7 +45,7 @@ void main() {
   const uint bit = 1u << (thread % 32u);
   make_places();
   const uint begin = gl_WorkGroupID.x * SORT_BLOCK;
-  const uint end = min(begin + SORT_BLOCK, frame.light_count);
+  const uint end = min(begin + SORT_BLOCK, light_count_of(frame));
   for (uint first = begin; first < end; first += gl_WorkGroupSize.x) {
     for (uint i = thread; i < SORT_DIGITS * WORDS; i += gl_WorkGroupSize.x) s_has[i] = 0u;
     barrier();  // cleared before bits are set; in the first round also: places before they are read

@@ -51,13 +51,13 @@ void main() {
   const TileTarget target = tile_target(gl_WorkGroupID.xy, ranges);
   if (thread == 0u) splits[tile] = ranges.split;
 
-  for (uint first = 0u; first < cull_frame.light_count; first += threads) {
+  for (uint first = 0u; first < light_count_of(cull_frame); first += threads) {
     if (thread < RANGES * BATCH_WORDS) {
       s_found[thread] = 0u;
       s_kept[thread] = 0u;
     }
     barrier();  // cleared words before bits are set
-    if (first + thread < cull_frame.light_count && !is_empty(ranges)) find_batch(first + thread, target);
+    if (first + thread < light_count_of(cull_frame) && !is_empty(ranges)) find_batch(first + thread, target);
     barrier();  // all found before they are pruned or written
     if (PRUNE) prune_batch(gl_WorkGroupID.xy, ranges, first);
     barrier();  // all kept before the words are written

@@ -85,7 +85,7 @@ TileRanges cull_tile(uvec2 tile) {
   const TileRanges ranges = ranges_of(tile);
   if (is_empty(ranges)) return ranges;
   const TileTarget target = tile_target(tile, ranges);
-  for (uint light = gl_LocalInvocationIndex; light < cull_frame.light_count; light += group_threads()) {
+  for (uint light = gl_LocalInvocationIndex; light < light_count_of(cull_frame); light += group_threads()) {
     const LightBounds sphere = bounds_of(light);
     if (!touches_any_range(sphere, target)) continue;
     for (uint range = 0u; range < RANGES; ++range)

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "lamplight/shared/light.h"
 
 layout(local_size_x = 64) in;
@@ -14,5 +14,5 @@ layout(set = 0, binding = 3, scalar) writeonly buffer SortedBuffer { LightBounds
 
 void main() {
   const uint rank = gl_GlobalInvocationID.x;
-  if (rank < frame.light_count) sorted[rank] = bounds[order[rank]];
+  if (rank < light_count_of(frame)) sorted[rank] = bounds[order[rank]];
 }

@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "lamplight/shared/light.h"
 
 layout(local_size_x = 64) in;
@@ -23,7 +23,7 @@ void mark(uint node, uint rank) {
 
 void main() {
   const uint rank = gl_GlobalInvocationID.x;
-  if (rank >= frame.light_count || sorted[rank].radius < 0.0) return;
+  if (rank >= light_count_of(frame) || sorted[rank].radius < 0.0) return;
   const float z_view = -sorted[rank].center.z;
   const uvec2 bins = slices_of(z_view - sorted[rank].radius, z_view + sorted[rank].radius);
   uint left = bins.x + LEAVES;

@@ -22,10 +22,10 @@ void main() {
   const uint base = (tile.x + gl_NumWorkGroups.x * tile.y) * WORDS;
   vec4 planes[4];
   side_planes(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), planes);
-  for (uint first = 0u; first < frame.light_count; first += gl_WorkGroupSize.x) {
+  for (uint first = 0u; first < light_count_of(frame); first += gl_WorkGroupSize.x) {
     if (thread < 8u) s_found[thread] = 0u;
     barrier();  // cleared words before bits are set
-    if (first + thread < frame.light_count && sphere_touches_sides(sorted[first + thread], planes))
+    if (first + thread < light_count_of(frame) && sphere_touches_sides(sorted[first + thread], planes))
       atomicOr(s_found[thread / 32u], 1u << (thread % 32u));
     barrier();  // all bits before the words are written
     if (thread < gl_WorkGroupSize.x / 32u && first / 32u + thread < WORDS)

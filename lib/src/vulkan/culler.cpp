@@ -50,7 +50,7 @@ std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame)
   assert(frame.view != nullptr && "set CullerFrame::view");
   const bool reads_spheres = runner_.plan().binds(INPUT_SPHERES);
   assert((!reads_spheres || frame.spheres != VK_NULL_HANDLE) && "set CullerFrame::spheres");
-  const shared::Frame record = frame.view->frame(frame.light_count);
+  const shared::Frame record = frame.view->frame(frame.light_count, problem_.light_capacity);
   const PlanInputs inputs{.frame = frame_.handle(),
                           .lights = frame.lights,
                           .spheres = frame.spheres,

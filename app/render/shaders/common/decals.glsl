@@ -7,6 +7,7 @@
 #include "common/boxes.glsl"
 #include "common/brdf.glsl"
 #include "common/decal_patterns.glsl"
+#include "common/frame.glsl"
 #include "lookup/parts/each.glsl"
 
 layout(set = 0, binding = 10, scalar) readonly buffer DecalBuffer { DecalData decals[]; };
@@ -44,14 +45,14 @@ bool paint_decal(inout Surface s, vec3 facing, DecalData d, float soft) {
 bool apply_decals_of_any_order(inout Surface s, vec3 facing, uvec2 pixel, float z_view, float soft) {
   bool painted = false;
   const uint first = first_box(frame);
-  for (uint next = first; next < frame.light_count;) {
-    uint least = frame.light_count;
+  for (uint next = first; next < light_count_of(frame);) {
+    uint least = light_count_of(frame);
     uint id;
     LOOKUP_FEW_IN(id, pixel, z_view, next, least) {
       const OrientedBox box = decals[id - first].box;
       if (box_holds(box, box_local(box, s.position))) least = id;
     }
-    if (least < frame.light_count) painted = paint_decal(s, facing, decals[least - first], soft) || painted;
+    if (least < light_count_of(frame)) painted = paint_decal(s, facing, decals[least - first], soft) || painted;
     next = least + 1u;
   }
   return painted;
@@ -64,7 +65,7 @@ bool apply_decals(inout Surface s, uvec2 pixel, float z_view) {
   bool painted = false;
   const uint first = first_box(frame);
   uint id;
-  LOOKUP_FEW_IN(id, pixel, z_view, first, frame.light_count)
+  LOOKUP_FEW_IN(id, pixel, z_view, first, light_count_of(frame))
     painted = paint_decal(s, facing, decals[id - first], soft) || painted;
   return painted;
 }

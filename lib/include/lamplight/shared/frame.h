@@ -14,15 +14,15 @@ struct Frame {
   mat4 clip_from_view;   // reversed depth, Vulkan clip space (y down); no shear (see view.h)
   mat4 view_from_world;  // rigid, but for `stretch`
   mat4 world_from_view;
-  vec3 eye_world;    // m, world_from_view * (0,0,0)
-  uint light_count;  // lights of this frame, at most the plan's capacity; with boxes: all entities (entity.h)
-  uvec2 size_px;     // width, height
-  uint box_count;    // how many of them, the last ones, are boxes
-  uint reserved;
-  float stretch;  // the largest share by which view_from_world may change a length; 0: it is rigid
+  vec3 eye_world;       // m, world_from_view * (0,0,0)
+  uint light_count;     // lights of this frame; with boxes: all entities (entity.h)
+  uvec2 size_px;        // width, height
+  uint box_count;       // how many of them, the last ones, are boxes
+  uint light_capacity;  // what there is room for, at most the plan's; shaders take no more (light_count_of)
+  float stretch;        // the largest share by which view_from_world may change a length; 0: it is rigid
+  uint reserved0;
   uint reserved1;
   uint reserved2;
-  uint reserved3;
 };
 
 #ifdef __cplusplus

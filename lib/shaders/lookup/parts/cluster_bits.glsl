@@ -11,10 +11,10 @@ layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_b
 #include "lookup/parts/walk_bits.glsl"
 
 Walk walk_begin(uvec2 pixel, float z_view) {
-  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, lookup_frame.light_count);
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, light_count_of(lookup_frame));
 }
 
 #define LOOKUP_RANGED
 Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, first, min(end, lookup_frame.light_count));
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, first, min(end, light_count_of(lookup_frame)));
 }

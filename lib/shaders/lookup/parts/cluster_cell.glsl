@@ -1,6 +1,6 @@
 // The cluster of a pixel: tile and depth slice.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 64;
 layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };

@@ -23,7 +23,7 @@ Walk walk_of_cell(uint cell) {
   const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
   if (fits) return Walk(range.x, range.x + range.y, NO_WORD);
   const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  return Walk(0u, lookup_frame.light_count, cell % (tiles.x * tiles.y) * LOOKUP_WORDS);
+  return Walk(0u, light_count_of(lookup_frame), cell % (tiles.x * tiles.y) * LOOKUP_WORDS);
 }
 
 Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }

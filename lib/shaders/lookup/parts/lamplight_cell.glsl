@@ -1,6 +1,6 @@
 // The cell of a pixel and its row in it: the tile, and without a depth buffer the tile in a slice of depth.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "lamplight/shared/lamplight.h"
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;

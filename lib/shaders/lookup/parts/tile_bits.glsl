@@ -1,7 +1,7 @@
 // One flat bit array a tile and depth range; bit N is light N.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
 layout(constant_id = 101) const uint LOOKUP_WORDS = 1;
@@ -18,10 +18,10 @@ layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float looku
 void lookup_prepare() {}
 
 Walk walk_begin(uvec2 pixel, float z_view) {
-  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, lookup_frame.light_count);
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, light_count_of(lookup_frame));
 }
 
 #define LOOKUP_RANGED
 Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, first, min(end, lookup_frame.light_count));
+  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, first, min(end, light_count_of(lookup_frame)));
 }

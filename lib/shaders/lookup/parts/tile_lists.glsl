@@ -1,6 +1,6 @@
 // One list a tile and depth range, a count and its lights; a count beyond the capacity means every light.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 
 layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
 layout(constant_id = 101) const uint LOOKUP_CAPACITY = 512;
@@ -25,7 +25,7 @@ Walk walk_nothing() { return Walk(0u, 0u, false); }
 Walk walk_of_cell(uint cell) {
   const uint base = cell * (1u + LOOKUP_CAPACITY);
   const uint count = lookup_lists[base];
-  if (count > LOOKUP_CAPACITY) return Walk(0u, lookup_frame.light_count, true);
+  if (count > LOOKUP_CAPACITY) return Walk(0u, light_count_of(lookup_frame), true);
   return Walk(base + 1u, base + 1u + count, false);
 }
 

@@ -34,7 +34,7 @@ uint lookup_cell(uvec2 pixel, float z_view) {
 
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint range = lookup_range(z_view);
-  if (!list_fits(range)) return Walk(0u, cull_frame.light_count, true);
+  if (!list_fits(range)) return Walk(0u, light_count_of(cull_frame), true);
   return Walk(range * CAPACITY, range * CAPACITY + s_light_count[range], false);
 }
 
