@@ -72,7 +72,6 @@ vulkan::PlanInputs FrameData::plan_inputs(const vulkan::Resource& depth) const {
           .lights = lights_.handle(),
           .spheres = spheres_.handle(),
           .depth = depth,
-          .light_count = host_frame_.light_count,
           .host_lights = host_lights_,
           .host_frame = &host_frame_};
 }

@@ -210,7 +210,7 @@ bool Lighting::is_cull_pass(std::string_view name) const {
 }
 
 void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()));
+  static_cast<void>(take(runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()))));
 }
 
 void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame) {
@@ -231,7 +231,8 @@ void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
     record_surfaces(recorder, frame);
 
   if (fused())
-    runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()), Passes::fused);
+    static_cast<void>(
+        take(runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()), Passes::fused)));
   else if (info_.path != ShadingPath::standard_deferred && !decals_)
     record_cull(recorder, frame);
 
@@ -338,7 +339,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   const bool walked = info_.path != ShadingPath::standard_deferred || decals_;
   const bool culled = !any_depth_runner_ && walked && !fused();
   recorder.name_group("transparent");
-  if (!culled) runner.record(recorder, inputs);
+  if (!culled) static_cast<void>(take(runner.record(recorder, inputs)));
   recorder.name_group("");
 
   std::vector<Draw> far_to_near(frame.scene.blended().begin(), frame.scene.blended().end());

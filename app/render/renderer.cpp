@@ -258,7 +258,8 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     if (pass.prepares) data_.record_upload(recorder);
-    if (pass.prepares && pass.lighting != nullptr) pass.lighting->runner().record(recorder, inputs, pass.which);
+    if (pass.prepares && pass.lighting != nullptr)
+      static_cast<void>(take(pass.lighting->runner().record(recorder, inputs, pass.which)));
     for (const PixelPass::Storage& storage : pass.storage) {
       if (!storage.zeroed) continue;
       recorder.barrier({{.resource = storage.resource,

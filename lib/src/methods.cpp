@@ -72,6 +72,8 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   if (method.check != nullptr)
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);
+  plan.width = problem.width;
+  plan.height = problem.height;
   plan.light_capacity = problem.light_capacity;
   if (problem.own_spheres) make_own_spheres(plan, problem.traits);
   std::optional<Error> error = plan_check(plan, problem.traits);

@@ -142,34 +142,5 @@ TEST_F(CullerTest, FramesUnderWayKeepTheirBuffers) {
   }
 }
 
-void expect_error(const vulkan::CullerInfo& info, std::initializer_list<const char*> parts) {
-  const auto culler = vulkan::Culler::create(test_context().device(), info);
-  ASSERT_FALSE(culler.ok());
-  for (const char* part : parts)
-    EXPECT_NE(culler.error().text().find(part), std::string::npos) << part << " in: " << culler.error().text();
-}
-
-TEST_F(CullerTest, ErrorsNameWhatIsWrong) {
-  const vulkan::CullerInfo good{
-      .width = ENGINE_WIDTH, .height = ENGINE_HEIGHT, .light_capacity = ENGINE_LIGHTS, .method = "tiled"};
-  EXPECT_TRUE(vulkan::Culler::create(test_context().device(), good).ok());
-  vulkan::CullerInfo info = good;
-  info.method = "tield";
-  expect_error(info, {"tield", "tiled"});
-  info = good;
-  info.options = {"tyle=16"};
-  expect_error(info, {"tyle", "tile"});
-  info.options = {"tile=17"};
-  expect_error(info, {"tile", "17", "16"});
-  info = good;
-  info.width = 0;
-  expect_error(info, {"0x51", "expected 1 to"});
-  info.width = 1U << 20;
-  expect_error(info, {"1048576x51", "expected 1 to"});
-  info = good;
-  info.light_capacity = MAX_LIGHTS + 1;
-  expect_error(info, {"light capacity", std::to_string(MAX_LIGHTS).c_str()});
-}
-
 }  // namespace
 }  // namespace lamp::app

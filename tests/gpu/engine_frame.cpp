@@ -94,7 +94,7 @@ void MaskPass::record_to_host(VkCommandBuffer commands) {
 Masks cull_and_walk(vulkan::Culler& culler, const EngineFrame& frame) {
   const MaskPass pass(culler.lookup(), frame);
   test_context().submit([&](VkCommandBuffer commands) {
-    culler.record(commands, culler_frame(frame));
+    static_cast<void>(take(culler.record(commands, culler_frame(frame))));
     pass.record(commands, culler.lookup());
     MaskPass::record_to_host(commands);
   });

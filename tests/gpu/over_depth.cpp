@@ -36,7 +36,7 @@ std::vector<std::uint32_t> OverDepth::per_pixel(const std::string& shader, vulka
     tracker.assume(depth_.sampled());
     vulkan::Recorder recorder(test_context().device(), commands, tracker);
     data_.record_upload(recorder);
-    runner.record(recorder, inputs, which);
+    static_cast<void>(take(runner.record(recorder, inputs, which)));
     std::vector<vulkan::Use> uses{{.resource = vulkan::Resource::storage(found.handle()),
                                    .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                    .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};

@@ -59,6 +59,7 @@ void PlanHarness::read_back(vulkan::Recorder& recorder, const std::vector<vulkan
 std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
   const auto light_count = static_cast<std::uint32_t>(lights_.size());
   shared::Frame frame{};
+  frame.light_count = frame.light_capacity = light_count;
   if (view_) frame = view_->frame(light_count, light_count);
   std::memcpy(frame_.mapped().data(), &frame, sizeof(frame));
   std::vector<vulkan::Buffer> copies;
@@ -66,12 +67,11 @@ std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
   test_context().submit([&](VkCommandBuffer commands) {
     timestamps_.reset(commands, part_of_);
     vulkan::Recorder recorder(device, commands, tracker_, &timestamps_);
-    runner_.record(recorder, {.frame = frame_.handle(),
-                              .lights = light_buffer_.handle(),
-                              .spheres = sphere_buffer_.handle(),
-                              .light_count = light_count,
-                              .host_lights = lights_,
-                              .host_frame = &frame});
+    static_cast<void>(take(runner_.record(recorder, {.frame = frame_.handle(),
+                                                     .lights = light_buffer_.handle(),
+                                                     .spheres = sphere_buffer_.handle(),
+                                                     .host_lights = lights_,
+                                                     .host_frame = &frame})));
     timestamps_.finish(commands);
     read_back(recorder, copies);
   });

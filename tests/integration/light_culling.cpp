@@ -44,12 +44,12 @@ void LightCulling::make_pipeline() {
 }
 
 void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
-  frame_ = culler_.record(commands, {.view = &frame.view,
-                                     .lights = frame.lights,
-                                     .light_count = frame.light_count,
-                                     .depth_image = frame.depth.image,
-                                     .depth_view = frame.depth.view,
-                                     .depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+  frame_ = value_of(culler_.record(commands, {.view = &frame.view,
+                                              .lights = frame.lights,
+                                              .light_count = frame.light_count,
+                                              .depth_image = frame.depth.image,
+                                              .depth_view = frame.depth.view,
+                                              .depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
 
   // From here on any compute or fragment shader may read the look-up; no barrier is needed.
   std::vector<Descriptor> descriptors{{.binding = 0, .view = frame.depth.view},

@@ -28,12 +28,12 @@ void main() {
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
   const float z_view = z_view_of(frame, depth);
   const dvec3 position = exact_world_position(pixel, depth);
-  const uint base = (number - first_pixel) * ((frame.light_count + 31u) / 32u);
+  const uint base = (number - first_pixel) * ((light_count_of(frame) + 31u) / 32u);
   uint distinct = 0u;
   uint repeated = 0u;
   uint light;
   LOOKUP_EACH(light, pixel, z_view) {
-    if (light >= frame.light_count || !surely_reaches(light, position)) continue;
+    if (light >= light_count_of(frame) || !surely_reaches(light, position)) continue;
     const uint word = base + light / 32u;
     const uint bit = 1u << (light % 32u);
     const uint before = marks[word];

@@ -147,7 +147,9 @@ struct LAMPLIGHT_API Plan {
   bool ordered = true;                ///< lists ascend
   bool approximate = false;           ///< may miss lights, by the paper's design
   bool any_depth = false;             ///< right for any depth of a pixel, not only the depth buffer's
-  std::uint32_t light_capacity = 0;   ///< the problem's
+  std::uint32_t width = 0;            ///< the problem's, pixels
+  std::uint32_t height = 0;           ///< likewise
+  std::uint32_t light_capacity = 0;   ///< likewise
   ResourceId counters = NO_RESOURCE;  ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;   ///< everything that can overflow
   std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something

@@ -45,11 +45,8 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   return culler;
 }
 
-std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
-  ++frames_;
-  assert(frame.view != nullptr && "set CullerFrame::view");
-  const bool reads_spheres = runner_.plan().binds(INPUT_SPHERES);
-  assert((!reads_spheres || frame.spheres != VK_NULL_HANDLE) && "set CullerFrame::spheres");
+Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
+  if (frame.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
   const shared::Frame record = frame.view->frame(frame.light_count, problem_.light_capacity);
   const PlanInputs inputs{.frame = frame_.handle(),
                           .lights = frame.lights,
@@ -59,19 +56,20 @@ std::uint64_t Culler::record(VkCommandBuffer commands, const CullerFrame& frame)
                                     .view = frame.depth_view,
                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
                                     .layout = frame.depth_layout},
-                          .light_count = frame.light_count,
                           .host_lights = frame.host_lights,
                           .host_frame = &record};
+  if (auto error = runner_.check(inputs)) return *error;
+  ++frames_;
   Recorder recorder(device_, commands, tracker_);
   tracker_.assume(inputs.depth);
   tracker_.assume(Resource::storage(inputs.lights));
-  if (reads_spheres) tracker_.assume(Resource::storage(inputs.spheres));
+  if (inputs.spheres != VK_NULL_HANDLE) tracker_.assume(Resource::storage(inputs.spheres));
 
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
                      .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
-  runner_.record(recorder, inputs);
+  if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
 
   recorder.barrier(runner_.lookup(inputs).buffer_uses(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT));

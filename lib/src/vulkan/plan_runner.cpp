@@ -192,8 +192,8 @@ BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
   return bound;
 }
 
-void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {
-  assert(inputs.light_count <= plan_.light_capacity && "make a plan with a larger light capacity");
+Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {
+  if (auto error = check(inputs)) return *error;
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
   zero_buffers(recorder);
   host_times_.clear();
@@ -216,6 +216,7 @@ void PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes whi
     together.push_back(std::move(next));
   }
   record_together(recorder, together, inputs);
+  return ++records_;
 }
 
 void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset) const {
@@ -247,7 +248,6 @@ void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64
 }
 
 bool PlanRunner::projection_changed(const PlanInputs& inputs) {
-  assert(inputs.host_frame != nullptr && "set PlanInputs::host_frame");
   const bool changed = !projection_ || *projection_ != inputs.host_frame->clip_from_view;
   projection_ = inputs.host_frame->clip_from_view;
   return changed;
@@ -270,7 +270,8 @@ void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) {
   std::vector<std::span<std::byte>> mapped;
   for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
   const auto begin = std::chrono::steady_clock::now();
-  pass.host({.lights = inputs.host_lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
+  const auto lights = inputs.host_lights.first(inputs.host_frame->light_count);
+  pass.host({.lights = lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   host_times_.push_back({pass.name, taken.count()});
 }
@@ -326,7 +327,7 @@ void PlanRunner::dispatch(VkCommandBuffer commands, const Pass& pass, const Plan
   if (extent.indirect != NO_RESOURCE)
     return vkCmdDispatchIndirect(commands, buffer(extent.indirect), extent.indirect_offset);
   const std::uint32_t x =
-      extent.lights_per_group == 0 ? extent.x : per_light(inputs.light_count, extent.lights_per_group);
+      extent.lights_per_group == 0 ? extent.x : per_light(inputs.host_frame->light_count, extent.lights_per_group);
   if (x != 0) vkCmdDispatch(commands, x, extent.y, extent.z);
 }
 
@@ -344,7 +345,7 @@ void PlanRunner::draw(VkCommandBuffer commands, const Pass& pass, const PlanInpu
     vkCmdDrawIndirect(commands, buffer(extent.indirect), extent.indirect_offset, 1, sizeof(VkDrawIndirectCommand));
   } else {
     const std::uint32_t instances =
-        extent.lights_per_group == 0 ? extent.y : per_light(inputs.light_count, extent.lights_per_group);
+        extent.lights_per_group == 0 ? extent.y : per_light(inputs.host_frame->light_count, extent.lights_per_group);
     vkCmdDraw(commands, extent.x, instances, 0, 0);
   }
   vkCmdEndRendering(commands);

@@ -24,7 +24,7 @@ struct CullerInfo {
 
 /// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run.
 struct CullerFrame {
-  const View* view = nullptr;                  ///< its size must be the Culler's
+  const View* view = nullptr;                  ///< of the Culler's size
   VkBuffer lights = VK_NULL_HANDLE;            ///< storage buffer of shared::Light (`lamp::pack`)
   VkBuffer spheres = VK_NULL_HANDLE;           ///< CullerInfo::brings_spheres: storage buffer of shared::LightSphere
                                                ///< (`lamp::bounding_spheres`), which is a quarter to read
@@ -54,8 +54,9 @@ class LAMPLIGHT_API Culler {
   [[nodiscard]] static Result<Culler> create(const Device& device, const CullerInfo& info);
 
   /// Records the passes. What they wrote is visible to compute and fragment shaders recorded later. Returns the frame's
-  /// number.
-  std::uint64_t record(VkCommandBuffer commands, const CullerFrame& frame);
+  /// number, from 1 on. Errors, and then nothing is recorded: no view or one of another size, a handle that the method
+  /// needs and that is missing, more lights than the capacity, fewer host lights than lights.
+  [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
   /// now on. Call it after the frame's fence; it waits for nothing. Frames that are still under way keep their buffers,

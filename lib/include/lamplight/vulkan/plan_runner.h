@@ -19,13 +19,12 @@ using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::strin
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
-  VkBuffer frame = VK_NULL_HANDLE;    ///< one shared::Frame; usable as uniform and as storage buffer
-  VkBuffer lights = VK_NULL_HANDLE;   ///< shared::Light[light_count]
-  VkBuffer spheres = VK_NULL_HANDLE;  ///< shared::LightSphere[light_count]
-  Resource depth;                     ///< image, view, aspect and layout; unset for methods that do not need it
-  std::uint32_t light_count = 0;
-  std::span<const shared::Light> host_lights;  ///< for host passes
-  const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`; must be set
+  VkBuffer frame = VK_NULL_HANDLE;             ///< one shared::Frame; usable as uniform and as storage buffer
+  VkBuffer lights = VK_NULL_HANDLE;            ///< shared::Light, as many as the record says
+  VkBuffer spheres = VK_NULL_HANDLE;           ///< shared::LightSphere, likewise
+  Resource depth;                              ///< image, view, aspect and layout; unset where none is needed
+  std::span<const shared::Light> host_lights;  ///< for host passes: the same lights
+  const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`
 };
 
 /// A look-up's resources at their bindings and how a compute shader uses each, and its constants with their ids.
@@ -60,8 +59,14 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] static Result<PlanRunner> create(const Device& device, Plan plan,
                                                  const ShaderSource& shaders = embedded_shaders);
 
-  /// Records the passes: all of them, or those that a fused shader needs before it.
-  void record(Recorder& recorder, const PlanInputs& inputs, Passes which = Passes::separate);
+  /// Records the passes: all of them, or those that a fused shader needs before it. Returns the record's number, from 1
+  /// on. Errors, and then nothing is recorded: `check`'s.
+  [[nodiscard]] Result<std::uint64_t> record(Recorder& recorder, const PlanInputs& inputs,
+                                             Passes which = Passes::separate);
+
+  /// What of a frame does not go with the plan: a handle that it needs, another size, more lights than its capacity,
+  /// fewer host lights than lights. The first such thing, or nothing.
+  [[nodiscard]] std::optional<Error> check(const PlanInputs& inputs) const;
 
   /// Records the copy of the frame's counts to a mapped buffer, for `read_counts` after the frame's fence.
   void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0) const;
@@ -113,6 +118,7 @@ class LAMPLIGHT_API PlanRunner {
   std::optional<glm::mat4> projection_;  ///< of the last recorded frame
   std::uint64_t projection_rebuilds_ = 0;
   std::vector<HostTime> host_times_;
+  std::uint64_t records_ = 0;
 };
 
 /// The descriptor type of a plan's resource.
