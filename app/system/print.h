@@ -22,16 +22,19 @@ void open_standard_streams();
 void write_out(std::string_view text);
 void write_error(std::string_view text);
 
-/// fmt::format with the texts among its arguments made printable: names come from anywhere.
+/// A text made printable, as names come from anywhere; anything else as it is.
+template <class Argument>
+auto printable_argument(const Argument& argument) {
+  if constexpr (std::is_convertible_v<const Argument&, std::string_view>)
+    return printable(argument);
+  else
+    return argument;
+}
+
+/// fmt::format with printable arguments.
 template <class... Arguments>
 std::string format_printable(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  const auto shown = [](const auto& argument) {
-    if constexpr (std::is_convertible_v<decltype(argument), std::string_view>)
-      return printable(argument);
-    else
-      return argument;
-  };
-  return fmt::format(fmt::runtime(fmt::string_view(format)), shown(arguments)...);
+  return fmt::format(fmt::runtime(fmt::string_view(format)), printable_argument(arguments)...);
 }
 
 /// Like fmt::print, to stdout, with printable arguments.
