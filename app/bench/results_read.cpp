@@ -92,7 +92,7 @@ constexpr auto RULES = std::to_array<Rule>({
      .key = "verdict",
      .want = Want::text,
      .required = true,
-     .words = "exact approximate unverified wrong impossible"},
+     .words = "exact, approximate, could not check, unverified, wrong, impossible"},
     text(RESULT, "reason"),
     {.at = RESULT, .key = "verified", .want = Want::text},
     {.at = RESULT, .key = "clock_moved", .want = Want::flag},

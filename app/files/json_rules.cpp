@@ -81,10 +81,11 @@ std::size_t array_size(const json& document, std::string_view path) {
 }
 
 bool is_word(std::string_view words, std::string_view word) {
+  constexpr std::string_view BETWEEN = ", ";
   while (!words.empty()) {
-    const std::size_t space = words.find(' ');
-    if (words.substr(0, space) == word) return true;
-    words = space == std::string_view::npos ? std::string_view{} : words.substr(space + 1);
+    const std::size_t end = words.find(BETWEEN);
+    if (words.substr(0, end) == word) return true;
+    words = end == std::string_view::npos ? std::string_view{} : words.substr(end + BETWEEN.size());
   }
   return false;
 }

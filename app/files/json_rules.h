@@ -40,7 +40,7 @@ struct Rule {
   std::size_t step = 1;    ///< natural: a multiple of this
   std::size_t size = 0;    ///< numbers: exactly so many, 0: any; objects: at most so many in all arrays of the rule;
                            ///< text: at most so many bytes, 0: any
-  std::string_view words;  ///< natural, text: the values allowed, between spaces (empty: any)
+  std::string_view words;  ///< natural, text: the values allowed, "one, two" (empty: any)
   std::string_view into;   ///< index and its kin: where the array is
 };
 

@@ -129,7 +129,7 @@ TEST_F(BenchResults, WhatNoBenchWritesIsNamed) {
            {"/results/1/times/frame/p95", "\"1\"", "result 1 times frame: p95 is \"1\", expected a number >= 0"},
            {"/results/1/times/cull+shade", "null", "result 1 times: cull+shade is null, expected an object"},
            {"/results/1/times", "[]", "result 1: times is [], expected an object"},
-           {"/results/1/verdict", "\"fine\"", "result 1: verdict is \"fine\", expected one of exact approximate"},
+           {"/results/1/verdict", "\"fine\"", "result 1: verdict is \"fine\", expected one of exact, approximate"},
            {"/results/1/key", "5", "result 1: key is 5, expected a string"},
            {"/results/1/parameters/lights", "-1", "result 1 parameters: lights is -1, expected an integer 0 .. "},
            {"/results/1/parameters/spots", "2", "result 1 parameters: spots is 2, expected a number 0 .. 1"},
@@ -152,6 +152,9 @@ TEST_F(BenchResults, WhatNoBenchWritesIsNamed) {
     const std::string line = load_error(results.dump());
     EXPECT_NE(line.find("results.json: " + fault.says), std::string::npos) << line;
   }
+  json unchecked = run_of(SWEEP);
+  unchecked["results"][0]["verdict"] = "could not check";
+  EXPECT_EQ(load_error(unchecked.dump()), "no error");
   json untimed = run_of(SWEEP);
   untimed["results"][0]["times"] = nullptr;
   EXPECT_EQ(load_error(untimed.dump()), "no error");
