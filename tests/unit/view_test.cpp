@@ -153,7 +153,7 @@ std::string refusal(const glm::dmat4& clip_from_view, const glm::dmat4& view_fro
 TEST(View, StretchIsHowFarAMatrixIsFromRigid) {
   const auto stretch = [](const glm::dmat4& view_from_world) {
     const View view = make_view(lamp::perspective(OFF_CENTRE, NEAR, FAR), view_from_world);
-    EXPECT_EQ(view.frame(0).stretch, static_cast<float>(view.stretch()));
+    EXPECT_EQ(view.frame(0, 0).stretch, static_cast<float>(view.stretch()));
     return view.stretch();
   };
   const glm::dmat4 quarter_turn(glm::dvec4(0, 0, 1, 0), glm::dvec4(1, 0, 0, 0), glm::dvec4(0, -1, 0, 0),
