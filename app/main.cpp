@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "files/printable.h"
+#include "lamplight/version.h"
 #include "system/print.h"
 #include "system/signals.h"
 
@@ -42,7 +44,7 @@ constexpr const char* WELCOME =
 Exit run(int argc, char** argv) {
   CLI::App app("Lamplight: light culling for scenes with very many moving lights", "lamp");
   app.require_subcommand(0, 1);
-  app.set_version_flag("--version", "lamp " LAMP_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", "lamp " + std::string(lamp::version()), "Print the version and exit");
   app.footer(
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png\n"
