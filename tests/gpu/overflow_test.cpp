@@ -190,8 +190,8 @@ TEST(SmallProblems, DoNotOverflow) {
     const Candidate candidate{.method = take(find_method(name)), .settings = settings, .light_capacity = LIGHTS};
     Lighting& lighting = kept_lighting(renderer, candidate, ShadingPath::deferred);
     EXPECT_EQ(renderer.cull(lighting).counters.overflowed_cells, 0);
-    const std::vector<gpu::Visit> visits = renderer.visit_all(lighting);
-    EXPECT_EQ(std::ranges::max(visits, {}, &gpu::Visit::visited).visited, LIGHTS);
+    const std::vector<Visit> visits = renderer.visit_all(lighting);
+    EXPECT_EQ(std::ranges::max(visits, {}, &Visit::visited).visited, LIGHTS);
   }
   for (const std::string& message : test_context().take_messages()) ADD_FAILURE() << message;
 }
