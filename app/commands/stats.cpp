@@ -67,7 +67,7 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
     stats.notes.push_back("room was made with " + words_of(grown));
   stats.rendered.image.pixels = {};
   stats.fits_with = lighting.fits_with(stats.rendered.needed);
-  for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, buffer.bytes);
+  for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, plan.bytes_of(buffer));
   stats.bytes.emplace_back("total", plan.bytes());
   return stats;
 }

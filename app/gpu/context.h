@@ -44,6 +44,10 @@ class Context {
   /// A device that is the processor under another name, as Mesa's llvmpipe.
   [[nodiscard]] bool software() const { return row_.kind == "CPU"; }
 
+  /// For whoever submits by itself, as several frames ahead are.
+  [[nodiscard]] VkQueue queue() const { return queue_; }
+  [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
+
   /// Records, submits and waits.
   void submit(const std::function<void(VkCommandBuffer)>& record);
 

@@ -206,7 +206,8 @@ void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibra
 
 bool Lighting::is_cull_pass(std::string_view name) const {
   const std::vector<Pass>& passes = fused() ? runner_.plan().fused->passes : runner_.plan().passes;
-  return name == vulkan::CLEAR_PASS || std::ranges::any_of(passes, [&](const Pass& pass) { return pass.name == name; });
+  return name == vulkan::UPLOAD_PASS || name == vulkan::CLEAR_PASS ||
+         std::ranges::any_of(passes, [&](const Pass& pass) { return pass.name == name; });
 }
 
 void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {

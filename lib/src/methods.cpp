@@ -69,12 +69,16 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   if (problem.light_capacity > MAX_LIGHTS)
     return Error{"light capacity",
                  "expected at most " + std::to_string(MAX_LIGHTS) + ", got " + std::to_string(problem.light_capacity)};
+  if (problem.frames_in_flight == 0 || problem.frames_in_flight > MAX_FRAMES_IN_FLIGHT)
+    return Error{"frames in flight", "expected 1 to " + std::to_string(MAX_FRAMES_IN_FLIGHT) + ", got " +
+                                         std::to_string(problem.frames_in_flight)};
   if (method.check != nullptr)
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);
   plan.width = problem.width;
   plan.height = problem.height;
   plan.light_capacity = problem.light_capacity;
+  plan.frames_in_flight = problem.frames_in_flight;
   if (problem.own_spheres) make_own_spheres(plan, problem.traits);
   std::optional<Error> error = plan_check(plan, problem.traits);
   if (!error) error = check_walks(problem, plan);

@@ -22,9 +22,13 @@ ResourceId Plan::add(BufferDesc buffer) {
   return PLAN_BUFFER + static_cast<ResourceId>(buffers.size() - 1);
 }
 
+std::uint64_t Plan::bytes_of(const BufferDesc& buffer) const {
+  return buffer.memory == BufferMemory::upload ? buffer.bytes * (1 + frames_in_flight) : buffer.bytes;
+}
+
 std::uint64_t Plan::bytes() const {
   std::uint64_t sum = 0;
-  for (const BufferDesc& buffer : buffers) sum += buffer.bytes;
+  for (const BufferDesc& buffer : buffers) sum += bytes_of(buffer);
   return sum;
 }
 

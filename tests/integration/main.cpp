@@ -158,7 +158,7 @@ void print_memory() {
                                                     .options = lamp::resolve_options(*method, {}).value()})
                               .value();
   for (const lamp::BufferDesc& buffer : plan.buffers)
-    std::printf("%-16s %10llu bytes\n", buffer.name.c_str(), static_cast<unsigned long long>(buffer.bytes));
+    std::printf("%-16s %10llu bytes\n", buffer.name.c_str(), static_cast<unsigned long long>(plan.bytes_of(buffer)));
 }
 
 struct Case {

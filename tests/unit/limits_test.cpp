@@ -332,5 +332,29 @@ TEST(LamplightMemory, AMillionLightsAt4KStayInTheirBudget) {
   EXPECT_LE(std::ranges::find(plan.buffers, "tile lists", &BufferDesc::name)->bytes, 5 * MIB);
 }
 
+TEST(FramesInFlight, AreOneToFourAndWhatTheHostWritesHasASlotForEach) {
+  const Method& method = *find_method("drobot-zbin").value();
+  Problem problem = problem_of(method, 64, 64, 100, test::LARGE_DEVICE);
+  problem.options = resolve_options(method, {"sort=cpu"}).value();
+  const auto bytes = [&](std::uint32_t frames) {
+    problem.frames_in_flight = frames;
+    return make_plan(method, problem).value().bytes();
+  };
+  std::uint64_t written = 0;
+  const Plan plan = make_plan(method, problem).value();
+  for (const BufferDesc& buffer : plan.buffers)
+    if (buffer.memory == BufferMemory::upload) written += buffer.bytes;
+  EXPECT_GE(written, 4 * (100 + 8096)) << "the order of lights, a word for each bin";
+  EXPECT_EQ(bytes(2), bytes(1) + written);
+  EXPECT_EQ(bytes(4), bytes(1) + 3 * written);
+  for (const std::uint32_t frames : {0U, 5U}) {
+    problem.frames_in_flight = frames;
+    EXPECT_EQ(make_plan(method, problem).error().text(),
+              "frames in flight: expected 1 to 4, got " + std::to_string(frames));
+  }
+  problem.options = resolve_options(method, {}).value();
+  EXPECT_EQ(bytes(4), bytes(1)) << "nothing is written by the host";
+}
+
 }  // namespace
 }  // namespace lamp

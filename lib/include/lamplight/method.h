@@ -38,6 +38,7 @@ class LAMPLIGHT_API Options {
 };
 
 inline constexpr std::uint32_t MAX_LIGHTS = 1U << 24;
+inline constexpr std::uint32_t MAX_FRAMES_IN_FLIGHT = 4;
 inline constexpr std::uint32_t MAX_IMAGE_SIZE = 1U << 16;  ///< pixels a side, whatever a device says
 
 /// What a method plans for. Sizes in pixels, 1 .. traits.max_image_size and MAX_IMAGE_SIZE; light_capacity up to
@@ -50,6 +51,8 @@ struct Problem {
   DeviceTraits traits;
   /// The host keeps no spheres: the plan makes INPUT_SPHERES from the lights, if it reads any.
   bool own_spheres = false;
+  /// Frames that may be recorded and not done yet, 1 .. MAX_FRAMES_IN_FLIGHT: what the host writes has as many slots.
+  std::uint32_t frames_in_flight = 1;
 };
 
 struct Method {

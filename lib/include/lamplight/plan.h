@@ -39,7 +39,7 @@ struct Binding {
 
 enum class BufferMemory : std::uint8_t {
   device,  ///< GPU only
-  upload,  ///< written by host passes, only read by the GPU
+  upload,  ///< likewise, filled from what host passes write: mapped memory besides, for each frame in flight
 };
 
 struct BufferDesc {
@@ -75,7 +75,8 @@ struct RasterState {
   enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
 };
 
-/// What a host pass sees: the frame's lights as the host knows them, and the buffers it declared, mapped, in order.
+/// What a host pass sees: the frame's lights as the host knows them, and the frame's slots of the buffers that it
+/// declared, mapped, in order.
 struct HostContext {
   std::span<const shared::Light> lights;
   const shared::Frame* frame = nullptr;
@@ -143,20 +144,22 @@ struct LAMPLIGHT_API Plan {
   std::vector<Pass> passes;
   LookUp lookup;
   std::optional<FusedLookUp> fused;
-  std::uint64_t cells = 1;            ///< cells of the look-up
-  bool ordered = true;                ///< lists ascend
-  bool approximate = false;           ///< may miss lights, by the paper's design
-  bool any_depth = false;             ///< right for any depth of a pixel, not only the depth buffer's
-  std::uint32_t width = 0;            ///< the problem's, pixels
-  std::uint32_t height = 0;           ///< likewise
-  std::uint32_t light_capacity = 0;   ///< likewise
-  ResourceId counters = NO_RESOURCE;  ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
-  std::vector<Capacity> capacities;   ///< everything that can overflow
+  std::uint64_t cells = 1;             ///< cells of the look-up
+  bool ordered = true;                 ///< lists ascend
+  bool approximate = false;            ///< may miss lights, by the paper's design
+  bool any_depth = false;              ///< right for any depth of a pixel, not only the depth buffer's
+  std::uint32_t width = 0;             ///< the problem's, pixels
+  std::uint32_t height = 0;            ///< likewise
+  std::uint32_t light_capacity = 0;    ///< likewise
+  std::uint32_t frames_in_flight = 1;  ///< likewise
+  ResourceId counters = NO_RESOURCE;   ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
+  std::vector<Capacity> capacities;    ///< everything that can overflow
   std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something
 
   /// Adds a buffer and returns its id.
   ResourceId add(BufferDesc buffer);
-  /// Bytes of all buffers together.
+  /// Bytes that a buffer takes, with what it is filled from; of all buffers together.
+  [[nodiscard]] std::uint64_t bytes_of(const BufferDesc& buffer) const;
   [[nodiscard]] std::uint64_t bytes() const;
   /// Whether a pass or a look-up, fused ones too, binds it.
   [[nodiscard]] bool binds(ResourceId id) const;

@@ -8,6 +8,12 @@
 #include <utility>
 
 namespace lamp::vulkan {
+namespace {
+
+constexpr std::uint64_t FREE = 0;  // before every frame's number
+
+}  // namespace
+
 Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   const Result<const Method*> method = find_method(info.method);
   if (!method) return method.error();
@@ -21,10 +27,11 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                      .light_capacity = info.light_capacity,
                      .options = std::move(options.value()),
                      .traits = device.traits,
-                     .own_spheres = !info.brings_spheres};
+                     .own_spheres = !info.brings_spheres,
+                     .frames_in_flight = info.frames_in_flight};
   Result<Plan> plan = make_plan(*method.value(), culler.problem_);
   if (!plan) return plan.error();
-  const std::uint64_t slots_bytes = FRAMES_IN_FLIGHT * count_bytes(plan.value());
+  const std::uint64_t slots_bytes = info.frames_in_flight * count_bytes(plan.value());
   Result<PlanRunner> runner = PlanRunner::create(device, std::move(plan.value()));
   if (!runner) return runner.error();
   Result<Buffer> frame =
@@ -42,24 +49,25 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   culler.frame_ = std::move(frame.value());
   culler.counts_ = std::move(counts.value());
   culler.runner_ = std::move(runner.value());
+  culler.slots_.assign(info.frames_in_flight, FREE);
   return culler;
 }
 
 Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   if (frame.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
   const shared::Frame record = frame.view->frame(frame.light_count, problem_.light_capacity);
-  const PlanInputs inputs{.frame = frame_.handle(),
-                          .lights = frame.lights,
-                          .spheres = frame.spheres,
-                          .depth = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                                    .image = frame.depth_image,
-                                    .view = frame.depth_view,
-                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                                    .layout = frame.depth_layout},
-                          .host_lights = frame.host_lights,
-                          .host_frame = &record};
+  PlanInputs inputs{.frame = frame_.handle(),
+                    .lights = frame.lights,
+                    .spheres = frame.spheres,
+                    .depth = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                              .image = frame.depth_image,
+                              .view = frame.depth_view,
+                              .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                              .layout = frame.depth_layout},
+                    .host_lights = frame.host_lights,
+                    .host_frame = &record};
   if (auto error = runner_.check(inputs)) return *error;
-  ++frames_;
+  inputs.slot = last_slot_ = take_slot(++frames_);
   Recorder recorder(device_, commands, tracker_);
   tracker_.assume(inputs.depth);
   tracker_.assume(Resource::storage(inputs.lights));
@@ -73,16 +81,33 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
 
   recorder.barrier(runner_.lookup(inputs).buffer_uses(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT));
-  runner_.record_counts(recorder, counts_, frames_ % FRAMES_IN_FLIGHT * count_bytes(runner_.plan()));
+  runner_.record_counts(recorder, counts_, last_slot_ * count_bytes(runner_.plan()));
   return frames_;
 }
 
 BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle()}); }
 
-FrameCounts Culler::counts_of(std::uint64_t frame) const {
-  const std::uint64_t bytes = count_bytes(runner_.plan());
-  return read_counts(runner_.plan(), counts_.mapped().subspan(frame % FRAMES_IN_FLIGHT * bytes, bytes));
+std::optional<std::uint32_t> Culler::slot_of(std::uint64_t frame) const {
+  const auto found = std::ranges::find(slots_, frame);
+  if (found == slots_.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - slots_.begin());
 }
+
+/// A free slot, or that of the frame that was recorded first: it is done. Begins with counts of zero.
+std::uint32_t Culler::take_slot(std::uint64_t frame) {
+  const auto slot = std::ranges::min_element(slots_);
+  *slot = frame;
+  const auto taken = static_cast<std::uint32_t>(slot - slots_.begin());
+  std::ranges::fill(count_bytes_in(taken), std::byte{0});
+  return taken;
+}
+
+std::span<std::byte> Culler::count_bytes_in(std::uint32_t slot) const {
+  const std::uint64_t bytes = count_bytes(runner_.plan());
+  return counts_.mapped().subspan(slot * bytes, bytes);
+}
+
+FrameCounts Culler::counts_in(std::uint32_t slot) const { return read_counts(runner_.plan(), count_bytes_in(slot)); }
 
 void Culler::release(std::uint64_t finished_frame) {
   for (const Retired& retired : retired_)
@@ -93,11 +118,20 @@ void Culler::release(std::uint64_t finished_frame) {
 }
 
 Result<Growth> Culler::finish(std::uint64_t frame) {
-  assert(frame >= 1 && frame <= frames_ && frame + FRAMES_IN_FLIGHT > frames_ && "finish frames soon after they ran");
+  const std::optional<std::uint32_t> slot = slot_of(frame);
+  assert(frame != FREE && slot && "finish each frame once, before frames_in_flight further ones are recorded");
   release(frame);
+  if (!slot) return Growth::none;
+  slots_[*slot] = FREE;
   if (frame < first_frame_ || runner_.plan().counters == NO_RESOURCE) return Growth::none;
-  std::optional<GrownPlan> grown = grow_plan(*method_, problem_, runner_.plan(), counts_of(frame).needed);
+  std::optional<GrownPlan> grown = grow_plan(*method_, problem_, runner_.plan(), counts_in(*slot).needed);
   return grown ? grow(std::move(*grown)) : Result<Growth>(Growth::none);
+}
+
+void Culler::drop(std::uint64_t frame) {
+  const std::optional<std::uint32_t> slot = slot_of(frame);
+  assert(frame != FREE && slot && "drop a frame instead of finishing it");
+  if (slot) slots_[*slot] = FREE;
 }
 
 Result<Growth> Culler::grow(GrownPlan grown) {

@@ -60,6 +60,9 @@ std::optional<Error> PlanRunner::check(const PlanInputs& inputs) const {
     if (auto error = check_buffer("spheres", inputs.spheres)) return error;
   if (plan_.binds(INPUT_DEPTH))
     if (auto error = check_depth(inputs.depth)) return error;
+  if (inputs.slot >= plan_.frames_in_flight)
+    return Error{"slot", "expected less than " + std::to_string(plan_.frames_in_flight) +
+                             ", the frames in flight that the plan was made for, got " + std::to_string(inputs.slot)};
   const bool on_host = has_host_pass(plan_.passes) || (plan_.fused && has_host_pass(plan_.fused->passes));
   if (on_host && inputs.host_lights.size() < inputs.host_frame->light_count)
     return Error{"host lights", "expected " + std::to_string(inputs.host_frame->light_count) +

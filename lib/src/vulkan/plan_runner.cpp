@@ -30,10 +30,16 @@ BufferInfo buffer_info(const BufferDesc& desc) {
   VkBufferUsageFlags usage =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   if (desc.indirect) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-  return {.name = desc.name,
-          .bytes = desc.bytes,
-          .usage = usage,
-          .memory = desc.memory == BufferMemory::upload ? MemoryUse::upload : MemoryUse::device};
+  return {.name = desc.name, .bytes = desc.bytes, .usage = usage};
+}
+
+/// What a buffer of upload memory is filled from; none for others.
+Result<Buffer> make_slots(const Device& device, const BufferDesc& desc, std::uint32_t frames_in_flight) {
+  if (desc.memory != BufferMemory::upload) return Buffer();
+  return Buffer::create(device, {.name = desc.name + " slots",
+                                 .bytes = desc.bytes * frames_in_flight,
+                                 .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                 .memory = MemoryUse::upload});
 }
 
 /// Constants are no loads on some GPUs. Not of raster passes: llvmpipe's fragment shaders go wrong where they branch on
@@ -125,6 +131,9 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
     Result<Buffer> buffer = Buffer::create(device, buffer_info(desc));
     if (!buffer) return buffer.error();
     runner.buffers_.push_back(std::move(buffer.value()));
+    Result<Buffer> slots = make_slots(device, desc, runner.plan_.frames_in_flight);
+    if (!slots) return slots.error();
+    runner.slots_.push_back(std::move(slots.value()));
   }
   if (runner.plan_.binds(INPUT_DEPTH)) {
     Result<OwnedSampler> sampler = depth_sampler(device);
@@ -195,18 +204,15 @@ BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
 Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {
   if (auto error = check(inputs)) return *error;
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
+  record_host_passes(recorder, passes, inputs);
   zero_buffers(recorder);
-  host_times_.clear();
   const bool changed = projection_changed(inputs);
   std::vector<BoundPass> together;
   for (const BuiltPass& built : passes) {
+    if (built.pass.kind == PassKind::host) continue;
     if (built.pass.on_projection_change) {
       if (!changed) continue;
       ++projection_rebuilds_;
-    }
-    if (built.pass.kind == PassKind::host) {
-      record_host(built.pass, inputs);
-      continue;
     }
     BoundPass next = bind(built, inputs);
     if (std::ranges::any_of(together, [&](const BoundPass& one) { return depends(next, one); })) {
@@ -266,14 +272,46 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
   recorder.end_pass();
 }
 
-void PlanRunner::record_host(const Pass& pass, const PlanInputs& inputs) {
+void PlanRunner::record_host_passes(Recorder& recorder, const std::vector<BuiltPass>& passes,
+                                    const PlanInputs& inputs) {
+  host_times_.clear();
+  std::vector<ResourceId> written;
+  for (const BuiltPass& built : passes) {
+    if (built.pass.kind != PassKind::host) continue;
+    run_on_host(built.pass, inputs);
+    for (const Binding& binding : built.pass.bindings)
+      if (binding.access != Access::read && std::ranges::find(written, binding.resource) == written.end())
+        written.push_back(binding.resource);
+  }
+  if (!written.empty()) upload(recorder, written, inputs.slot);
+}
+
+void PlanRunner::run_on_host(const Pass& pass, const PlanInputs& inputs) {
   std::vector<std::span<std::byte>> mapped;
-  for (const Binding& binding : pass.bindings) mapped.push_back(buffers_[binding.resource - PLAN_BUFFER].mapped());
-  const auto begin = std::chrono::steady_clock::now();
+  for (const Binding& binding : pass.bindings) {
+    const std::size_t i = binding.resource - PLAN_BUFFER;
+    mapped.push_back(slots_[i].mapped().subspan(inputs.slot * buffers_[i].bytes(), buffers_[i].bytes()));
+  }
   const auto lights = inputs.host_lights.first(inputs.host_frame->light_count);
+  const auto begin = std::chrono::steady_clock::now();
   pass.host({.lights = lights, .frame = inputs.host_frame, .buffers = mapped, .constants = pass.constants});
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   host_times_.push_back({pass.name, taken.count()});
+}
+
+void PlanRunner::upload(Recorder& recorder, std::span<const ResourceId> written, std::uint32_t slot) const {
+  std::vector<Use> uses;
+  for (const ResourceId id : written)
+    uses.push_back({.resource = Resource::storage(buffer(id)),
+                    .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+                    .access = VK_ACCESS_2_TRANSFER_WRITE_BIT});
+  recorder.begin_pass(UPLOAD_PASS, uses);
+  for (const ResourceId id : written) {
+    const std::uint64_t bytes = buffers_[id - PLAN_BUFFER].bytes();
+    const VkBufferCopy of_slot{.srcOffset = slot * bytes, .size = bytes};
+    vkCmdCopyBuffer(recorder.commands(), slots_[id - PLAN_BUFFER].handle(), buffer(id), 1, &of_slot);
+  }
+  recorder.end_pass();
 }
 
 PlanRunner::BoundPass PlanRunner::bind(const BuiltPass& built, const PlanInputs& inputs) const {

@@ -20,6 +20,7 @@ struct CullerInfo {
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
   bool brings_spheres = false;  ///< frames bring the lights' spheres; else a method that reads them makes them itself
+  std::uint32_t frames_in_flight = MAX_FRAMES_IN_FLIGHT;  ///< that may be recorded and not done yet, 1 .. that
 };
 
 /// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run.
@@ -43,11 +44,10 @@ enum class Growth : std::uint8_t {
 };
 
 /// Owns the buffers and pipelines of one method at one size. Frames run on the GPU one after the other, as on one queue
-/// they do; up to FRAMES_IN_FLIGHT may be recorded ahead.
+/// they do, in the order in which they were recorded. Up to CullerInfo::frames_in_flight may be under way: when a frame
+/// is recorded, those before the last frames_in_flight - 1 are done, or were dropped.
 class LAMPLIGHT_API Culler {
  public:
-  static constexpr std::uint32_t FRAMES_IN_FLIGHT = 4;
-
   Culler() = default;
   /// Errors: an unknown method or option (with the nearest names), a size or capacity beyond the device's limits, no
   /// memory left.
@@ -59,18 +59,22 @@ class LAMPLIGHT_API Culler {
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
-  /// now on. Call it after the frame's fence; it waits for nothing. Frames that are still under way keep their buffers,
-  /// which are freed when the last of them is finished. A device or a method that allows no more room changes nothing:
-  /// lists that do not fit are walked the long way. Errors: no memory left; the Culler goes on as it was.
+  /// now on. Call it after the frame's fence, before frames_in_flight further frames are recorded; it waits for
+  /// nothing. Frames that are still under way keep their buffers, which are freed when the last of them is finished. A
+  /// device or a method that allows no more room changes nothing: lists that do not fit are walked the long way.
+  /// Errors: no memory left; the Culler goes on as it was.
   [[nodiscard]] Result<Growth> finish(std::uint64_t frame);
+
+  /// Says that a frame was recorded and will never run, so that it is under way no longer.
+  void drop(std::uint64_t frame);
 
   /// How a shader reads the result: the file lookup/NAME.glsl, constants for its specialization, resources for its
   /// descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows in `finish`.
   [[nodiscard]] BoundLookUp lookup() const;
 
-  /// What the frame that was recorded last counted: cells that did not fit and were walked the long way.
-  /// Read it after that frame's fence.
-  [[nodiscard]] shared::Counters counters() const { return counts_of(frames_).counters; }
+  /// What the frame that was recorded last counted: cells that did not fit and were walked the long way. Read it after
+  /// that frame's fence; before it has run, nothing was counted.
+  [[nodiscard]] shared::Counters counters() const { return counts_in(last_slot_).counters; }
 
   /// Bytes on the GPU of the buffers in use.
   [[nodiscard]] std::uint64_t bytes() const { return runner_.plan().bytes(); }
@@ -83,7 +87,10 @@ class LAMPLIGHT_API Culler {
     PlanRunner runner;
     std::uint64_t last_frame = 0;
   };
-  [[nodiscard]] FrameCounts counts_of(std::uint64_t frame) const;
+  [[nodiscard]] std::optional<std::uint32_t> slot_of(std::uint64_t frame) const;
+  [[nodiscard]] std::uint32_t take_slot(std::uint64_t frame);
+  [[nodiscard]] std::span<std::byte> count_bytes_in(std::uint32_t slot) const;
+  [[nodiscard]] FrameCounts counts_in(std::uint32_t slot) const;
   void release(std::uint64_t finished_frame);
   [[nodiscard]] Result<Growth> grow(GrownPlan grown);
 
@@ -91,7 +98,9 @@ class LAMPLIGHT_API Culler {
   const Method* method_ = nullptr;
   Problem problem_;
   Buffer frame_;
-  Buffer counts_;  ///< a slot for each frame in flight
+  Buffer counts_;                     ///< a slot for each frame in flight
+  std::vector<std::uint64_t> slots_;  ///< the frame that has each, or FREE
+  std::uint32_t last_slot_ = 0;
   PlanRunner runner_;
   AccessTracker tracker_;
   std::vector<Retired> retired_;

@@ -24,6 +24,7 @@ struct PlanInputs {
   VkBuffer spheres = VK_NULL_HANDLE;           ///< shared::LightSphere, likewise
   Resource depth;                              ///< image, view, aspect and layout; unset where none is needed
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights
+  std::uint32_t slot = 0;                      ///< below the plan's frames in flight; of no frame that is not done yet
   const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`
 };
 
@@ -38,7 +39,9 @@ struct BoundLookUp {
   [[nodiscard]] std::vector<Use> buffer_uses(VkPipelineStageFlags2 stages) const;
 };
 
-/// The pass that clears a plan's `zeroed` buffers, before all others.
+/// Passes before all others: that which fills a plan's buffers from what host passes wrote, and that which clears its
+/// `zeroed` buffers.
+inline constexpr std::string_view UPLOAD_PASS = "upload";
 inline constexpr std::string_view CLEAR_PASS = "clear";
 
 /// What a frame of a plan counted.
@@ -100,7 +103,9 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
   [[nodiscard]] static Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
                                                             const ShaderSource& shaders);
-  void record_host(const Pass& pass, const PlanInputs& inputs);
+  void record_host_passes(Recorder& recorder, const std::vector<BuiltPass>& passes, const PlanInputs& inputs);
+  void run_on_host(const Pass& pass, const PlanInputs& inputs);
+  void upload(Recorder& recorder, std::span<const ResourceId> written, std::uint32_t slot) const;
   [[nodiscard]] BoundPass bind(const BuiltPass& built, const PlanInputs& inputs) const;
   [[nodiscard]] static bool depends(const BoundPass& later, const BoundPass& earlier);
   /// Passes of which none waits for another: they may run side by side.
@@ -112,6 +117,7 @@ class LAMPLIGHT_API PlanRunner {
 
   Plan plan_;
   std::vector<Buffer> buffers_;
+  std::vector<Buffer> slots_;  ///< of each buffer of upload memory, one behind the other, mapped; else none
   OwnedSampler depth_sampler_;
   std::vector<BuiltPass> separate_;
   std::vector<BuiltPass> fused_;
