@@ -12,7 +12,8 @@
 
 namespace lamp::app {
 
-/// Linear Rec. 709 radiance (or anything else in four channels), row by row from the top.
+/// Linear Rec. 709 radiance, row by row from the top. Alpha: how much of the pixel surfaces cover, 0 (sky) to 1; glass
+/// does not count.
 struct HdrImage {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -26,8 +27,8 @@ struct LdrImage {
   std::vector<glm::u8vec4> pixels;
 };
 
-/// Exposure that puts the log-average luminance at middle grey (Reinhard et al. 2002), from pixels > 0 alone;
-/// 1 for a black picture.
+/// Exposure that puts the log-average luminance at middle grey (Reinhard et al. 2002), from surfaces alone, as far as
+/// they are not black: a dark sky would else overexpose what stands before it. 1 where no lit surface is seen.
 [[nodiscard]] float automatic_exposure(const HdrImage& image);
 
 /// Exposure, a filmic tone curve (cited in the .cpp), sRGB encoding. Alpha becomes 255. A pixel that is not

@@ -43,16 +43,16 @@ glm::u8vec4 tone_map(const glm::vec4& pixel, float exposure) {
 
 float automatic_exposure(const HdrImage& image) {
   double sum_of_logs = 0.0;
-  std::size_t lit = 0;
+  double lit = 0.0;  // pixels, those that surfaces cover in part as such a part
   for (const glm::vec4& pixel : image.pixels) {
     const double y = luminance(pixel);
-    if (y > 0.0 && std::isfinite(y)) {
-      sum_of_logs += std::log(y);
-      ++lit;
+    if (pixel.a > 0.0F && y > 0.0 && std::isfinite(y)) {
+      sum_of_logs += pixel.a * std::log(y);
+      lit += pixel.a;
     }
   }
-  if (lit == 0) return 1.0F;
-  const double log_average = std::exp(sum_of_logs / static_cast<double>(lit));
+  if (lit == 0.0) return 1.0F;
+  const double log_average = std::exp(sum_of_logs / lit);
   return static_cast<float>(MIDDLE_GREY / log_average);
 }
 

@@ -21,7 +21,7 @@ void begin_rendering(VkCommandBuffer commands, const Attachments& attachments, c
                       .imageLayout = color.image->attachment().layout,
                       .loadOp = color.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
                       .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                      .clearValue = {.color = {{color.clear.r, color.clear.g, color.clear.b, 1.0F}}}});
+                      .clearValue = {.color = {{color.clear.r, color.clear.g, color.clear.b, 0.0F}}}});
   VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   if (attachments.depth != nullptr) {
     const bool clear = attachments.depth_use == Attachments::Depth::clear;

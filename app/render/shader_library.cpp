@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint32_t SPIRV_MAGIC = 0x07230203;  // the first word of every module
+
 /// "methods/tiled.comp" becomes TREE/lib/shaders/methods/tiled.comp.
 fs::path source_in(const fs::path& tree, const ShaderCode& code) {
   for (const char* root : {"lib/shaders", "app/render/shaders"}) {
@@ -41,11 +43,11 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
   const ProgramResult compiled = run_program({"glslc", "--target-env=vulkan1.3", "-O", from(folder.path()),
                                               from(source_tree_ / "lib/shaders"), from(source_tree_ / "lib/include"),
                                               from(source_tree_ / "app/render/shaders"), source.string(), "-o", "-"});
-  if (!compiled.succeeded)
-    throw Error(fmt::format("{}: {}", source.string(), compiled.err.substr(0, compiled.err.find('\n'))));
   std::vector<std::uint32_t> words(compiled.out.size() / sizeof(std::uint32_t));
   std::memcpy(words.data(), compiled.out.data(), words.size() * sizeof(std::uint32_t));
-  return words;
+  if (compiled.succeeded && !words.empty() && words.front() == SPIRV_MAGIC) return words;
+  const std::string line = compiled.err.substr(0, compiled.err.find('\n'));
+  throw Error(fmt::format("{}: {}", source.string(), line.empty() ? "glslc gave no SPIR-V and no reason" : line));
 }
 
 std::vector<std::uint32_t> ShaderLibrary::spirv(std::string_view name) const {

@@ -322,6 +322,10 @@ TEST_F(Outputs, AFolderForTemporaryFilesThatIsNone) {
                {"/nonexistent/lamp-", "No such file or directory", "TMPDIR"}, {{"TMPDIR", "/nonexistent"}});
   expect_error(BAD_INPUT, small({"render", "--shader-dir", LAMPLIGHT_SOURCE_DIR}),
                {"glslc: cannot be started: No such file or directory"}, {{"PATH", "/nonexistent"}});
+  std::filesystem::create_directory(path("bin"));
+  std::filesystem::create_symlink("/bin/true", path("bin/glslc"));
+  expect_error(BAD_INPUT, small({"render", "--shader-dir", LAMPLIGHT_SOURCE_DIR}), {"glslc gave no SPIR-V"},
+               {{"PATH", path("bin").string()}});
   // Only what compiles shaders needs one.
   EXPECT_EQ(lamp(small({"render", "--method", "tiled"}), {{"TMPDIR", "/nonexistent"}}).exit_code, 0);
 }

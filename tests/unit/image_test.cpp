@@ -214,6 +214,17 @@ TEST(ToneMap, ChannelsAreIndependentAndOddNumbersAreSeen) {
   EXPECT_EQ(mapped.pixels[2], glm::u8vec4(255, 0, 255, 255));
 }
 
+TEST(AutomaticExposure, IsOfSurfacesAlone) {
+  constexpr float SKY = 0.0F;
+  const HdrImage before_a_sky{4, 1, {{0.36F, 0.36F, 0.36F, 1.0F}, {1e-3F, 1e-3F, 1e-3F, SKY}, {9, 9, 9, SKY}, {}}};
+  EXPECT_NEAR(automatic_exposure(before_a_sky), 0.5F, 1e-6F);
+  const HdrImage nothing_but_sky{2, 1, {{0.5F, 0.5F, 0.5F, SKY}, {0.1F, 0.1F, 0.1F, SKY}}};
+  EXPECT_EQ(automatic_exposure(nothing_but_sky), 1.0F);
+  // A pixel that is covered by half counts as half a pixel.
+  const HdrImage edge{2, 1, {{1.0F, 1.0F, 1.0F, 1.0F}, {8.0F, 8.0F, 8.0F, 0.5F}}};
+  EXPECT_NEAR(automatic_exposure(edge), 0.18F / 2.0F, 1e-6F);
+}
+
 TEST(AutomaticExposure, KnownAnswers) {
   EXPECT_EQ(automatic_exposure(HdrImage{}), 1.0F);
   EXPECT_EQ(automatic_exposure(grey({0.0F, 0.0F})), 1.0F);

@@ -38,5 +38,5 @@ void main() {
     sum = shade_surroundings(s, r, texelFetch(emission_image, pixel, 0).rgb);
   }
   if (WALK) add_group(sum, r, lit, uvec2(pixel), z_view);
-  if (inside) imageStore(hdr_image, pixel, vec4(sum, 1.0));
+  if (inside) imageStore(hdr_image, pixel, vec4(sum, lit ? 1.0 : 0.0));  // alpha: where surfaces are
 }

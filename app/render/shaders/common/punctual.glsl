@@ -47,9 +47,9 @@ void add_light_along(inout vec3 sum, Reflector r, Way way, Emitter e, bool spot)
     attenuation *= cone * cone;
   }
   precise const float n_l = way.n_offset * inverse;
-  precise const float half_v_l = fused_dot(r.half_eye, way.offset) * inverse;
+  precise const vec3 halfway = fma(way.offset, vec3(0.5 * inverse), r.half_eye);
   precise const float arriving = n_l * attenuation;
-  sum = fma(reflect_light(r, half_v_l, n_l, arriving), e.intensity, sum);
+  sum = fma(reflect_light(r, halfway, n_l, arriving), e.intensity, sum);
 }
 
 void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
