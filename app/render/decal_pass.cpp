@@ -29,31 +29,29 @@ GpuImage copy_target(const vulkan::Device& device, const char* name, VkFormat fo
            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
 }
 
-vulkan::PipelineInfo describe(const vulkan::PlanRunner& runner) {
+}  // namespace
+
+vulkan::Pipeline decal_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const Plan& plan) {
   vulkan::PipelineInfo info{.name = "decals",
-                            .constants = runner.lookup({}).constants,
+                            .constants = vulkan::lookup_constants(plan.lookup),
                             .bindings = {{0},
                                          {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                                          {5, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                                          {6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                                          {BINDING_DECALS}}};
   info.constants.push_back({CONSTANT_BOXES, 1});
-  info.constants.push_back({CONSTANT_BOXES_ASCEND, runner.plan().ordered ? 1U : 0U});
-  const std::vector<Binding>& bindings = runner.plan().lookup.bindings;
-  for (std::uint32_t i = 0; i < bindings.size(); ++i)
-    info.bindings.push_back({LOOKUP_BINDING + i, vulkan::descriptor_type(bindings[i].resource)});
-  return info;
+  info.constants.push_back({CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U});
+  for (const vulkan::DescriptorBinding& binding : vulkan::lookup_bindings(plan.lookup))
+    info.bindings.push_back(binding);
+  return take(vulkan::Pipeline::graphics(device, info, shaders.spirv("full_screen"),
+                                         shaders.spirv("decals@" + plan.lookup.name),
+                                         {.colors = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R32G32_UINT}}));
 }
 
-}  // namespace
-
-DecalPass::DecalPass(const vulkan::Device& device, const ShaderLibrary& shaders, const vulkan::PlanRunner& runner,
-                     glm::uvec2 size_px)
+DecalPass::DecalPass(const vulkan::Device& device, const ShaderLibrary& shaders, const Plan& plan, glm::uvec2 size_px)
     : base_color_(copy_target(device, "base colour without decals", VK_FORMAT_R8G8B8A8_SRGB, size_px)),
       surface_(copy_target(device, "surface without decals", VK_FORMAT_R32G32_UINT, size_px)),
-      pipeline_(take(vulkan::Pipeline::graphics(device, describe(runner), shaders.spirv("full_screen"),
-                                                shaders.spirv("decals@" + std::string(runner.lookup({}).name)),
-                                                {.colors = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R32G32_UINT}}))) {}
+      pipeline_(decal_pipeline(device, shaders, plan)) {}
 
 void DecalPass::record(vulkan::Recorder& recorder, const FrameData& data, const Targets& targets,
                        const vulkan::BoundLookUp& lookup) const {

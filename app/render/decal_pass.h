@@ -17,11 +17,14 @@ inline constexpr std::uint32_t CONSTANT_BOXES = 13;
 inline constexpr std::uint32_t CONSTANT_BOXES_ASCEND = 14;
 inline constexpr std::uint32_t BINDING_DECALS = 10;
 
+/// Paints the decals of a plan's cells.
+[[nodiscard]] vulkan::Pipeline decal_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                              const Plan& plan);
+
 class DecalPass {
  public:
-  /// For the look-up of a runner's plan, at that picture size.
-  DecalPass(const vulkan::Device& device, const ShaderLibrary& shaders, const vulkan::PlanRunner& runner,
-            glm::uvec2 size_px);
+  /// For the look-up of a plan, at that picture size.
+  DecalPass(const vulkan::Device& device, const ShaderLibrary& shaders, const Plan& plan, glm::uvec2 size_px);
 
   /// After the runner's passes: `lookup` is of the same frame.
   void record(vulkan::Recorder& recorder, const FrameData& data, const Targets& targets,

@@ -1,4 +1,4 @@
-// Builds and records the four shading paths.
+// Records the four shading paths.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/lighting.h"
 
@@ -11,26 +11,11 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t CONSTANT_BRDF = 10;
-constexpr std::uint32_t CONSTANT_WALK = 11;
-constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
-constexpr std::uint32_t SHADE_GROUP_PX = 8;  // without a fused cull: a subgroup lies within the smallest tile
 constexpr std::uint32_t VOLUME_VERTICES = 60;
-
-std::vector<vulkan::DescriptorBinding> lookup_bindings(const LookUp& lookup) {
-  std::vector<vulkan::DescriptorBinding> bindings;
-  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
-    bindings.push_back({LOOKUP_BINDING + i, vulkan::descriptor_type(lookup.bindings[i].resource)});
-  return bindings;
-}
 
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
-}
-
-std::string variant(const char* shader, std::string_view lookup) {
-  return std::string(shader) + "@" + std::string(lookup);
 }
 
 std::vector<vulkan::Bound> with_decals(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
@@ -46,51 +31,6 @@ std::vector<vulkan::Bound> gbuffer_bound(const Targets& targets) {
           {7, targets.emission.sampled()}};
 }
 
-std::vector<vulkan::DescriptorBinding> gbuffer_bindings(VkDescriptorType frame) {
-  return {{0, frame},
-          {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-          {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-          {5, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-          {6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-          {7, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
-}
-
-vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
-                                  const vulkan::PlanRunner& runner, const vulkan::GraphicsState& state,
-                                  const char* name) {
-  const vulkan::BoundLookUp lookup = runner.lookup({});
-  vulkan::PipelineInfo pipeline{.name = name, .constants = lookup.constants, .bindings = mesh_bindings()};
-  append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
-                              {CONSTANT_BOXES, info.decals ? 1U : 0U},
-                              {CONSTANT_BOXES_ASCEND, runner.plan().ordered ? 1U : 0U}});
-  pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  append(pipeline.bindings, lookup_bindings(runner.plan().lookup));
-  return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),
-                                         shaders.spirv(variant("forward", lookup.name)), state));
-}
-
-vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
-                                   const vulkan::PlanRunner& runner) {
-  const vulkan::BoundLookUp lookup = runner.lookup({});
-  vulkan::PipelineInfo pipeline{.name = "forward+, captured",
-                                .constants = lookup.constants,
-                                .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
-  pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
-  pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  append(pipeline.bindings, lookup_bindings(runner.plan().lookup));
-  return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("full_screen"),
-                                         shaders.spirv(variant("forward_captured", lookup.name)),
-                                         {.colors = {VK_FORMAT_R32G32B32A32_SFLOAT}}));
-}
-
-Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
-  return {.width = info.width,
-          .height = info.height,
-          .light_capacity = info.light_capacity,
-          .options = info.options,
-          .traits = traits};
-}
-
 /// Draws reach only these rows.
 void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
   if (info.shaded.count == 0) return;
@@ -101,11 +41,6 @@ void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
 
 }  // namespace
 
-std::span<const std::string_view> path_names() {
-  static constexpr std::array<std::string_view, 4> NAMES{"forward", "tiled-deferred", "deferred", "standard-deferred"};
-  return NAMES;
-}
-
 std::vector<std::pair<std::string, std::string>> changed_options(const Options& before, const Options& after) {
   std::vector<std::pair<std::string, std::string>> changed;
   for (const auto& [key, value] : after.all())
@@ -113,17 +48,19 @@ std::vector<std::pair<std::string, std::string>> changed_options(const Options& 
   return changed;
 }
 
-Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
-  return take(make_plan(*info.method, problem_of(info, device.traits)));
-}
-
 Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info)
     : info_(info), traits_(device.traits) {
   runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(info, device), shaders.source()));
-  build_shade(device, shaders);
-  if (info.transparency) build_transparent(device, shaders);
+  shade_ = shading_pipeline(device, shaders, info, runner_.plan());
+  if (info.path == ShadingPath::standard_deferred) volumes_ = volumes_pipeline(device, shaders, info.brdf);
+  if (info.transparency) {
+    if (std::optional<Plan> any_depth = any_depth_plan(info, runner_.plan(), device))
+      any_depth_runner_ = take(vulkan::PlanRunner::create(device, std::move(*any_depth), shaders.source()));
+    transparent_ =
+        transparent_pipeline(device, shaders, info, any_depth_runner_ ? any_depth_runner_->plan() : runner_.plan());
+  }
   if (info.decals && info.path != ShadingPath::forward)
-    decals_.emplace(device, shaders, runner_, glm::uvec2(info.width, info.height));
+    decals_.emplace(device, shaders, runner_.plan(), glm::uvec2(info.width, info.height));
 }
 
 std::optional<Options> Lighting::grown(std::span<const std::uint32_t> needed) const {
@@ -145,64 +82,7 @@ std::span<const vulkan::PipelineStatistic> Lighting::statistics(std::string_view
   return runner_.statistics(pass);
 }
 
-bool Lighting::fused() const {
-  // Decals must be in the G-buffer before it is lit, and need the cells for that: the cull comes first.
-  return info_.path == ShadingPath::tiled_deferred && runner_.plan().fused.has_value() && !info_.decals;
-}
-
-void Lighting::build_shade(const vulkan::Device& device, const ShaderLibrary& shaders) {
-  if (info_.path == ShadingPath::forward && info_.captured) {
-    shade_ = captured_pipeline(device, shaders, info_, runner_);
-    return;
-  }
-  if (info_.path == ShadingPath::forward) {
-    shade_ = forward_pipeline(device, shaders, info_, runner_,
-                              mesh_state(VK_COMPARE_OP_EQUAL, {VK_FORMAT_R32G32B32A32_SFLOAT}), "forward+");
-    return;
-  }
-  assert(info_.shaded.first % SHADE_GROUP_PX == 0 && "work groups lie within tiles");
-  const bool volumes = info_.path == ShadingPath::standard_deferred;
-  const FusedLookUp* fused_lookup = fused() ? &*runner_.plan().fused : nullptr;
-  const vulkan::BoundLookUp lookup = runner_.lookup({}, fused() ? Passes::fused : Passes::separate);
-  vulkan::PipelineInfo info{.name = "deferred shading",
-                            .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)};
-  append(info.bindings, {{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}});
-  info.constants = {{0, fused_lookup != nullptr ? fused_lookup->group_width : SHADE_GROUP_PX},
-                    {1, fused_lookup != nullptr ? fused_lookup->group_height : SHADE_GROUP_PX},
-                    {CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)},
-                    {CONSTANT_WALK, volumes ? 0U : 1U},
-                    {CONSTANT_FIRST_ROW, info_.shaded.first},
-                    {CONSTANT_BOXES, info_.decals ? 1U : 0U}};
-  append(info.constants, lookup.constants);
-  append(info.bindings, lookup_bindings(fused_lookup != nullptr ? fused_lookup->lookup : runner_.plan().lookup));
-  shade_ = take(vulkan::Pipeline::compute(device, info, shaders.spirv(variant("deferred", lookup.name))));
-  if (!volumes) return;
-  const vulkan::GraphicsState additive{.cull = VK_CULL_MODE_FRONT_BIT,
-                                       .colors = {VK_FORMAT_R32G32B32A32_SFLOAT},
-                                       .depth = VK_FORMAT_D32_SFLOAT,
-                                       .depth_clamp = true,
-                                       .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                       .blend = vulkan::GraphicsState::Blend::add};
-  volumes_ = take(vulkan::Pipeline::graphics(device,
-                                             {.name = "light volumes",
-                                              .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info_.brdf)}},
-                                              .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)},
-                                             shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
-}
-
-void Lighting::build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders) {
-  if (!runner_.plan().any_depth) {
-    LightingInfo any_depth = info_;
-    any_depth.method = take(find_method("lamplight"));
-    any_depth.options = take(resolve_options(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}));
-    any_depth_runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(any_depth, device), shaders.source()));
-  }
-  vulkan::GraphicsState state = mesh_state(VK_COMPARE_OP_GREATER, {VK_FORMAT_R32G32B32A32_SFLOAT});
-  state.depth_write = false;
-  state.blend = vulkan::GraphicsState::Blend::over;
-  transparent_ =
-      forward_pipeline(device, shaders, info_, any_depth_runner_ ? *any_depth_runner_ : runner_, state, "transparent");
-}
+bool Lighting::fused() const { return is_fused(info_, runner_.plan()); }
 
 bool Lighting::is_cull_pass(std::string_view name) const {
   const std::vector<Pass>& passes = fused() ? runner_.plan().fused->passes : runner_.plan().passes;
@@ -305,14 +185,12 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
   if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup.buffer_uses(COMPUTE));
   append(bound, lookup.resources);
-  const std::uint32_t group_width = fused() ? runner_.plan().fused->group_width : SHADE_GROUP_PX;
-  const std::uint32_t group_height = fused() ? runner_.plan().fused->group_height : SHADE_GROUP_PX;
+  const glm::uvec2 group = shade_group(info_, runner_.plan());
 
   recorder.begin_pass(fused() ? "cull and shade" : "deferred shading", uses);
   recorder.bind(shade_, bound);
   const std::uint32_t rows = info_.shaded.count == 0 ? info_.height : info_.shaded.count;
-  vkCmdDispatch(recorder.commands(), (info_.width + group_width - 1) / group_width,
-                (rows + group_height - 1) / group_height, 1);
+  vkCmdDispatch(recorder.commands(), (info_.width + group.x - 1) / group.x, (rows + group.y - 1) / group.y, 1);
   recorder.end_pass();
 }
 

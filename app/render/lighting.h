@@ -6,45 +6,11 @@
 #include <optional>
 #include <string_view>
 
-#include "lamplight/method.h"
 #include "render/decal_pass.h"
 #include "render/geometry.h"
+#include "render/lighting_pipelines.h"
 
 namespace lamp::app {
-
-enum class ShadingPath : std::uint8_t {
-  forward,            ///< Forward+: fragments walk their cell
-  tiled_deferred,     ///< one fused dispatch where the method has one and there are no decals, else as `deferred`
-  deferred,           ///< cull, then shade in compute
-  standard_deferred,  ///< no cull: one volume a light, added up by blending
-};
-enum class Brdf : std::uint32_t { ggx = 0, blinn_phong = 1 };
-
-/// "forward", "tiled-deferred", "deferred", "standard-deferred", in the order of ShadingPath.
-[[nodiscard]] std::span<const std::string_view> path_names();
-
-/// Rows of a picture; 0 rows: all of it.
-struct Rows {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-};
-
-struct LightingInfo {
-  const Method* method = nullptr;
-  Options options;
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::uint32_t light_capacity = 0;  ///< decals included
-  ShadingPath path = ShadingPath::deferred;
-  Brdf brdf = Brdf::ggx;
-  bool transparency = false;  ///< the scene has blended surfaces
-  bool captured = false;      ///< the scene is a captured frame
-  bool decals = false;        ///< the frames have decals
-  /// Of the options, those that room was made with, for what did not fit with the ones asked for.
-  std::vector<std::pair<std::string, std::string>> grown;
-  /// What is shaded: a reference picture may need a part alone. `first` is a multiple of 8; not with a fused look-up.
-  Rows shaded;
-};
 
 /// What a frame is lit with.
 struct LightingFrame {
@@ -85,8 +51,6 @@ class Lighting {
 
  private:
   using Passes = vulkan::PlanRunner::Passes;
-  void build_shade(const vulkan::Device& device, const ShaderLibrary& shaders);
-  void build_transparent(const vulkan::Device& device, const ShaderLibrary& shaders);
   void shade_forward(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame);
@@ -106,8 +70,5 @@ class Lighting {
 /// The options of a method whose values are others than before, and the values.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_options(const Options& before,
                                                                                const Options& after);
-
-/// A method's plan for these traits, or its error thrown.
-[[nodiscard]] Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device);
 
 }  // namespace lamp::app

@@ -237,14 +237,13 @@ vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
     info.bindings.push_back({storage.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   if (pass.lighting == nullptr)
     return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv(pass.shader)));
-  const vulkan::PlanRunner& runner = pass.lighting->runner();
-  const LookUp& lookup = is_fused(pass) ? runner.plan().fused->lookup : runner.plan().lookup;
-  info.constants = runner.lookup({}, pass.which).constants;
+  const Plan& plan = pass.lighting->runner().plan();
+  const LookUp& lookup = is_fused(pass) ? plan.fused->lookup : plan.lookup;
+  info.constants = vulkan::lookup_constants(lookup);
   const glm::uvec2 group_px = group_of(pass);
   info.constants.push_back({0, group_px.x});
   info.constants.push_back({1, group_px.y});
-  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i)
-    info.bindings.push_back({LOOKUP_BINDING + i, vulkan::descriptor_type(lookup.bindings[i].resource)});
+  for (const vulkan::DescriptorBinding& binding : vulkan::lookup_bindings(lookup)) info.bindings.push_back(binding);
   return take(vulkan::Pipeline::compute(context_.device(), info,
                                         shaders_.spirv(fmt::format("{}@{}", pass.shader, lookup.name))));
 }

@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cstring>
 
-#include "lamplight/shader_code.h"
-
 namespace lamp::vulkan {
 namespace {
 
@@ -42,38 +40,6 @@ Result<Buffer> make_slots(const Device& device, const BufferDesc& desc, std::uin
                                  .memory = MemoryUse::upload});
 }
 
-/// Constants are no loads on some GPUs. Not of raster passes: llvmpipe's fragment shaders go wrong where they branch on
-/// what they read from a uniform buffer.
-VkDescriptorType type_in_pass(const Pass& pass, ResourceId id) {
-  const bool is_constant = id == INPUT_FRAME && pass.kind == PassKind::compute;
-  return is_constant ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : descriptor_type(id);
-}
-
-PipelineInfo pipeline_info(const Pass& pass) {
-  PipelineInfo info{.name = pass.name, .full_subgroups = pass.full_subgroups != 0};
-  for (std::uint32_t i = 0; i < pass.constants.size(); ++i) info.constants.push_back({i, pass.constants[i]});
-  for (std::uint32_t i = 0; i < pass.bindings.size(); ++i)
-    info.bindings.push_back({i, type_in_pass(pass, pass.bindings[i].resource)});
-  return info;
-}
-
-GraphicsState graphics_state(const RasterState& raster) {
-  constexpr VkCullModeFlags CULL[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT};
-  return {.cull = CULL[static_cast<int>(raster.cull)],
-          .samples = static_cast<VkSampleCountFlagBits>(raster.samples),
-          .conservative = raster.conservative};
-}
-
-Result<Pipeline> build_pipeline(const Device& device, const Pass& pass, const ShaderSource& shaders) {
-  if (pass.kind == PassKind::host) return Pipeline();
-  const auto shader = shaders(pass.shader);
-  if (!shader) return shader.error();
-  if (pass.kind == PassKind::compute) return Pipeline::compute(device, pipeline_info(pass), shader.value());
-  const auto vertex = shaders(pass.raster.vertex_shader);
-  if (!vertex) return vertex.error();
-  return Pipeline::graphics(device, pipeline_info(pass), vertex.value(), shader.value(), graphics_state(pass.raster));
-}
-
 /// Of the depth image, whose shaders may gather four pixels at once, and leave out what lies beyond the picture.
 Result<OwnedSampler> depth_sampler(const Device& device) {
   const VkSamplerCreateInfo create{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -91,12 +57,6 @@ std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name) {
-  const ShaderCode* code = find_shader(library_shaders(), name);
-  if (code == nullptr) return Error{"shader " + std::string(name), "is not among the library's shaders"};
-  return std::vector<std::uint32_t>(code->spirv.begin(), code->spirv.end());
-}
-
 std::uint64_t count_bytes(const Plan& plan) { return sizeof(shared::Counters) + plan.capacities.size() * COUNT_BYTES; }
 
 FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes) {
@@ -109,15 +69,11 @@ FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes) {
   return counts;
 }
 
-VkDescriptorType descriptor_type(ResourceId id) {
-  return id == INPUT_DEPTH ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
 Result<std::vector<PlanRunner::BuiltPass>> PlanRunner::build(const Device& device, const std::vector<Pass>& passes,
                                                              const ShaderSource& shaders) {
   std::vector<BuiltPass> built;
   for (const Pass& pass : passes) {
-    Result<Pipeline> pipeline = build_pipeline(device, pass, shaders);
+    Result<Pipeline> pipeline = make_pipeline(device, pass, shaders);
     if (!pipeline) return pipeline.error();
     built.push_back({pass, std::move(pipeline.value())});
   }
@@ -190,9 +146,7 @@ std::vector<Use> BoundLookUp::buffer_uses(VkPipelineStageFlags2 stages) const {
 
 BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
   const LookUp& lookup = which == Passes::fused ? plan_.fused->lookup : plan_.lookup;
-  BoundLookUp bound{.name = lookup.name};
-  for (std::uint32_t i = 0; i < lookup.constants.size(); ++i)
-    bound.constants.push_back({LOOKUP_CONSTANT + i, lookup.constants[i]});
+  BoundLookUp bound{.name = lookup.name, .constants = lookup_constants(lookup)};
   for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i) {
     const Resource used = resource(lookup.bindings[i].resource, inputs);
     bound.resources.push_back({LOOKUP_BINDING + i, used});
@@ -322,7 +276,7 @@ PlanRunner::BoundPass PlanRunner::bind(const BuiltPass& built, const PlanInputs&
   BoundPass bound{.built = &built};
   for (std::uint32_t i = 0; i < pass.bindings.size(); ++i) {
     Resource used = resource(pass.bindings[i].resource, inputs);
-    used.type = type_in_pass(pass, pass.bindings[i].resource);
+    used.type = descriptor_type(pass.bindings[i].resource, pass);
     bound.uses.push_back(use_of(used, pass.bindings[i].access, stages));
     bound.resources.push_back({i, used});
   }

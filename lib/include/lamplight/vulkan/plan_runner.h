@@ -2,20 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "lamplight/export.h"
 #include "lamplight/plan.h"
 #include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
+#include "lamplight/vulkan/pass_pipeline.h"
 #include "lamplight/vulkan/recorder.h"
 
 namespace lamp::vulkan {
-
-/// SPIR-V by shader name; the library's embedded shaders by default (`embedded_shaders`).
-using ShaderSource = std::function<Result<std::vector<std::uint32_t>>(std::string_view name)>;
-[[nodiscard]] LAMPLIGHT_API Result<std::vector<std::uint32_t>> embedded_shaders(std::string_view name);
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
@@ -126,8 +122,5 @@ class LAMPLIGHT_API PlanRunner {
   std::vector<HostTime> host_times_;
   std::uint64_t records_ = 0;
 };
-
-/// The descriptor type of a plan's resource.
-[[nodiscard]] LAMPLIGHT_API VkDescriptorType descriptor_type(ResourceId id);
 
 }  // namespace lamp::vulkan

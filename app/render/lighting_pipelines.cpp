@@ -1,0 +1,151 @@
+// Builds the pipelines of the four shading paths.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/lighting_pipelines.h"
+
+#include <array>
+#include <cassert>
+
+#include "gpu/check.h"
+#include "render/decal_pass.h"
+#include "render/mesh_pass.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t CONSTANT_BRDF = 10;
+constexpr std::uint32_t CONSTANT_WALK = 11;
+constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
+constexpr std::uint32_t SHADE_GROUP_PX = 8;  // without a fused cull: a subgroup lies within the smallest tile
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+std::string variant(const char* shader, std::string_view lookup) {
+  return std::string(shader) + "@" + std::string(lookup);
+}
+
+std::vector<vulkan::DescriptorBinding> gbuffer_bindings(VkDescriptorType frame) {
+  return {{0, frame},
+          {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+          {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {5, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+          {6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+          {7, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
+}
+
+vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
+                                  const Plan& plan, const vulkan::GraphicsState& state, const char* name) {
+  vulkan::PipelineInfo pipeline{
+      .name = name, .constants = vulkan::lookup_constants(plan.lookup), .bindings = mesh_bindings()};
+  append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
+                              {CONSTANT_BOXES, info.decals ? 1U : 0U},
+                              {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U}});
+  pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
+  return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),
+                                         shaders.spirv(variant("forward", plan.lookup.name)), state));
+}
+
+vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
+                                   const Plan& plan) {
+  vulkan::PipelineInfo pipeline{.name = "forward+, captured",
+                                .constants = vulkan::lookup_constants(plan.lookup),
+                                .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+  pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
+  pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
+  return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("full_screen"),
+                                         shaders.spirv(variant("forward_captured", plan.lookup.name)),
+                                         {.colors = {VK_FORMAT_R32G32B32A32_SFLOAT}}));
+}
+
+vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
+                                   const Plan& plan) {
+  assert(info.shaded.first % SHADE_GROUP_PX == 0 && "work groups lie within tiles");
+  const LookUp& lookup = is_fused(info, plan) ? plan.fused->lookup : plan.lookup;
+  const glm::uvec2 group = shade_group(info, plan);
+  const bool walks = info.path != ShadingPath::standard_deferred;
+  vulkan::PipelineInfo pipeline{.name = "deferred shading",
+                                .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)};
+  append(pipeline.bindings, {{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}});
+  pipeline.constants = {{0, group.x},
+                        {1, group.y},
+                        {CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
+                        {CONSTANT_WALK, walks ? 1U : 0U},
+                        {CONSTANT_FIRST_ROW, info.shaded.first},
+                        {CONSTANT_BOXES, info.decals ? 1U : 0U}};
+  append(pipeline.constants, vulkan::lookup_constants(lookup));
+  append(pipeline.bindings, vulkan::lookup_bindings(lookup));
+  return take(vulkan::Pipeline::compute(device, pipeline, shaders.spirv(variant("deferred", lookup.name))));
+}
+
+}  // namespace
+
+std::span<const std::string_view> path_names() {
+  static constexpr std::array<std::string_view, 4> NAMES{"forward", "tiled-deferred", "deferred", "standard-deferred"};
+  return NAMES;
+}
+
+Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
+  return {.width = info.width,
+          .height = info.height,
+          .light_capacity = info.light_capacity,
+          .options = info.options,
+          .traits = traits};
+}
+
+Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
+  return take(make_plan(*info.method, problem_of(info, device.traits)));
+}
+
+std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, const vulkan::Device& device) {
+  if (plan.any_depth) return std::nullopt;
+  LightingInfo any_depth = info;
+  any_depth.method = take(find_method("lamplight"));
+  any_depth.options = take(resolve_options(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}));
+  return plan_or_throw(any_depth, device);
+}
+
+bool is_fused(const LightingInfo& info, const Plan& plan) {
+  // Decals must be in the G-buffer before it is lit, and need the cells for that: the cull comes first.
+  return info.path == ShadingPath::tiled_deferred && plan.fused.has_value() && !info.decals;
+}
+
+glm::uvec2 shade_group(const LightingInfo& info, const Plan& plan) {
+  return is_fused(info, plan) ? glm::uvec2(plan.fused->group_width, plan.fused->group_height)
+                              : glm::uvec2(SHADE_GROUP_PX);
+}
+
+vulkan::Pipeline shading_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info,
+                                  const Plan& plan) {
+  if (info.path != ShadingPath::forward) return deferred_pipeline(device, shaders, info, plan);
+  if (info.captured) return captured_pipeline(device, shaders, info, plan);
+  return forward_pipeline(device, shaders, info, plan, mesh_state(VK_COMPARE_OP_EQUAL, {VK_FORMAT_R32G32B32A32_SFLOAT}),
+                          "forward+");
+}
+
+vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, Brdf brdf) {
+  const vulkan::GraphicsState additive{.cull = VK_CULL_MODE_FRONT_BIT,
+                                       .colors = {VK_FORMAT_R32G32B32A32_SFLOAT},
+                                       .depth = VK_FORMAT_D32_SFLOAT,
+                                       .depth_clamp = true,
+                                       .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                       .blend = vulkan::GraphicsState::Blend::add};
+  return take(vulkan::Pipeline::graphics(device,
+                                         {.name = "light volumes",
+                                          .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(brdf)}},
+                                          .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)},
+                                         shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
+}
+
+vulkan::Pipeline transparent_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                      const LightingInfo& info, const Plan& any_depth) {
+  vulkan::GraphicsState state = mesh_state(VK_COMPARE_OP_GREATER, {VK_FORMAT_R32G32B32A32_SFLOAT});
+  state.depth_write = false;
+  state.blend = vulkan::GraphicsState::Blend::over;
+  return forward_pipeline(device, shaders, info, any_depth, state, "transparent");
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,73 @@
+// How a picture is lit: one method, one shading path; and the pipelines that it takes.
+// Promise: they are made from a plan alone, before any buffer or image is there.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lamplight/method.h"
+#include "render/shader_library.h"
+
+namespace lamp::app {
+
+enum class ShadingPath : std::uint8_t {
+  forward,            ///< Forward+: fragments walk their cell
+  tiled_deferred,     ///< one fused dispatch where the method has one and there are no decals, else as `deferred`
+  deferred,           ///< cull, then shade in compute
+  standard_deferred,  ///< no cull: one volume a light, added up by blending
+};
+enum class Brdf : std::uint32_t { ggx = 0, blinn_phong = 1 };
+
+/// "forward", "tiled-deferred", "deferred", "standard-deferred", in the order of ShadingPath.
+[[nodiscard]] std::span<const std::string_view> path_names();
+
+/// Rows of a picture; 0 rows: all of it.
+struct Rows {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct LightingInfo {
+  const Method* method = nullptr;
+  Options options;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t light_capacity = 0;  ///< decals included
+  ShadingPath path = ShadingPath::deferred;
+  Brdf brdf = Brdf::ggx;
+  bool transparency = false;  ///< the scene has blended surfaces
+  bool captured = false;      ///< the scene is a captured frame
+  bool decals = false;        ///< the frames have decals
+  /// Of the options, those that room was made with, for what did not fit with the ones asked for.
+  std::vector<std::pair<std::string, std::string>> grown;
+  /// What is shaded: a reference picture may need a part alone. `first` is a multiple of 8; not with a fused look-up.
+  Rows shaded;
+};
+
+[[nodiscard]] Problem problem_of(const LightingInfo& info, const DeviceTraits& traits);
+/// A method's plan for these traits, or its error thrown.
+[[nodiscard]] Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device);
+/// The plan whose look-up transparent surfaces walk, if that of `plan` does not hold at any depth.
+[[nodiscard]] std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan,
+                                                 const vulkan::Device& device);
+
+/// Whether one dispatch culls and shades.
+[[nodiscard]] bool is_fused(const LightingInfo& info, const Plan& plan);
+
+/// Threads of a work group of deferred shading, along x and y.
+[[nodiscard]] glm::uvec2 shade_group(const LightingInfo& info, const Plan& plan);
+
+/// Of opaque surfaces, by their path.
+[[nodiscard]] vulkan::Pipeline shading_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                                const LightingInfo& info, const Plan& plan);
+/// Of standard deferred shading's light volumes.
+[[nodiscard]] vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, Brdf brdf);
+/// Of surfaces that are blended over the opaque ones.
+[[nodiscard]] vulkan::Pipeline transparent_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                                    const LightingInfo& info, const Plan& any_depth);
+
+}  // namespace lamp::app
