@@ -50,6 +50,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::vector<std::string> sample_values(const OptionSpec& spec) {
+  std::vector<std::string> values(spec.choices.begin(), spec.choices.end());
+  if (values.empty())
+    for (const long long value : {spec.min, (spec.min + spec.max) / 2, spec.max})
+      values.push_back(std::to_string(value));
+  return values;
+}
+
 std::uint32_t Options::integer(std::string_view key) const {
   const std::string& text = word(key);
   std::uint32_t number = 0;

@@ -21,15 +21,6 @@ constexpr std::uint32_t WIDTH = 77;
 constexpr std::uint32_t HEIGHT = 45;
 constexpr std::uint32_t LIGHTS = 150;
 
-/// Values to try of an option: each word, or the ends and the middle of a range.
-std::vector<std::string> values_of(const OptionSpec& spec) {
-  std::vector<std::string> values(spec.choices.begin(), spec.choices.end());
-  if (values.empty())
-    for (const long long value : {spec.min, (spec.min + spec.max) / 2, spec.max})
-      values.push_back(std::to_string(value));
-  return values;
-}
-
 class Axes : public GpuTest {
  protected:
   Axes()
@@ -81,7 +72,7 @@ TEST_F(Axes, EveryValueOfEveryOption) {
                              is))
       continue;  // the other rows differ from these in their options only; the matrix covers them as they are
     for (const OptionSpec& spec : method.options)
-      for (const std::string& value : values_of(spec)) check(method, {fmt::format("{}={}", spec.key, value)});
+      for (const std::string& value : sample_values(spec)) check(method, {fmt::format("{}={}", spec.key, value)});
   }
 }
 
@@ -93,7 +84,7 @@ TEST_F(Axes, RandomCombinations) {
     for (int round = 0; round < 500 && accepted < 5; ++round) {
       std::vector<std::string> settings;
       for (const OptionSpec& spec : method.options) {
-        const std::vector<std::string> values = values_of(spec);
+        const std::vector<std::string> values = sample_values(spec);
         settings.push_back(fmt::format("{}={}", spec.key, values[random() % values.size()]));
       }
       accepted += check(method, settings) ? 1 : 0;

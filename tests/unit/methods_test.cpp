@@ -36,17 +36,12 @@ constexpr std::uint32_t CAPACITIES[] = {0, 1, 31, 32, 33, 512, 513, 4096, 65536,
 
 Options defaults_of(const Method& method) { return lamp::resolve_options(method, {}).value(); }
 
-/// Every value of an option that a test tries: all words, or both ends.
-std::vector<std::string> values_of(const OptionSpec& spec) {
-  if (!spec.choices.empty()) return {spec.choices.begin(), spec.choices.end()};
-  return {std::to_string(spec.min), std::to_string(spec.max)};
-}
-
 /// The defaults, and each option alone at each of its values.
 std::vector<std::vector<std::string>> settings_of(const Method& method) {
   std::vector<std::vector<std::string>> settings{{}};
   for (const OptionSpec& spec : method.options)
-    for (const std::string& value : values_of(spec)) settings.push_back({std::string(spec.key) + "=" + value});
+    for (const std::string& value : lamp::sample_values(spec))
+      settings.push_back({std::string(spec.key) + "=" + value});
   return settings;
 }
 

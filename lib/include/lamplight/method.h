@@ -25,6 +25,9 @@ struct OptionSpec {
   long long max = 0;
 };
 
+/// Values to try of an option: each word, or both ends and the middle of a range.
+[[nodiscard]] LAMPLIGHT_API std::vector<std::string> sample_values(const OptionSpec& spec);
+
 /// Options that have been checked against a method and completed with its defaults.
 class LAMPLIGHT_API Options {
  public:
