@@ -1,4 +1,4 @@
-// lamp list: methods, scenes, suites, devices.
+// lamp list: methods, scenes, suites, devices, pipelines.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "bench/suite.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/list_pipelines.h"
 #include "commands/request.h"
 #include "files/read_json.h"
 #include "gpu/context.h"
@@ -129,10 +130,20 @@ void print_suites() {
   }
 }
 
-constexpr std::string_view KINDS[] = {"methods", "scenes", "suites", "devices"};
+constexpr std::string_view KINDS[] = {"methods", "scenes", "suites", "devices", "pipelines"};
 
-Exit list(const std::string& what, const std::string& name, bool json) {
+struct ListOptions {
+  std::string what;
+  std::string name;
+  std::string device;
+  bool json = false;
+};
+
+Exit list(const ListOptions& o) {
+  const auto& [what, name, device, json] = o;
   if (std::ranges::find(KINDS, what) == std::end(KINDS)) throw unknown_name("list", what, KINDS);
+  if (what == "pipelines") return list_pipelines_of(name, device, json);
+  if (!device.empty()) throw Error("option --device: was not expected; pipelines alone are made for a device");
   if (!name.empty() && what != "methods")
     throw Error(fmt::format("argument '{}': was not expected; only a method has more to show", name));
   if (!name.empty()) return list_method(name, json);
@@ -157,15 +168,19 @@ Exit list(const std::string& what, const std::string& name, bool json) {
 }  // namespace
 
 Run add_list(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "List methods, scenes, suites or devices");
-  auto what = std::make_shared<std::string>();
-  auto name = std::make_shared<std::string>();
-  auto json = std::make_shared<bool>(false);
-  command->add_option("what", *what, "methods, scenes, suites or devices")->type_name("WHAT")->required();
-  command->add_option("name", *name, "a method, to see its options")->type_name("NAME");
-  add_json_flag(*command, *json, "print an array of objects, of one method an object");
-  command->footer("Examples:\n  lamp list methods\n  lamp list methods tiled\n  lamp list devices --json");
-  return [what, name, json] { return list(*what, *name, *json); };
+  CLI::App* command = app.add_subcommand("list", "List methods, scenes, suites, devices or pipelines");
+  auto o = std::make_shared<ListOptions>();
+  command->add_option("what", o->what, "methods, scenes, suites, devices or pipelines")->type_name("WHAT")->required();
+  command->add_option("name", o->name, "a method, to see its options or its pipelines alone")->type_name("NAME");
+  command->add_option("--device", o->device, "what pipelines are made for: number or part of the name of a device");
+  add_json_flag(*command, o->json, "print an array of objects, of one method or of pipelines an object");
+  command->footer(
+      "Examples:\n"
+      "  lamp list methods\n"
+      "  lamp list methods tiled\n"
+      "  lamp list devices --json\n"
+      "  lamp list pipelines lamplight     compiles them: registers and spills, where the driver tells");
+  return [o] { return list(*o); };
 }
 
 }  // namespace lamp::app

@@ -203,13 +203,6 @@ void Context::create_device(bool pipeline_statistics) {
   device_.pipeline_robustness = optional.unchecked;
   pipelines_ = std::make_unique<vulkan::PipelineStore>();
   device_.pipelines = pipelines_.get();
-
-  const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                     .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                     .queueFamilyIndex = queue_family_};
-  check(vkCreateCommandPool(handle_, &pool, nullptr, &pool_), "creating a command pool");
-  const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-  check(vkCreateFence(handle_, &fence, nullptr, &fence_), "creating a fence");
 }
 
 Context::~Context() {
@@ -225,7 +218,17 @@ Context::~Context() {
   vkDestroyInstance(instance_, nullptr);
 }
 
+void Context::create_submission() {
+  const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                     .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                     .queueFamilyIndex = queue_family_};
+  check(vkCreateCommandPool(handle_, &pool, nullptr, &pool_), "creating a command pool");
+  const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  check(vkCreateFence(handle_, &fence, nullptr, &fence_), "creating a fence");
+}
+
 void Context::submit(const std::function<void(VkCommandBuffer)>& record) {
+  if (fence_ == VK_NULL_HANDLE) create_submission();
   const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                              .commandPool = pool_,
                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,

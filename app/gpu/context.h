@@ -61,6 +61,8 @@ class Context {
   struct Messages;
   void create_messenger();
   void create_device(bool pipeline_statistics);
+  /// What `submit` needs: a driver that only compiles has no fences.
+  void create_submission();
 
   std::unique_ptr<Messages> messages_;
   VkInstance instance_ = VK_NULL_HANDLE;

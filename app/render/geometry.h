@@ -15,6 +15,8 @@ class Geometry {
   void record_gbuffer(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
                       const Targets& targets) const;
 
+  [[nodiscard]] std::vector<vulkan::Pipeline> pipelines() const { return {depth_opaque_, depth_masked_, gbuffer_}; }
+
  private:
   vulkan::Pipeline depth_opaque_;
   vulkan::Pipeline depth_masked_;

@@ -101,5 +101,25 @@ TEST_F(List, Devices) {
   EXPECT_NE(output_of({"list", "devices"}).find(devices[0].at("name").get<std::string>()), std::string::npos);
 }
 
+TEST_F(List, Pipelines) {
+  const nlohmann::json list = json_of({"list", "pipelines", "all", "--json"});
+  expect_keys(list, {"device", "driver", "pipelines"});
+  std::set<std::string> uses;
+  for (const nlohmann::json& pipeline : list.at("pipelines")) {
+    expect_keys(pipeline, {"method", "option", "use", "name", "executables"});
+    uses.insert(pipeline.at("name").get<std::string>() + ": " + pipeline.at("use").get<std::string>());
+  }
+  EXPECT_EQ(uses.size(), list.at("pipelines").size()) << "two are told apart by nothing";
+  for (const char* use : {"deferred shading: deferred", "forward+: forward", "forward+, captured: forward, captured",
+                          "transparent: forward, Blinn-Phong", "light volumes: standard-deferred", "decals: "})
+    EXPECT_TRUE(uses.contains(use)) << use;
+  EXPECT_NE(output_of({"list", "pipelines", "all"}).find("\nall: forward+ (forward)\n"), std::string::npos);
+}
+
+TEST_F(List, PipelinesOfNoMethod) {
+  expect_error(BAD_INPUT, {"list", "pipelines", "til"}, {"til", "tiled"});
+  expect_error(BAD_INPUT, {"list", "methods", "--device", "0"}, {"--device", "pipelines"});
+}
+
 }  // namespace
 }  // namespace lamp::cli

@@ -152,6 +152,7 @@ struct GraphicsCreate {
 }  // namespace
 
 std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineInfo& info, Objects& out) {
+  out.name = info.name;
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const DescriptorBinding& binding : info.bindings)
     bindings.push_back({.binding = binding.binding,

@@ -70,6 +70,7 @@ class LAMPLIGHT_API Pipeline {
   [[nodiscard]] VkPipeline handle() const { return objects_->pipeline.get(); }
   [[nodiscard]] VkPipelineLayout layout() const { return objects_->layout.get(); }
   [[nodiscard]] VkPipelineBindPoint bind_point() const { return objects_->bind_point; }
+  [[nodiscard]] const std::string& name() const { return objects_->name; }
   /// What the driver says of it; empty unless the device has `pipeline_statistics`, or of no pipeline.
   [[nodiscard]] std::span<const PipelineStatistic> statistics() const {
     return objects_ ? std::span(objects_->statistics) : std::span<const PipelineStatistic>();
@@ -77,6 +78,7 @@ class LAMPLIGHT_API Pipeline {
 
  private:
   struct Objects {
+    std::string name;
     OwnedSetLayout set_layout;
     OwnedPipelineLayout layout;
     OwnedPipeline pipeline;
