@@ -1,5 +1,6 @@
 # GLSL to SPIR-V by glslc, embedded as a table of words. A shader that includes "lookup.glsl" is compiled once for
-# every file in lib/shaders/lookup (compute shaders: in lookup/fused too) and is then named "folder/shader@look-up".
+# every file in lib/shaders/lookup (compute shaders: in lookup/fused too) and is then named "folder/shader@look-up". So is
+# a shader in HLSL (NAME.STAGE.hlsl, here "NAME.hlsl") that includes "lookup.hlsl".
 # Nothing is compiled, and no glslc is needed, where LAMPLIGHT_SPIRV_FROM or a folder `spirv` beside the sources has it.
 include_guard()
 
@@ -10,10 +11,11 @@ include(${CMAKE_CURRENT_LIST_DIR}/LamplightShaderHash.cmake)
 
 # The look-ups that a shader is compiled with, one after the other; "-" for a shader that includes none.
 function(lamplight_shader_variants out source)
-  file(STRINGS ${source} uses_lookup REGEX "^#include \"lookup.glsl\"")
+  file(STRINGS ${source} uses_lookup REGEX "^#include \"lookup\\.(glsl|hlsl)\"")
   set(variants "-")
   if(uses_lookup)
-    file(GLOB variants CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/shaders/lookup/*.glsl)
+    string(REGEX MATCH "glsl|hlsl" language ${uses_lookup})
+    file(GLOB variants CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/shaders/lookup/*.${language})
     if(source MATCHES "\\.comp$")
       file(GLOB fused CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/shaders/lookup/fused/*.glsl)
       list(APPEND variants ${fused})
@@ -58,16 +60,22 @@ function(lamplight_compile_shader file source root variant)
   set(lookup_include "")
   if(NOT variant STREQUAL "-")
     get_filename_component(lookup ${variant} NAME_WE)
+    get_filename_component(extension ${variant} EXT)
     file(RELATIVE_PATH include ${PROJECT_SOURCE_DIR}/lib/shaders ${variant})
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lookup/${lookup}/lookup.glsl CONTENT "#include \"${include}\"\n")
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lookup/${lookup}/lookup${extension} CONTENT "#include \"${include}\"\n")
     set(lookup_include "-I${PROJECT_BINARY_DIR}/lookup/${lookup}")
+  endif()
+  set(language --target-env=vulkan1.3)
+  if(source MATCHES "\\.(comp|vert|frag)\\.hlsl$")
+    # glslc refuses HLSL's storage buffers in the SPIR-V of later targets.
+    set(language -x hlsl -fshader-stage=${CMAKE_MATCH_1} --target-env=vulkan1.1)
   endif()
   get_filename_component(folder ${file} DIRECTORY)
   get_filename_component(name ${file} NAME_WLE)
   add_custom_command(
     OUTPUT ${file}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
-    COMMAND ${LAMPLIGHT_GLSLC} --target-env=vulkan1.3 -O -Werror -mfmt=num -MD -MF ${file}.d
+    COMMAND ${LAMPLIGHT_GLSLC} ${language} -O -Werror -mfmt=num -MD -MF ${file}.d
             "-I$<JOIN:${LAMPLIGHT_SHADER_INCLUDES};${root},;-I>" ${lookup_include} ${source} -o ${file}
     DEPENDS ${source}
     DEPFILE ${file}.d
@@ -90,7 +98,8 @@ endfunction()
 # lamplight_shaders(TARGET FUNCTION ROOT): adds a source to TARGET that defines
 # `std::span<const lamp::ShaderCode> lamp::FUNCTION()` for all shaders below ROOT.
 function(lamplight_shaders target function root)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${root}/*.comp ${root}/*.vert ${root}/*.frag)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${root}/*.comp ${root}/*.vert ${root}/*.frag ${root}/*.comp.hlsl
+       ${root}/*.vert.hlsl ${root}/*.frag.hlsl)
   list(SORT sources)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
   lamplight_spirv_folder(spirv_folder ${function} ${root})
@@ -100,7 +109,7 @@ function(lamplight_shaders target function root)
   set(number 0)
   foreach(source IN LISTS sources)
     file(RELATIVE_PATH source_name ${root} ${source})
-    string(REGEX REPLACE "\\.(comp|vert|frag)$" "" name ${source_name})
+    string(REGEX REPLACE "\\.(comp|vert|frag)((\\.hlsl)?)$" "\\2" name ${source_name})
     lamplight_shader_variants(variants ${source})
     foreach(variant IN LISTS variants)
       set(variant_name ${name})

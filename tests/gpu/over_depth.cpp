@@ -18,39 +18,54 @@ OverDepth::OverDepth(const View& view, GpuImage depth, const std::vector<shared:
 }
 
 std::vector<std::uint32_t> OverDepth::per_pixel(const std::string& shader, vulkan::PlanRunner& runner, Passes which) {
-  const bool fused = which == Passes::fused;
+  return per_pixel(std::vector{shader}, runner, which, 1).front();
+}
+
+std::vector<std::vector<std::uint32_t>> OverDepth::per_pixel(const std::vector<std::string>& shaders,
+                                                             vulkan::PlanRunner& runner, Passes which,
+                                                             std::uint32_t words) {
   const vulkan::PlanInputs inputs = data_.plan_inputs(depth_.sampled());
   const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
-  vulkan::PipelineInfo info{.name = shader, .constants = lookup.constants, .bindings = {{0}, {1}}};
-  info.constants.push_back({0, fused ? runner.plan().fused->group_width : 8});
-  info.constants.push_back({1, fused ? runner.plan().fused->group_height : 8});
-  for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
-  const vulkan::Pipeline pipeline = take(
-      vulkan::Pipeline::compute(test_context().device(), info, test_shader(shader + "@" + std::string(lookup.name))));
-  const vulkan::Buffer found = host_buffer("counts", std::size_t{size_.x} * size_.y * sizeof(std::uint32_t));
-  std::vector<vulkan::Bound> bound = lookup.resources;
-  bound.push_back({0, data_.frame()});
-  bound.push_back({1, vulkan::Resource::storage(found.handle())});
+  const bool fused = which == Passes::fused;
+  const glm::uvec2 group =
+      fused ? glm::uvec2(runner.plan().fused->group_width, runner.plan().fused->group_height) : glm::uvec2(8);
+  std::vector<vulkan::Pipeline> pipelines;
+  std::vector<vulkan::Buffer> found;
+  for (const std::string& shader : shaders) {
+    vulkan::PipelineInfo info{.name = shader, .constants = lookup.constants, .bindings = {{0}, {1}}};
+    info.constants.push_back({0, group.x});
+    info.constants.push_back({1, group.y});
+    for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
+    pipelines.push_back(take(vulkan::Pipeline::compute(test_context().device(), info,
+                                                       test_shader(shader + "@" + std::string(lookup.name)))));
+    found.push_back(host_buffer("words of " + shader, std::size_t{size_.x} * size_.y * words * sizeof(std::uint32_t)));
+  }
   test_context().submit([&](VkCommandBuffer commands) {
     vulkan::AccessTracker tracker;
     tracker.assume(depth_.sampled());
     vulkan::Recorder recorder(test_context().device(), commands, tracker);
     data_.record_upload(recorder);
     static_cast<void>(take(runner.record(recorder, inputs, which)));
-    std::vector<vulkan::Use> uses{{.resource = vulkan::Resource::storage(found.handle()),
-                                   .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                   .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
-    for (const vulkan::Bound& b : lookup.resources)
-      uses.push_back(reads(b.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
-    recorder.begin_pass(shader, uses);
-    recorder.bind(pipeline, bound);
-    const std::uint32_t side_x = fused ? runner.plan().fused->group_width : 8;
-    const std::uint32_t side_y = fused ? runner.plan().fused->group_height : 8;
-    vkCmdDispatch(commands, (size_.x + side_x - 1) / side_x, (size_.y + side_y - 1) / side_y, 1);
-    recorder.end_pass();
-    recorder.barrier({host_reads(vulkan::Resource::storage(found.handle()))});
+    for (std::size_t i = 0; i < shaders.size(); ++i) {
+      const vulkan::Resource to = vulkan::Resource::storage(found[i].handle());
+      std::vector<vulkan::Bound> bound = lookup.resources;
+      bound.push_back({0, data_.frame()});
+      bound.push_back({1, to});
+      std::vector<vulkan::Use> uses{{.resource = to,
+                                     .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                     .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
+      for (const vulkan::Bound& b : lookup.resources)
+        uses.push_back(reads(b.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
+      recorder.begin_pass(shaders[i], uses);
+      recorder.bind(pipelines[i], bound);
+      vkCmdDispatch(commands, (size_.x + group.x - 1) / group.x, (size_.y + group.y - 1) / group.y, 1);
+      recorder.end_pass();
+      recorder.barrier({host_reads(to)});
+    }
   });
-  return contents<std::uint32_t>(found);
+  std::vector<std::vector<std::uint32_t>> values;
+  for (const vulkan::Buffer& buffer : found) values.push_back(contents<std::uint32_t>(buffer));
+  return values;
 }
 
 }  // namespace lamp::app

@@ -22,6 +22,11 @@ class OverDepth {
   /// which it writes and this returns.
   [[nodiscard]] std::vector<std::uint32_t> per_pixel(const std::string& shader, vulkan::PlanRunner& runner,
                                                      vulkan::PlanRunner::Passes which);
+  /// The same for several shaders over one result, which write so many words for each pixel.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> per_pixel(const std::vector<std::string>& shaders,
+                                                                  vulkan::PlanRunner& runner,
+                                                                  vulkan::PlanRunner::Passes which,
+                                                                  std::uint32_t words);
 
  private:
   glm::uvec2 size_;

@@ -113,7 +113,8 @@ struct LookUp {
 /// Rounds of a look-up's loops for each light, at most: two loops, one in the other.
 inline constexpr std::uint32_t WALK_ROUNDS = 3;
 
-/// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl).
+/// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl, *.hlsl) and does
+/// not say otherwise (lookup/parts/resources.glsl).
 inline constexpr std::uint32_t LOOKUP_CONSTANT = 100;
 inline constexpr std::uint32_t LOOKUP_BINDING = 16;
 

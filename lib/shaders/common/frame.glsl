@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_FRAME
 #define LAMP_COMMON_FRAME
-#extension GL_EXT_scalar_block_layout : require
+#include "common/language.glsl"
 #include "lamplight/shared/frame.h"
 
 // Lights of the frame. Whatever was counted, there are no more than there is room for: nothing is indexed beyond.
@@ -31,7 +31,7 @@ vec3 world_position(Frame frame, vec2 pixel, float z_view) {
   const vec3 p = view_position(frame, pixel, z_view);
   const mat4 m = frame.world_from_view;
   precise const vec3 world =
-      fma(m[0].xyz, vec3(p.x), fma(m[1].xyz, vec3(p.y), fma(m[2].xyz, vec3(p.z), m[3].xyz)));
+      LAMP_FMA(m[0].xyz, p.xxx, LAMP_FMA(m[1].xyz, p.yyy, LAMP_FMA(m[2].xyz, p.zzz, m[3].xyz)));
   return world;
 }
 

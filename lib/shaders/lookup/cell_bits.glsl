@@ -4,8 +4,8 @@
 #include "lookup/parts/lamplight_cell.glsl"
 #define LOOKUP_TOGETHER (LOOKUP_SLICES == 1u)
 
-layout(set = 0, binding = 18, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
-layout(set = 0, binding = 19, scalar) readonly buffer LookupPieceLists { uint lookup_piece_lists[]; };
+LOOKUP_BUFFER(2, LookupBits, uint, lookup_bits);
+LOOKUP_BUFFER(3, LookupPieceLists, uint, lookup_piece_lists);
 
 struct Walk {
   uint bits;   // of the word that was read last, those that are left
@@ -21,10 +21,17 @@ struct Walk {
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint index = lookup_light_cell(pixel, z_view);
   const LightCell cell = lookup_cells[index];
-  if (cell.pieces == ALL_LIGHTS) return Walk(0u, 0u, 0u, (light_count_of(lookup_frame) + 31u) / 32u, 0u, 0u, 0u, true);
-  const bool at_cell = LOOKUP_FIRST_AT_CELL != 0u;
-  return Walk(0u, 0u, 0u, (cell.entries + 31u) / 32u, lookup_row(pixel, z_view), at_cell ? index : cell.first_piece,
-              at_cell ? cell.first_piece - 1u : cell.first_piece, false);
+  bool at_cell = LOOKUP_FIRST_AT_CELL != 0u;
+  Walk walk;
+  walk.all = cell.pieces == ALL_LIGHTS;
+  walk.bits = 0u;
+  walk.base = 0u;
+  walk.word = 0u;
+  walk.words = ((walk.all ? light_count_of(lookup_frame) : cell.entries) + 31u) / 32u;
+  walk.row = lookup_row(pixel, z_view);
+  walk.first = at_cell ? index : cell.first_piece;
+  walk.second = at_cell ? cell.first_piece - 1u : cell.first_piece;
+  return walk;
 }
 
 // Of all lights, each word is full but the last.

@@ -4,9 +4,9 @@
 #include "lookup/parts/lamplight_cell.glsl"
 #define LOOKUP_TOGETHER (LOOKUP_SLICES == 1u)
 
-layout(set = 0, binding = 18, scalar) readonly buffer LookupSpans { LightSpan lookup_spans[]; };
-layout(set = 0, binding = 19, scalar) readonly buffer LookupPieceLists { uint lookup_piece_lists[]; };
-layout(set = 0, binding = 20, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
+LOOKUP_BUFFER(2, LookupSpans, LightSpan, lookup_spans);
+LOOKUP_BUFFER(3, LookupPieceLists, uint, lookup_piece_lists);
+LOOKUP_BUFFER(4, LookupLists, uint, lookup_lists);
 
 struct Walk {
   uint at;     // with COARSE: in the lists of pieces
@@ -16,17 +16,36 @@ struct Walk {
   bool all;    // `at` is a light
 };
 
+Walk walk_of_all() {
+  Walk walk;
+  walk.at = 0u;
+  walk.end = light_count_of(lookup_frame);
+  walk.span = 0u;
+  walk.spans = 0u;
+  walk.all = true;
+  return walk;
+}
+
+// `count` entries from `first` on, then the spans of `pieces` pieces from `span` on.
+Walk walk_spans(uint first, uint count, uint span, uint pieces) {
+  Walk walk;
+  walk.at = first;
+  walk.end = first + count;
+  walk.span = span;
+  walk.spans = span + pieces * LOOKUP_CELL_ROWS;
+  walk.all = false;
+  return walk;
+}
+
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint index = lookup_light_cell(pixel, z_view);
   const LightCell cell = lookup_cells[index];
-  if (cell.pieces == ALL_LIGHTS) return Walk(0u, light_count_of(lookup_frame), 0u, 0u, true);
+  if (cell.pieces == ALL_LIGHTS) return walk_of_all();
   const uint row = lookup_row(pixel, z_view);
   const uint next = cell.first_piece * LOOKUP_CELL_ROWS + row;
-  if (LOOKUP_FIRST_AT_CELL == 0u) return Walk(0u, 0u, next, next + cell.pieces * LOOKUP_CELL_ROWS, false);
+  if (LOOKUP_FIRST_AT_CELL == 0u) return walk_spans(0u, 0u, next, cell.pieces);
   const LightSpan span = lookup_spans[index * LOOKUP_CELL_ROWS + row];  // of a cell without lights anything
-  const uint further = max(cell.pieces, 1u) - 1u;
-  const uint count = cell.pieces == 0u ? 0u : span.count;
-  return Walk(span.first, span.first + count, next, next + further * LOOKUP_CELL_ROWS, false);
+  return walk_spans(span.first, cell.pieces == 0u ? 0u : span.count, next, max(cell.pieces, 1u) - 1u);
 }
 
 void lookup_next_span(inout Walk walk) {
@@ -47,10 +66,12 @@ bool walk_span(inout Walk walk) {
 
 uint lookup_light_at(Walk walk, uint place) {
   if (walk.all) return place;
-  return (place & COARSE) != 0u ? lookup_piece_lists[place & ~COARSE] : lookup_lists[place];
+  if ((place & COARSE) != 0u) return lookup_piece_lists[place & ~COARSE];
+  return lookup_lists[place];
 }
 
 bool walk_next(inout Walk walk, out uint light) {
+  light = 0u;
   if (!walk_span(walk)) return false;
   light = lookup_light_at(walk, walk.at);
   ++walk.at;
@@ -60,7 +81,8 @@ bool walk_next(inout Walk walk, out uint light) {
 uint walk_take(inout Walk walk, uint most, uint rank, out uint light) {
   uint taken = 0u;
   light = 0u;
-  while (taken < most && walk_span(walk)) {
+  while (taken < most) {
+    if (!walk_span(walk)) break;
     const uint count = min(walk.end - walk.at, most - taken);
     if (rank - taken < count) light = lookup_light_at(walk, walk.at + rank - taken);
     taken += count;

@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/cluster_cell.glsl"
 
-layout(constant_id = 105) const uint LOOKUP_WORDS = 1;
-layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
+LOOKUP_CONSTANT(5, uint, LOOKUP_WORDS, 1);
+LOOKUP_BUFFER(1, LookupBits, uint, lookup_bits);
 
 #define LOOKUP_LIGHT(bit) (bit)
 #define LOOKUP_SPARSE

@@ -1,11 +1,10 @@
 // The cluster of a pixel: tile and depth slice.
 // SPDX-License-Identifier: Apache-2.0
-#include "common/frame.glsl"
+#include "lookup/parts/resources.glsl"
 
-layout(constant_id = 100) const uint LOOKUP_TILE_PX = 64;
-layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
+LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 64);
 
-#define LOOKUP_SLICE_CONSTANT 101
+#define LOOKUP_SLICE_CONSTANT 1
 #include "lookup/parts/slice_constants.glsl"
 
 void lookup_prepare() {}

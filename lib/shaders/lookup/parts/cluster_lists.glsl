@@ -3,27 +3,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/cluster_cell.glsl"
 
-layout(constant_id = 105) const uint LOOKUP_ENTRIES = 1;
-layout(constant_id = 106) const uint LOOKUP_WORDS = 0;  // of a tile's bits
-layout(set = 0, binding = 17, scalar) readonly buffer LookupRanges { uvec2 lookup_ranges[]; };
-layout(set = 0, binding = 18, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
-layout(set = 0, binding = 19, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
+LOOKUP_CONSTANT(5, uint, LOOKUP_ENTRIES, 1);
+LOOKUP_CONSTANT(6, uint, LOOKUP_WORDS, 0);  // of a tile's bits
+LOOKUP_BUFFER(1, LookupRanges, uvec2, lookup_ranges);
+LOOKUP_BUFFER(2, LookupLists, uint, lookup_lists);
+LOOKUP_BUFFER(3, LookupBits, uint, lookup_bits);
 
 struct Walk {
   uint at;
   uint end;
   uint first_word;  // of the tile's bits; NO_WORD: `at` is an entry of the list
 };
-const uint NO_WORD = ~0u;
+LAMP_CONST NO_WORD = ~0u;
 
-Walk walk_nothing() { return Walk(0u, 0u, NO_WORD); }
+Walk walk_from(uint first, uint end, uint first_word) {
+  Walk walk;
+  walk.at = first;
+  walk.end = end;
+  walk.first_word = first_word;
+  return walk;
+}
+
+Walk walk_nothing() { return walk_from(0u, 0u, NO_WORD); }
 
 Walk walk_of_cell(uint cell) {
   const uvec2 range = lookup_ranges[cell];
   const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
-  if (fits) return Walk(range.x, range.x + range.y, NO_WORD);
+  if (fits) return walk_from(range.x, range.x + range.y, NO_WORD);
   const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  return Walk(0u, light_count_of(lookup_frame), cell % (tiles.x * tiles.y) * LOOKUP_WORDS);
+  return walk_from(0u, light_count_of(lookup_frame), cell % (tiles.x * tiles.y) * LOOKUP_WORDS);
 }
 
 Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
@@ -33,7 +41,7 @@ Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pix
 
 Walk walk_of_cell_in(uint cell, uint first, uint end) {
   Walk walk = walk_of_cell(cell);
-  if (walk.first_word != NO_WORD) return Walk(first, min(end, walk.end), walk.first_word);
+  if (walk.first_word != NO_WORD) return walk_from(first, min(end, walk.end), walk.first_word);
   walk.at = lookup_lower_bound(walk.at, walk.end, first);
   walk.end = lookup_lower_bound(walk.at, walk.end, end);
   return walk;
@@ -47,17 +55,19 @@ Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
 uint lookup_next_bit(uint first_word, uint from, uint end) {
   while (from < end) {
     const uint bits = lookup_bits[first_word + from / 32u] >> (from % 32u);
-    if (bits != 0u) return from + uint(findLSB(bits));
+    if (bits != 0u) return from + LAMP_FIRST_BIT(bits);
     from = (from / 32u + 1u) * 32u;
   }
   return end;
 }
 
 bool walk_next(inout Walk walk, out uint light) {
+  light = 0u;
   if (walk.first_word != NO_WORD && LOOKUP_WORDS != 0u)
     walk.at = lookup_next_bit(walk.first_word, walk.at, walk.end);
   if (walk.at >= walk.end) return false;
-  light = walk.first_word == NO_WORD ? lookup_lists[walk.at] : walk.at;
+  light = walk.at;
+  if (walk.first_word == NO_WORD) light = lookup_lists[walk.at];
   ++walk.at;
   return true;
 }

@@ -1,22 +1,22 @@
 // The cell of a pixel and its row in it: the tile, and without a depth buffer the tile in a slice of depth.
 // SPDX-License-Identifier: Apache-2.0
-#include "common/frame.glsl"
+#include "lookup/parts/resources.glsl"
 #include "lamplight/shared/lamplight.h"
 
-layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
-layout(constant_id = 101) const uint LOOKUP_CELL_TILES = 4;
-layout(constant_id = 102) const uint LOOKUP_CELL_SLICES = 1;
+LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 16);
+LOOKUP_CONSTANT(1, uint, LOOKUP_CELL_TILES, 4);
+LOOKUP_CONSTANT(2, uint, LOOKUP_CELL_SLICES, 1);
 // 1: a cell's first piece is kept at the cell's own place, so that it can be read before the cell is, and first_piece
 // is the next one.
-layout(constant_id = 107) const uint LOOKUP_FIRST_AT_CELL = 0;
-layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
-layout(set = 0, binding = 17, scalar) readonly buffer LookupCells { LightCell lookup_cells[]; };
+LOOKUP_CONSTANT(7, uint, LOOKUP_FIRST_AT_CELL, 0);
+LOOKUP_BUFFER(1, LookupCells, LightCell, lookup_cells);
 
-#define LOOKUP_SLICE_CONSTANT 103
+#define LOOKUP_SLICE_CONSTANT 3
 #include "lookup/parts/slice_constants.glsl"
 
-const uint LOOKUP_TILES = LOOKUP_CELL_TILES * LOOKUP_CELL_TILES;
-const uint LOOKUP_CELL_ROWS = LOOKUP_TILES * LOOKUP_CELL_SLICES;
+#define LOOKUP_TILES (LOOKUP_CELL_TILES * LOOKUP_CELL_TILES)
+#define LOOKUP_CELL_PX (LOOKUP_TILE_PX * LOOKUP_CELL_TILES)
+#define LOOKUP_CELL_ROWS (LOOKUP_TILES * LOOKUP_CELL_SLICES)
 
 void lookup_prepare() {}
 
@@ -29,9 +29,8 @@ uint lookup_cell(uvec2 pixel, float z_view) {
 }
 
 uint lookup_light_cell(uvec2 pixel, float z_view) {
-  const uint cell_px = LOOKUP_TILE_PX * LOOKUP_CELL_TILES;
-  const uvec2 at = pixel / cell_px;
-  const uvec2 across = (lookup_frame.size_px + cell_px - 1u) / cell_px;
+  const uvec2 at = pixel / LOOKUP_CELL_PX;
+  const uvec2 across = (lookup_frame.size_px + LOOKUP_CELL_PX - 1u) / LOOKUP_CELL_PX;
   return at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES));
 }
 

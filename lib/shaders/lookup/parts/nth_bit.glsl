@@ -3,11 +3,11 @@
 #ifndef LOOKUP_NTH_BIT
 #define LOOKUP_NTH_BIT
 
-// `rank` < bitCount(bits).
+// `rank` is less than how many bits are set.
 uint nth_bit(uint bits, uint rank) {
   uint place = 0u;
   for (uint width = 16u; width > 0u; width /= 2u) {
-    const uint below = uint(bitCount(bitfieldExtract(bits, int(place), int(width))));
+    const uint below = LAMP_BIT_COUNT(LAMP_BITS(bits, place, width));
     if (rank < below) continue;
     rank -= below;
     place += width;

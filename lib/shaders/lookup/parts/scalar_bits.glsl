@@ -5,21 +5,20 @@
 // Promise: each thread meets exactly the lights of walk_next, in the same order, whichever threads are active with it.
 // Needs: walk_bits.glsl, LOOKUP_WORDS of a cell. LOOKUP_SPARSE: where many words are asked for most are empty.
 // SPDX-License-Identifier: Apache-2.0
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
+#include "lookup/parts/subgroup.glsl"
 
-const uint FEW_WORDS = 8u;  // are not worth a look
+LAMP_CONST FEW_WORDS = 8u;  // are not worth a look
 #ifdef LOOKUP_SPARSE
-const bool LOOKS = LOOKUP_WORDS > FEW_WORDS;
+#define LOOKUP_LOOKS (LOOKUP_WORDS > FEW_WORDS)
 #else
-const bool LOOKS = false;
+#define LOOKUP_LOOKS false
 #endif
 
 struct WalkMerged {
   Walk own;
   uint word;      // the next word to look at
   uint end;       // of the words that some thread has
-  uint block;     // with LOOKS, bit i of `open` is word block + i
+  uint block;     // with LOOKUP_LOOKS, bit i of `open` is word block + i
   uint open;      // words that may hold a light of some thread, not yet walked
   uint at;        // the word that is walked
   uint own_bits;  // of it
@@ -29,12 +28,20 @@ struct WalkMerged {
 
 WalkMerged walk_begin_merged(Walk own) {
   const bool any_bit = own.begin < own.end;
-  const uint word = subgroupMin(any_bit ? own.begin / 32u : ~0u);
-  const uint end = subgroupMax(any_bit ? (own.end + 31u) / 32u : 0u);
-  return WalkMerged(own, word, end, 0u, 0u, 0u, 0u, 0u, false);
+  WalkMerged walk;
+  walk.own = own;
+  walk.word = subgroupMin(any_bit ? own.begin / 32u : ~0u);
+  walk.end = subgroupMax(any_bit ? (own.end + 31u) / 32u : 0u);
+  walk.block = 0u;
+  walk.open = 0u;
+  walk.at = 0u;
+  walk.own_bits = 0u;
+  walk.bits = 0u;
+  walk.mine = false;
+  return walk;
 }
 
-const uint BLOCK_WORDS = 32u;
+LAMP_CONST BLOCK_WORDS = 32u;
 
 // Which of a block's words hold a light, of the cell whose words begin at `base`: every `step`-th from `first` on.
 uint words_with_lights(uint base, uint block, uint count, uint first, uint step) {
@@ -54,12 +61,14 @@ void look_at_words(inout WalkMerged walk) {
   const uvec4 here = subgroupBallot(true);
   // Threads that have parted company and meet again at different words walk them all.
   const uvec2 words = uvec2(walk.block, walk.end);
-  if (subgroupBallot(words == subgroupBroadcastFirst(words)) != here) return;
+  const bool differs = LAMP_DIFFER(words, subgroupBroadcastFirst(words));
+  if (LAMP_DIFFER(subgroupBallot(!differs), here)) return;
   const uint step = max(subgroupBallotBitCount(here), 1u);  // 0 where all that are left cover no sample
   const uint first = subgroupBallotExclusiveBitCount(here);
+  const uvec4 nobody = uvec4(0u, 0u, 0u, 0u);
   uint found = 0u;
   bool waits = walk.own.begin < walk.own.end;
-  for (uvec4 waiting = subgroupBallot(waits); waiting != uvec4(0u); waiting = subgroupBallot(waits)) {
+  for (uvec4 waiting = subgroupBallot(waits); LAMP_DIFFER(waiting, nobody); waiting = subgroupBallot(waits)) {
     const uint base = subgroupMin(waits ? walk.own.base : ~0u);
     found |= words_with_lights(base, walk.block, count, first, step);
     waits = waits && walk.own.base != base;
@@ -69,7 +78,7 @@ void look_at_words(inout WalkMerged walk) {
 
 // The next word to walk; false if there is none.
 bool next_open_word(inout WalkMerged walk) {
-  if (!LOOKS) {
+  if (!LOOKUP_LOOKS) {
     walk.at = walk.word++;
     return walk.at < walk.end;
   }
@@ -77,19 +86,20 @@ bool next_open_word(inout WalkMerged walk) {
     if (walk.word >= walk.end) return false;
     look_at_words(walk);
   }
-  walk.at = walk.block + uint(findLSB(walk.open));
+  walk.at = walk.block + LAMP_FIRST_BIT(walk.open);
   walk.open &= walk.open - 1u;
   return true;
 }
 
 // A thread's own bits are always among the merged ones, so threads that have parted company lose nothing.
 bool walk_next_merged(inout WalkMerged walk, out uint light) {
+  light = 0u;
   while (walk.bits == 0u) {
     if (!next_open_word(walk)) return false;
     walk.own_bits = lookup_word(walk.own, walk.at);
     walk.bits = subgroupOr(walk.own_bits);
   }
-  const uint bit = uint(findLSB(walk.bits));
+  const uint bit = LAMP_FIRST_BIT(walk.bits);
   walk.bits &= walk.bits - 1u;
   walk.mine = (walk.own_bits >> bit & 1u) != 0u;
   light = LOOKUP_LIGHT(walk.at * 32u + bit);

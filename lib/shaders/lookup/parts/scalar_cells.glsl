@@ -4,7 +4,7 @@
 // Promise: each thread that the device counts as active walks its own cell once, whichever are active with it.
 // Needs: walk_of_cell, walk_of_cell_in, walk_nothing.
 // SPDX-License-Identifier: Apache-2.0
-#extension GL_KHR_shader_subgroup_ballot : require
+#include "lookup/parts/subgroup.glsl"
 
 #define LOOKUP_IN_TURNS
 
@@ -18,7 +18,11 @@ struct WalkTurns {
 // none (llvmpipe let them wait for 65 535 rounds: 70 times the shading of the plain walk).
 WalkTurns walk_begin_turns(uint cell) {
   const bool takes_part = subgroupInverseBallot(subgroupBallot(true));
-  return WalkTurns(cell, 0u, !takes_part);
+  WalkTurns turns;
+  turns.cell = cell;
+  turns.turn = 0u;
+  turns.done = !takes_part;
+  return turns;
 }
 
 // The first thread that is left decides, so every turn ends at least one thread's waiting.

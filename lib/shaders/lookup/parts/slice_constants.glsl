@@ -2,16 +2,16 @@
 // a prefix, because look-ups are included by shaders that they know nothing of.
 // Needs: LOOKUP_SLICE_CONSTANT.
 // SPDX-License-Identifier: Apache-2.0
-layout(constant_id = LOOKUP_SLICE_CONSTANT) const uint LOOKUP_SLICES = 1;
-layout(constant_id = LOOKUP_SLICE_CONSTANT + 1) const uint LOOKUP_SLICE_SCALE = 0;
-layout(constant_id = LOOKUP_SLICE_CONSTANT + 2) const uint LOOKUP_NEAR_MM = 500;
-layout(constant_id = LOOKUP_SLICE_CONSTANT + 3) const uint LOOKUP_FAR_M = 500;
+LOOKUP_CONSTANT(LOOKUP_SLICE_CONSTANT, uint, LOOKUP_SLICES, 1);
+LOOKUP_CONSTANT(LOOKUP_SLICE_CONSTANT + 1, uint, LOOKUP_SLICE_SCALE, 0);
+LOOKUP_CONSTANT(LOOKUP_SLICE_CONSTANT + 2, uint, LOOKUP_NEAR_MM, 500);
+LOOKUP_CONSTANT(LOOKUP_SLICE_CONSTANT + 3, uint, LOOKUP_FAR_M, 500);
 
 #define SLICES LOOKUP_SLICES
 #define SLICE_SCALE LOOKUP_SLICE_SCALE
 #define NEAR_MM LOOKUP_NEAR_MM
 #define FAR_M LOOKUP_FAR_M
-#include "common/slices.glsl"
+#include "common/slice_of.glsl"
 #undef SLICES
 #undef SLICE_SCALE
 #undef NEAR_MM

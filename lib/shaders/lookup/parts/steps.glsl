@@ -3,8 +3,7 @@
 // Needs: LOOKUP_STEPS; walk_left(walk), whether there are steps left; walk_step(walk, light), which gives the next light,
 // or moves on.
 // SPDX-License-Identifier: Apache-2.0
-#extension GL_EXT_control_flow_attributes : require
-#define LOOKUP_EACH(light, pixel, z_view)                                             \
-  for (Walk lookup_walk = walk_begin(pixel, z_view); walk_left(lookup_walk);)         \
-    [[unroll]] for (uint lookup_step = 0u; lookup_step < LOOKUP_STEPS; ++lookup_step) \
+#define LOOKUP_EACH(light, pixel, z_view)                                              \
+  for (Walk lookup_walk = walk_begin(pixel, z_view); walk_left(lookup_walk);)          \
+    LAMP_UNROLL for (uint lookup_step = 0u; lookup_step < LOOKUP_STEPS; ++lookup_step) \
       if (walk_step(lookup_walk, light))

@@ -1,14 +1,13 @@
 // One flat bit array a tile and depth range; bit N is light N.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017).
 // SPDX-License-Identifier: Apache-2.0
-#include "common/frame.glsl"
+#include "lookup/parts/resources.glsl"
 
-layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
-layout(constant_id = 101) const uint LOOKUP_WORDS = 1;
-layout(constant_id = 102) const uint LOOKUP_RANGES = 1;
-layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
-layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
-layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float lookup_splits[]; };
+LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 16);
+LOOKUP_CONSTANT(1, uint, LOOKUP_WORDS, 1);
+LOOKUP_CONSTANT(2, uint, LOOKUP_RANGES, 1);
+LOOKUP_BUFFER(1, LookupBits, uint, lookup_bits);
+LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
 
 #include "lookup/parts/tile_cell.glsl"
 #define LOOKUP_LIGHT(bit) (bit)

@@ -1,14 +1,13 @@
 // One list a tile and depth range, a count and its lights; a count beyond the capacity means every light.
 // SPDX-License-Identifier: Apache-2.0
-#include "common/frame.glsl"
+#include "lookup/parts/resources.glsl"
 
-layout(constant_id = 100) const uint LOOKUP_TILE_PX = 16;
-layout(constant_id = 101) const uint LOOKUP_CAPACITY = 512;
-layout(constant_id = 102) const uint LOOKUP_RANGES = 1;
-layout(constant_id = 103) const bool LOOKUP_ASCENDS = false;  // a list that ascends can be cut to a range of ids
-layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
-layout(set = 0, binding = 17, scalar) readonly buffer LookupLists { uint lookup_lists[]; };
-layout(set = 0, binding = 18, scalar) readonly buffer LookupSplits { float lookup_splits[]; };
+LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 16);
+LOOKUP_CONSTANT(1, uint, LOOKUP_CAPACITY, 512);
+LOOKUP_CONSTANT(2, uint, LOOKUP_RANGES, 1);
+LOOKUP_CONSTANT(3, bool, LOOKUP_ASCENDS, false);  // a list that ascends can be cut to a range of ids
+LOOKUP_BUFFER(1, LookupLists, uint, lookup_lists);
+LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
 
 #include "lookup/parts/tile_cell.glsl"
 
@@ -20,13 +19,21 @@ struct Walk {
 
 void lookup_prepare() {}
 
-Walk walk_nothing() { return Walk(0u, 0u, false); }
+Walk walk_from(uint first, uint end, bool overflowed) {
+  Walk walk;
+  walk.at = first;
+  walk.end = end;
+  walk.overflowed = overflowed;
+  return walk;
+}
+
+Walk walk_nothing() { return walk_from(0u, 0u, false); }
 
 Walk walk_of_cell(uint cell) {
   const uint base = cell * (1u + LOOKUP_CAPACITY);
   const uint count = lookup_lists[base];
-  if (count > LOOKUP_CAPACITY) return Walk(0u, light_count_of(lookup_frame), true);
-  return Walk(base + 1u, base + 1u + count, false);
+  if (count > LOOKUP_CAPACITY) return walk_from(0u, light_count_of(lookup_frame), true);
+  return walk_from(base + 1u, base + 1u + count, false);
 }
 
 Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
@@ -36,7 +43,7 @@ Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pix
 
 Walk walk_of_cell_in(uint cell, uint first, uint end) {
   Walk walk = walk_of_cell(cell);
-  if (walk.overflowed) return Walk(first, min(end, walk.end), true);
+  if (walk.overflowed) return walk_from(first, min(end, walk.end), true);
   if (!LOOKUP_ASCENDS) return walk;
   walk.at = lookup_lower_bound(walk.at, walk.end, first);
   walk.end = lookup_lower_bound(walk.at, walk.end, end);
@@ -47,6 +54,9 @@ Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
   return walk_of_cell_in(lookup_cell(pixel, z_view), first, end);
 }
 
-uint lookup_light_at(Walk walk, uint place) { return walk.overflowed ? place : lookup_lists[place]; }
+uint lookup_light_at(Walk walk, uint place) {
+  if (walk.overflowed) return place;
+  return lookup_lists[place];
+}
 
 #include "lookup/parts/walk_places.glsl"

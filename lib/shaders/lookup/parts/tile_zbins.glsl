@@ -1,17 +1,16 @@
 // The bits of a pixel's tile between the least and the greatest light of the pixel's bin. Bits are in the order of depth.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), Z-binning.
 // SPDX-License-Identifier: Apache-2.0
-#include "lamplight/shared/frame.h"
+#include "lookup/parts/resources.glsl"
 
-layout(constant_id = 100) const uint LOOKUP_TILE_PX = 8;
-layout(constant_id = 101) const uint LOOKUP_WORDS = 1;
-layout(constant_id = 106) const bool LOOKUP_WIDE = false;
-layout(set = 0, binding = 16, scalar) readonly buffer LookupFrame { Frame lookup_frame; };
-layout(set = 0, binding = 17, scalar) readonly buffer LookupBits { uint lookup_bits[]; };
-layout(set = 0, binding = 18, scalar) readonly buffer LookupBins { uint lookup_bins[]; };
-layout(set = 0, binding = 19, scalar) readonly buffer LookupOrder { uint lookup_order[]; };
+LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 8);
+LOOKUP_CONSTANT(1, uint, LOOKUP_WORDS, 1);
+LOOKUP_CONSTANT(6, bool, LOOKUP_WIDE, false);
+LOOKUP_BUFFER(1, LookupBits, uint, lookup_bits);
+LOOKUP_BUFFER(2, LookupBins, uint, lookup_bins);
+LOOKUP_BUFFER(3, LookupOrder, uint, lookup_order);
 
-#define LOOKUP_SLICE_CONSTANT 102
+#define LOOKUP_SLICE_CONSTANT 2
 #include "lookup/parts/slice_constants.glsl"
 
 #define LOOKUP_LIGHT(bit) lookup_order[bit]

@@ -10,7 +10,15 @@ struct Walk {
   uint bits;  // of word - 1, not yet walked
 };
 
-Walk walk_bits(uint base, uint begin, uint end) { return Walk(base, begin, end, begin / 32u, 0u); }
+Walk walk_bits(uint base, uint begin, uint end) {
+  Walk walk;
+  walk.base = base;
+  walk.begin = begin;
+  walk.end = end;
+  walk.word = begin / 32u;
+  walk.bits = 0u;
+  return walk;
+}
 
 // A word of the cell without the bits outside begin .. end - 1; any word may be asked for.
 uint lookup_word(Walk walk, uint word) {

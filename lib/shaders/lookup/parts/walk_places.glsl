@@ -2,6 +2,7 @@
 // Needs: Walk with `at` and `end`; lookup_light_at(walk, place).
 // SPDX-License-Identifier: Apache-2.0
 bool walk_next(inout Walk walk, out uint light) {
+  light = 0u;
   if (walk.at >= walk.end) return false;
   light = lookup_light_at(walk, walk.at);
   ++walk.at;

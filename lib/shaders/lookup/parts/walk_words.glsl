@@ -6,7 +6,7 @@
 
 // Of the word, which has some.
 uint lookup_lowest(inout Walk walk) {
-  const uint light = lookup_light_of(walk, uint(findLSB(walk.bits)));
+  const uint light = lookup_light_of(walk, LAMP_FIRST_BIT(walk.bits));
   walk.bits &= walk.bits - 1u;
   return light;
 }
@@ -22,7 +22,7 @@ uint walk_take(inout Walk walk, uint most, uint rank, out uint light) {
   uint taken = 0u;
   light = 0u;
   while (walk_word(walk)) {
-    const uint count = uint(bitCount(walk.bits));
+    const uint count = LAMP_BIT_COUNT(walk.bits);
     if (taken + count > most) break;
     if (rank - taken < count) light = lookup_light_of(walk, nth_bit(walk.bits, rank - taken));
     taken += count;

@@ -1,0 +1,4 @@
+// all.glsl for HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#define LAMP_HLSL
+#include "lookup/all.glsl"

@@ -1,0 +1,4 @@
+// cell_bits_stepped.glsl for HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#define LAMP_HLSL
+#include "lookup/cell_bits_stepped.glsl"

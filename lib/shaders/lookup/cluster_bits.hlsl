@@ -1,0 +1,4 @@
+// cluster_bits.glsl for HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#define LAMP_HLSL
+#include "lookup/cluster_bits.glsl"

@@ -1,0 +1,4 @@
+// tile_lists_scalar.glsl for HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#define LAMP_HLSL
+#include "lookup/tile_lists_scalar.glsl"

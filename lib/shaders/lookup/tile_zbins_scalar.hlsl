@@ -1,0 +1,4 @@
+// tile_zbins_scalar.glsl for HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#define LAMP_HLSL
+#include "lookup/tile_zbins_scalar.glsl"
