@@ -29,12 +29,13 @@ struct DepthImage {
 
 struct ComputePipelineInfo {
   std::span<const std::uint32_t> spirv;
-  std::vector<std::pair<std::uint32_t, VkDescriptorType>> bindings;  ///< of set 0
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> constants;    ///< specialization: id, value
+  std::uint32_t set = 0;  ///< that all bindings are in
+  std::vector<std::pair<std::uint32_t, VkDescriptorType>> bindings;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> constants;  ///< specialization: id, value
 };
 
 struct ComputePipeline {
-  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  std::uint32_t set = 0;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
 };
@@ -77,6 +78,8 @@ class Engine {
  private:
   void create_instance();
   void create_device();
+  [[nodiscard]] VkDescriptorSetLayout make_set_layout(const std::vector<VkDescriptorSetLayoutBinding>& bindings,
+                                                      VkDescriptorSetLayoutCreateFlags flags);
   [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties);
 
   std::vector<std::string> messages_;

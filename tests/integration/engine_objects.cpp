@@ -61,20 +61,30 @@ DepthImage Engine::make_depth_image(VkExtent2D size) {
   return depth;
 }
 
+VkDescriptorSetLayout Engine::make_set_layout(const std::vector<VkDescriptorSetLayoutBinding>& bindings,
+                                              VkDescriptorSetLayoutCreateFlags flags) {
+  const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                             .flags = flags,
+                                             .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                             .pBindings = bindings.data()};
+  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+  check(vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout), "creating a set layout");
+  destroy_.emplace_back([=, this] { vkDestroyDescriptorSetLayout(device_, layout, nullptr); });
+  return layout;
+}
+
 ComputePipeline Engine::make_compute_pipeline(const ComputePipelineInfo& info) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const auto& [binding, type] : info.bindings)
     bindings.push_back(
         {.binding = binding, .descriptorType = type, .descriptorCount = 1, .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT});
-  const VkDescriptorSetLayoutCreateInfo set{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                            .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
-                                            .bindingCount = static_cast<std::uint32_t>(bindings.size()),
-                                            .pBindings = bindings.data()};
-  ComputePipeline made;
-  check(vkCreateDescriptorSetLayout(device_, &set, nullptr, &made.set_layout), "creating a set layout");
-  destroy_.emplace_back([=, this] { vkDestroyDescriptorSetLayout(device_, made.set_layout, nullptr); });
-  const VkPipelineLayoutCreateInfo layout{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &made.set_layout};
+  ComputePipeline made{.set = info.set};
+  std::vector<VkDescriptorSetLayout> sets;
+  while (sets.size() < info.set) sets.push_back(make_set_layout({}, 0));
+  sets.push_back(make_set_layout(bindings, VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR));
+  const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .setLayoutCount = static_cast<std::uint32_t>(sets.size()),
+                                          .pSetLayouts = sets.data()};
   check(vkCreatePipelineLayout(device_, &layout, nullptr, &made.layout), "creating a pipeline layout");
   destroy_.emplace_back([=, this] { vkDestroyPipelineLayout(device_, made.layout, nullptr); });
 
@@ -126,7 +136,7 @@ void Engine::bind(VkCommandBuffer commands, const ComputePipeline& pipeline,
                       .pBufferInfo = &buffers[i]});
   }
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
-  push_descriptor_set_(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0,
+  push_descriptor_set_(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, pipeline.set,
                        static_cast<std::uint32_t>(writes.size()), writes.data());
 }
 

@@ -15,8 +15,7 @@ T value_of(lamp::Result<T> result) {
 
 }  // namespace
 
-LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info)
-    : engine_(engine), spirv_(info.spirv), size_(info.size) {
+LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engine_(engine), info_(info) {
   const lamp::vulkan::Device device =
       value_of(lamp::vulkan::make_device(engine.physical(), engine.device(), Engine::API_VERSION));
   culler_ = value_of(lamp::vulkan::Culler::create(device, {.width = info.size.width,
@@ -32,15 +31,20 @@ LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info)
 void LightCulling::make_pipeline() {
   const lamp::vulkan::BoundLookUp lookup = culler_.lookup();
   // The shader's own bindings, then the look-up's; the look-up's sizes are specialization constants.
-  ComputePipelineInfo pipeline{.spirv = spirv_,
+  ComputePipelineInfo pipeline{.spirv = info_.spirv,
+                               .set = info_.set,
                                .bindings = {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                                             {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                             {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}};
   for (const lamp::vulkan::Bound& bound : lookup.resources)
-    pipeline.bindings.push_back({bound.binding, bound.resource.type});
+    pipeline.bindings.push_back({place(bound), bound.resource.type});
   for (const lamp::vulkan::Constant& constant : lookup.constants)
-    pipeline.constants.push_back({constant.id, constant.value});
+    pipeline.constants.push_back({constant.id - lamp::LOOKUP_CONSTANT + info_.first_constant, constant.value});
   count_ = engine_.make_compute_pipeline(pipeline);
+}
+
+std::uint32_t LightCulling::place(const lamp::vulkan::Bound& bound) const {
+  return bound.binding - lamp::LOOKUP_BINDING + info_.first_binding;
 }
 
 void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
@@ -56,9 +60,9 @@ void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
                                       {.binding = 1, .buffer = frame.lights},
                                       {.binding = 2, .buffer = frame.counts}};
   for (const lamp::vulkan::Bound& bound : culler_.lookup().resources)
-    descriptors.push_back({.binding = bound.binding, .buffer = bound.resource.buffer});
+    descriptors.push_back({.binding = place(bound), .buffer = bound.resource.buffer});
   engine_.bind(commands, count_, descriptors);
-  vkCmdDispatch(commands, (size_.width + 7) / 8, (size_.height + 7) / 8, 1);
+  vkCmdDispatch(commands, (info_.size.width + 7) / 8, (info_.size.height + 7) / 8, 1);
 }
 
 bool LightCulling::finish() {

@@ -16,6 +16,9 @@ struct LightCullingInfo {
   std::vector<std::string> options;      ///< "tile=32"
   std::string lookup;                    ///< the file below lookup/ that the shader includes
   std::span<const std::uint32_t> spirv;  ///< the counting shader
+  std::uint32_t set = 0;                 ///< where it has put its bindings and the look-up's
+  std::uint32_t first_binding = lamp::LOOKUP_BINDING;
+  std::uint32_t first_constant = lamp::LOOKUP_CONSTANT;
   VkExtent2D size{};
   std::uint32_t light_capacity = 0;
 };
@@ -45,10 +48,10 @@ class LightCulling {
 
  private:
   void make_pipeline();
+  [[nodiscard]] std::uint32_t place(const lamp::vulkan::Bound& bound) const;
 
   Engine& engine_;
-  std::span<const std::uint32_t> spirv_;
-  VkExtent2D size_;
+  LightCullingInfo info_;
   lamp::vulkan::Culler culler_;
   std::uint64_t frame_ = 0;  ///< recorded last
   ComputePipeline count_;

@@ -17,6 +17,9 @@ namespace {
 constexpr std::uint32_t CLUSTERED[] = {
 #include "count_clustered.inc"
 };
+constexpr std::uint32_t CLUSTERED_HLSL[] = {
+#include "count_clustered.comp.hlsl.inc"
+};
 constexpr std::uint32_t TILED_BITS[] = {
 #include "count_tiled_bits.inc"
 };
@@ -189,8 +192,16 @@ int main() {
     tiled.method = "tiled-bits";
     tiled.lookup = "tile_bits";
     tiled.spirv = TILED_BITS;
+    tiled.first_binding = 3;
+    tiled.first_constant = 0;
+    LightCullingInfo hlsl = small;
+    hlsl.spirv = CLUSTERED_HLSL;
+    hlsl.set = 1;
+    hlsl.first_binding = 3;
+    hlsl.first_constant = 0;
     bool good = true;
-    for (const Case& c : {Case{clustered}, Case{small, /* overflows= */ true}, Case{tiled}})
+    for (const Case& c :
+         {Case{clustered}, Case{small, /* overflows= */ true}, Case{tiled}, Case{hlsl, /* overflows= */ true}})
       good = passes(engine, c) && good;
     for (const std::string& message : engine.messages()) std::printf("%s\n", message.c_str());
     return good && engine.messages().empty() ? 0 : 1;
