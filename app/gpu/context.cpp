@@ -32,7 +32,7 @@ bool has_debug_utils(const char* layer) {
   });
 }
 
-VkInstance make_instance(ContextInfo::Validation validation) {
+vulkan::Instance make_instance(ContextInfo::Validation validation) {
   const VkApplicationInfo application{
       .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "lamp", .apiVersion = INSTANCE_VERSION};
   constexpr std::array FEATURES{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
@@ -56,7 +56,7 @@ VkInstance make_instance(ContextInfo::Validation validation) {
                                     .ppEnabledExtensionNames = extensions.data()};
   VkInstance instance = VK_NULL_HANDLE;
   check(vkCreateInstance(&create, nullptr, &instance), "creating a Vulkan instance");
-  return instance;
+  return take(vulkan::load_instance(vkGetInstanceProcAddr, instance, INSTANCE_VERSION), Exit::no_device);
 }
 
 bool can_describe_pipelines(VkPhysicalDevice physical) {
@@ -78,11 +78,11 @@ bool can_describe_pipelines(VkPhysicalDevice physical) {
 /// Extensions and features that are enabled where the device has them.
 class OptionalFeatures {
  public:
-  OptionalFeatures(VkPhysicalDevice physical, bool pipeline_statistics, void* next)
-      : extensions(vulkan::useful_extensions(physical)),
+  OptionalFeatures(const vulkan::Instance& instance, VkPhysicalDevice physical, bool pipeline_statistics, void* next)
+      : extensions(vulkan::useful_extensions(instance, physical)),
         conservative_raster(!extensions.empty()),
         describes(pipeline_statistics && can_describe_pipelines(physical)),
-        unchecked(vulkan::has_pipeline_robustness(physical)),
+        unchecked(vulkan::has_pipeline_robustness(instance, physical)),
         chain_(next) {
     if (describes) add(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME, describe_);
     if (unchecked) add(VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME, robustness_);
@@ -140,10 +140,10 @@ struct Context::Messages {
 };
 
 std::vector<DeviceRow> list_devices() {
-  const VkInstance instance = make_instance(ContextInfo::Validation::off);
+  const vulkan::Instance instance = make_instance(ContextInfo::Validation::off);
   std::vector<DeviceRow> rows;
-  for (VkPhysicalDevice physical : physical_devices(instance)) rows.push_back(describe(physical));
-  vkDestroyInstance(instance, nullptr);
+  for (VkPhysicalDevice physical : physical_devices(instance.handle)) rows.push_back(describe(instance, physical));
+  vkDestroyInstance(instance.handle, nullptr);
   return rows;
 }
 
@@ -151,7 +151,7 @@ Context::Context(const ContextInfo& info) : messages_(std::make_unique<Messages>
   instance_ = make_instance(info.validation);
   if (info.validation == ContextInfo::Validation::on) create_messenger();
   physical_ = choose_device(instance_, info.device);
-  row_ = describe(physical_);
+  row_ = describe(instance_, physical_);
   create_device(info.pipeline_statistics);
 }
 
@@ -164,8 +164,8 @@ void Context::create_messenger() {
       .pfnUserCallback = &Messages::receive,
       .pUserData = messages_.get()};
   const auto create_function = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-  check(create_function(instance_, &create, nullptr, &messenger_), "creating a debug messenger");
+      vkGetInstanceProcAddr(instance_.handle, "vkCreateDebugUtilsMessengerEXT"));
+  check(create_function(instance_.handle, &create, nullptr, &messenger_), "creating a debug messenger");
 }
 
 void Context::create_device(bool pipeline_statistics) {
@@ -186,7 +186,7 @@ void Context::create_device(bool pipeline_statistics) {
                                       .queueCount = 1,
                                       .pQueuePriorities = &priority};
   const auto required = vulkan::required_extensions();
-  const OptionalFeatures optional(physical_, pipeline_statistics, &features.base);
+  const OptionalFeatures optional(instance_, physical_, pipeline_statistics, &features.base);
   std::vector<const char*> extensions(required.begin(), required.end());
   extensions.insert(extensions.end(), optional.extensions.begin(), optional.extensions.end());
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -197,7 +197,7 @@ void Context::create_device(bool pipeline_statistics) {
                                   .ppEnabledExtensionNames = extensions.data()};
   check(vkCreateDevice(physical_, &create, nullptr, &handle_), "creating the device");
   vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
-  device_ = take(vulkan::make_device(physical_, handle_, INSTANCE_VERSION), Exit::no_device);
+  device_ = take(vulkan::make_device(instance_, physical_, handle_), Exit::no_device);
   device_.traits.conservative_raster = optional.conservative_raster;
   device_.pipeline_statistics = optional.describes;
   device_.pipeline_robustness = optional.unchecked;
@@ -213,9 +213,9 @@ Context::~Context() {
     vkDestroyDevice(handle_, nullptr);
   }
   if (messenger_ != VK_NULL_HANDLE)
-    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
-  vkDestroyInstance(instance_, nullptr);
+    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
+        instance_.handle, "vkDestroyDebugUtilsMessengerEXT"))(instance_.handle, messenger_, nullptr);
+  vkDestroyInstance(instance_.handle, nullptr);
 }
 
 void Context::create_submission() {

@@ -37,6 +37,7 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
+  [[nodiscard]] const vulkan::Instance& instance() const { return instance_; }
   [[nodiscard]] const vulkan::Device& device() const { return device_; }
   [[nodiscard]] const DeviceRow& row() const { return row_; }
   /// Whether shaders may compute in double precision.
@@ -65,7 +66,7 @@ class Context {
   void create_submission();
 
   std::unique_ptr<Messages> messages_;
-  VkInstance instance_ = VK_NULL_HANDLE;
+  vulkan::Instance instance_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice handle_ = VK_NULL_HANDLE;

@@ -45,11 +45,11 @@ bool matches(std::string_view wanted, std::size_t index, const DeviceRow& row) {
 
 }  // namespace
 
-DeviceRow describe(VkPhysicalDevice physical) {
+DeviceRow describe(const vulkan::Instance& instance, VkPhysicalDevice physical) {
   VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
   vkGetPhysicalDeviceProperties2(physical, &properties);
-  const std::optional<lamp::Error> problem = vulkan::check_device(physical, INSTANCE_VERSION);
+  const std::optional<lamp::Error> problem = vulkan::check_device(instance, physical);
   return {.name = properties.properties.deviceName,
           .kind = KINDS[rank(properties.properties.deviceType)],
           .driver = fmt::format("{} {}", driver.driverName, driver.driverInfo),
@@ -65,14 +65,14 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
   return devices;
 }
 
-VkPhysicalDevice choose_device(VkInstance instance, std::string_view wanted) {
-  const std::vector<VkPhysicalDevice> devices = physical_devices(instance);
+VkPhysicalDevice choose_device(const vulkan::Instance& instance, std::string_view wanted) {
+  const std::vector<VkPhysicalDevice> devices = physical_devices(instance.handle);
   if (devices.empty())
     throw Error("no Vulkan device: install a driver, for example the package mesa-vulkan-drivers", Exit::no_device);
   VkPhysicalDevice best = VK_NULL_HANDLE;
   std::string seen;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const DeviceRow row = describe(devices[i]);
+    const DeviceRow row = describe(instance, devices[i]);
     seen += fmt::format("{}{} {}{}", i == 0 ? "" : "; ", i, row.name, row.problem.empty() ? "" : " " + row.problem);
     if (!row.problem.empty() || (!wanted.empty() && !matches(wanted, i, row))) continue;
     if (best == VK_NULL_HANDLE || rank(type_of(devices[i])) < rank(type_of(best))) best = devices[i];

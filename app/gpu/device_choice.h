@@ -10,10 +10,10 @@ namespace lamp::app {
 
 inline constexpr std::uint32_t INSTANCE_VERSION = VK_API_VERSION_1_3;  ///< of every instance that the tool makes
 
-[[nodiscard]] DeviceRow describe(VkPhysicalDevice physical);
+[[nodiscard]] DeviceRow describe(const vulkan::Instance& instance, VkPhysicalDevice physical);
 
 /// Throws Error (Exit::no_device) with the devices there are when none fits.
-[[nodiscard]] VkPhysicalDevice choose_device(VkInstance instance, std::string_view wanted);
+[[nodiscard]] VkPhysicalDevice choose_device(const vulkan::Instance& instance, std::string_view wanted);
 
 [[nodiscard]] std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 

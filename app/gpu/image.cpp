@@ -26,7 +26,7 @@ GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : inf
   const std::string what = "image " + info.name;
   VkImage image = VK_NULL_HANDLE;
   check(vkCreateImage(device.handle, &create, nullptr, &image), what.c_str());
-  image_ = vulkan::OwnedImage(device.handle, image);
+  image_ = vulkan::OwnedImage(device.handle, image, vkDestroyImage);
   device.name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), info.name);
 
   VkMemoryRequirements needs{};
@@ -37,7 +37,7 @@ GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : inf
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
   check(vkAllocateMemory(device.handle, &allocate, nullptr, &memory), what.c_str());
-  memory_ = vulkan::OwnedMemory(device.handle, memory);
+  memory_ = vulkan::OwnedMemory(device.handle, memory, vkFreeMemory);
   check(vkBindImageMemory(device.handle, image, memory, 0), what.c_str());
 
   const VkImageViewCreateInfo view_create{
@@ -48,7 +48,7 @@ GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : inf
       .subresourceRange = {aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
   VkImageView view = VK_NULL_HANDLE;
   check(vkCreateImageView(device.handle, &view_create, nullptr, &view), what.c_str());
-  view_ = vulkan::OwnedImageView(device.handle, view);
+  view_ = vulkan::OwnedImageView(device.handle, view, vkDestroyImageView);
 }
 
 VkImageAspectFlags GpuImage::aspect() const {

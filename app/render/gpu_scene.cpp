@@ -161,7 +161,7 @@ VkSampler GpuScene::sampler(const vulkan::Device& device, const Texture& texture
                                    .maxLod = VK_LOD_CLAMP_NONE};
   VkSampler handle = VK_NULL_HANDLE;
   check(vkCreateSampler(device.handle, &create, nullptr, &handle), "creating a sampler");
-  slot = vulkan::OwnedSampler(device.handle, handle);
+  slot = vulkan::OwnedSampler(device.handle, handle, vkDestroySampler);
   return handle;
 }
 

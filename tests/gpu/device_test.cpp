@@ -1,6 +1,6 @@
 // Which devices the library takes: what it says of instances that are too old and of features that nobody has filled
 // in. SPDX-License-Identifier: Apache-2.0
-#include <vector>
+#include <string_view>
 
 #include "gpu/gpu_test.h"
 
@@ -17,18 +17,14 @@ class OldInstance {
     const VkInstanceCreateInfo create{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                       .pApplicationInfo = &application};
     EXPECT_EQ(vkCreateInstance(&create, nullptr, &instance_), VK_SUCCESS);
-    std::uint32_t count = 1;
-    vkEnumeratePhysicalDevices(instance_, &count, &physical_);
-    EXPECT_EQ(count, 1);
   }
   OldInstance(const OldInstance&) = delete;
   OldInstance& operator=(const OldInstance&) = delete;
   ~OldInstance() { vkDestroyInstance(instance_, nullptr); }
-  [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
+  [[nodiscard]] VkInstance handle() const { return instance_; }
 
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
 };
 
 TEST_F(DeviceCheck, InstancesBefore13AreRefused) {
@@ -36,18 +32,39 @@ TEST_F(DeviceCheck, InstancesBefore13AreRefused) {
        {std::pair(VK_API_VERSION_1_0, "1.0"), {VK_API_VERSION_1_1, "1.1"}, {VK_API_VERSION_1_2, "1.2"}, {0U, "1.0"}}) {
     SCOPED_TRACE(version);
     const OldInstance instance(version);
-    const auto error = vulkan::check_device(instance.physical(), version);
-    ASSERT_TRUE(error.has_value());
-    EXPECT_EQ(error->text(),
+    const Result<vulkan::Instance> loaded = vulkan::load_instance(vkGetInstanceProcAddr, instance.handle(), version);
+    ASSERT_FALSE(loaded.ok());
+    EXPECT_EQ(loaded.error().text(),
               std::string("instance: needs Vulkan 1.3 as VkApplicationInfo::apiVersion, was made with ") + text);
-    const Result<vulkan::Device> device = vulkan::make_device(instance.physical(), VK_NULL_HANDLE, version);
-    ASSERT_FALSE(device.ok());
-    EXPECT_EQ(device.error().text(), error->text());
   }
 }
 
+// A host may load Vulkan in a way of its own; what its loader does not know is named.
+TEST_F(DeviceCheck, FunctionsThatAreNotThereAreNamed) {
+  const PFN_vkGetInstanceProcAddr without = [](VkInstance instance, const char* name) -> PFN_vkVoidFunction {
+    if (std::string_view(name) == "vkGetPhysicalDeviceProperties2") return nullptr;
+    return vkGetInstanceProcAddr(instance, name);
+  };
+  const auto loaded = vulkan::load_instance(without, test_context().instance().handle, VK_API_VERSION_1_3);
+  ASSERT_FALSE(loaded.ok());
+  EXPECT_EQ(loaded.error().text(),
+            "instance: does not know the function vkGetPhysicalDeviceProperties2; expected Vulkan 1.3");
+  EXPECT_FALSE(vulkan::load_instance(nullptr, test_context().instance().handle, VK_API_VERSION_1_3).ok());
+  EXPECT_FALSE(vulkan::load_instance(vkGetInstanceProcAddr, VK_NULL_HANDLE, VK_API_VERSION_1_3).ok());
+
+  vulkan::Instance instance = test_context().instance();
+  instance.vk.vkGetDeviceProcAddr = [](VkDevice device, const char* name) -> PFN_vkVoidFunction {
+    if (std::string_view(name) == "vkCmdDispatch") return nullptr;
+    return vkGetDeviceProcAddr(device, name);
+  };
+  const vulkan::Device& device = test_context().device();
+  const auto made = vulkan::make_device(instance, device.physical, device.handle);
+  ASSERT_FALSE(made.ok());
+  EXPECT_EQ(made.error().text(), "device: does not know the function vkCmdDispatch; expected Vulkan 1.3");
+}
+
 TEST_F(DeviceCheck, TheDeviceOfTheTestsPasses) {
-  EXPECT_EQ(vulkan::check_device(test_context().device().physical, VK_API_VERSION_1_3), std::nullopt);
+  EXPECT_EQ(vulkan::check_device(test_context().instance(), test_context().device().physical), std::nullopt);
 }
 
 TEST_F(DeviceCheck, FeaturesThatNoDriverFilledInAreMissing) {

@@ -160,9 +160,9 @@ TEST_F(RecorderTest, EmptyPlansTakeNoTimeAndHostPassesThatOfTheirUpload) {
 
 TEST_F(RecorderTest, WorksWithoutDebugUtils) {
   PlanHarness harness(two_passes());
-  harness.device.begin_label = nullptr;
-  harness.device.end_label = nullptr;
-  harness.device.set_object_name = nullptr;
+  harness.device.vk.vkCmdBeginDebugUtilsLabelEXT = nullptr;
+  harness.device.vk.vkCmdEndDebugUtilsLabelEXT = nullptr;
+  harness.device.vk.vkSetDebugUtilsObjectNameEXT = nullptr;
   EXPECT_EQ(harness.run()[0], Words(16, 15));
 }
 

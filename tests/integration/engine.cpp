@@ -85,7 +85,10 @@ void Engine::create_device() {
   std::uint32_t count = 1;
   vkEnumeratePhysicalDevices(instance_, &count, &physical_);
   if (count == 0) throw std::runtime_error("there is no Vulkan device");
-  if (const auto lack = lamp::vulkan::check_device(physical_, API_VERSION)) throw std::runtime_error(lack->text());
+  const auto loaded = lamp::vulkan::load_instance(vkGetInstanceProcAddr, instance_, API_VERSION);
+  if (!loaded) throw std::runtime_error(loaded.error().text());
+  loaded_ = loaded.value();
+  if (const auto lack = lamp::vulkan::check_device(loaded_, physical_)) throw std::runtime_error(lack->text());
 
   const lamp::vulkan::RequiredFeatures features;  // an engine with features of its own sets these among them
   const auto extensions = lamp::vulkan::required_extensions();

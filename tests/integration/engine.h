@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <lamplight/vulkan.h>
 #include <vulkan/vulkan.h>
 
 #include <cstddef>
@@ -57,6 +58,7 @@ class Engine {
 
   static constexpr std::uint32_t API_VERSION = VK_API_VERSION_1_3;  ///< of the instance
 
+  [[nodiscard]] const lamp::vulkan::Instance& instance() const { return loaded_; }
   [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
   [[nodiscard]] VkDevice device() const { return device_; }
   [[nodiscard]] std::string device_name() const;
@@ -84,6 +86,7 @@ class Engine {
 
   std::vector<std::string> messages_;
   VkInstance instance_ = VK_NULL_HANDLE;
+  lamp::vulkan::Instance loaded_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;

@@ -17,7 +17,7 @@ T value_of(lamp::Result<T> result) {
 
 LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engine_(engine), info_(info) {
   const lamp::vulkan::Device device =
-      value_of(lamp::vulkan::make_device(engine.physical(), engine.device(), Engine::API_VERSION));
+      value_of(lamp::vulkan::make_device(engine.instance(), engine.physical(), engine.device()));
   culler_ = value_of(lamp::vulkan::Culler::create(device, {.width = info.size.width,
                                                            .height = info.size.height,
                                                            .light_capacity = info.light_capacity,

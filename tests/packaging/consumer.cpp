@@ -42,8 +42,8 @@ int fail(const char* what) {
   return 1;
 }
 
-bool culls(VkPhysicalDevice physical, VkDevice handle) {
-  const auto device = lamp::vulkan::make_device(physical, handle);
+bool culls(const lamp::vulkan::Instance& instance, VkPhysicalDevice physical, VkDevice handle) {
+  const auto device = lamp::vulkan::make_device(instance, physical, handle);
   if (!device) return false;
   const auto culler = lamp::vulkan::Culler::create(
       device.value(), {.width = 640, .height = 360, .light_capacity = 1000, .method = "clustered"});
@@ -66,11 +66,14 @@ int main() {
   const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
   VkInstance instance = VK_NULL_HANDLE;
   if (vkCreateInstance(&info, nullptr, &instance) != VK_SUCCESS) return fail("no Vulkan instance");
+  const auto loaded = lamp::vulkan::load_instance(vkGetInstanceProcAddr, instance, VK_API_VERSION_1_3);
+  if (!loaded) return fail("an instance that Lamplight does not take");
   const VkPhysicalDevice physical = first_device(instance);
-  if (physical == VK_NULL_HANDLE || lamp::vulkan::check_device(physical)) return fail("no device for Lamplight");
+  if (physical == VK_NULL_HANDLE || lamp::vulkan::check_device(loaded.value(), physical))
+    return fail("no device for Lamplight");
   const VkDevice device = make_device(physical);
   if (device == VK_NULL_HANDLE) return fail("the device cannot be made");
-  const bool good = culls(physical, device);
+  const bool good = culls(loaded.value(), physical, device);
   vkDestroyDevice(device, nullptr);
   vkDestroyInstance(instance, nullptr);
   return good ? 0 : fail("no Culler");

@@ -33,25 +33,27 @@ Result<Buffer> Buffer::create(const Device& device, const BufferInfo& info) {
   const VkBufferCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = info.bytes, .usage = info.usage};
   VkBuffer handle = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateBuffer(device.handle, &create, nullptr, &handle); r != VK_SUCCESS) return failed(r);
-  buffer.buffer_ = OwnedBuffer(device.handle, handle);
+  if (const VkResult r = device.vk.vkCreateBuffer(device.handle, &create, nullptr, &handle); r != VK_SUCCESS)
+    return failed(r);
+  buffer.buffer_ = OwnedBuffer(device.handle, handle, device.vk.vkDestroyBuffer);
   device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle), info.name);
 
   VkMemoryRequirements needs{};
-  vkGetBufferMemoryRequirements(device.handle, handle, &needs);
+  device.vk.vkGetBufferMemoryRequirements(device.handle, handle, &needs);
   const MemoryFlags flags = flags_of(info.memory);
   const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, flags.preferred);
   if (!type) return type.error();
   const VkMemoryAllocateInfo allocate{
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type.value()};
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  if (const VkResult r = vkAllocateMemory(device.handle, &allocate, nullptr, &memory); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkAllocateMemory(device.handle, &allocate, nullptr, &memory); r != VK_SUCCESS)
     return failed(r);
-  buffer.memory_ = OwnedMemory(device.handle, memory);
-  if (const VkResult r = vkBindBufferMemory(device.handle, handle, memory, 0); r != VK_SUCCESS) return failed(r);
+  buffer.memory_ = OwnedMemory(device.handle, memory, device.vk.vkFreeMemory);
+  if (const VkResult r = device.vk.vkBindBufferMemory(device.handle, handle, memory, 0); r != VK_SUCCESS)
+    return failed(r);
   if (info.memory == MemoryUse::device) return buffer;
   void* mapped = nullptr;
-  if (const VkResult r = vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped); r != VK_SUCCESS)
     return failed(r);
   buffer.mapped_ = static_cast<std::byte*>(mapped);
   return buffer;

@@ -76,7 +76,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
                      .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
-  vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
+  device_.vk.vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
   if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
 
   recorder.barrier(runner_.lookup(inputs).buffer_uses(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |

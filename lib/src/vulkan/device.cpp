@@ -7,26 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "version_text.h"
+
 namespace lamp::vulkan {
 namespace {
 
 constexpr std::array<const char*, 1> EXTENSIONS{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
 
-bool has_extension(VkPhysicalDevice physical, std::string_view name) {
+bool has_extension(const Instance& instance, VkPhysicalDevice physical, std::string_view name) {
   std::uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  instance.vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  instance.vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
   return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName; });
-}
-
-template <class Function>
-void load(VkDevice device, const char* name, Function& out) {
-  out = reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
-}
-
-std::string version_text(std::uint32_t version) {
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
 }
 
 /// Calls `function(feature, name)` for each feature that Lamplight needs.
@@ -62,42 +55,40 @@ std::optional<std::string_view> missing_feature(const RequiredFeatures& has) {
 
 std::span<const char* const> required_extensions() { return EXTENSIONS; }
 
-std::vector<const char*> useful_extensions(VkPhysicalDevice physical) {
-  if (!has_extension(physical, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)) return {};
+std::vector<const char*> useful_extensions(const Instance& instance, VkPhysicalDevice physical) {
+  if (!has_extension(instance, physical, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)) return {};
   return {VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
 }
 
-bool has_pipeline_robustness(VkPhysicalDevice physical) {
-  if (!has_extension(physical, VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME)) return false;
+bool has_pipeline_robustness(const Instance& instance, VkPhysicalDevice physical) {
+  if (!has_extension(instance, physical, VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME)) return false;
   VkPhysicalDevicePipelineRobustnessFeaturesEXT has{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT};
   VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &has};
-  vkGetPhysicalDeviceFeatures2(physical, &features);
+  instance.vk.vkGetPhysicalDeviceFeatures2(physical, &features);
   return has.pipelineRobustness == VK_TRUE;
 }
 
-std::optional<Error> check_device(VkPhysicalDevice physical, std::uint32_t instance_version) {
-  if (instance_version < VK_API_VERSION_1_3)
-    return Error{"instance", "needs Vulkan 1.3 as VkApplicationInfo::apiVersion, was made with " +
-                                 version_text(instance_version == 0 ? VK_API_VERSION_1_0 : instance_version)};
+std::optional<Error> check_device(const Instance& instance, VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties{};
-  vkGetPhysicalDeviceProperties(physical, &properties);
+  instance.vk.vkGetPhysicalDeviceProperties(physical, &properties);
   const std::string source = "device " + std::string(properties.deviceName);
   if (properties.apiVersion < VK_API_VERSION_1_3)
     return Error{source, "needs Vulkan 1.3, has " + version_text(properties.apiVersion)};
   for (const char* extension : EXTENSIONS)
-    if (!has_extension(physical, extension)) return Error{source, std::string("lacks the extension ") + extension};
+    if (!has_extension(instance, physical, extension))
+      return Error{source, std::string("lacks the extension ") + extension};
   RequiredFeatures has(VK_FALSE);
-  vkGetPhysicalDeviceFeatures2(physical, &has.base);
+  instance.vk.vkGetPhysicalDeviceFeatures2(physical, &has.base);
   if (const auto missing = missing_feature(has)) return Error{source, "lacks the feature " + std::string(*missing)};
   return std::nullopt;
 }
 
 namespace {
 
-std::uint64_t largest_heap(VkPhysicalDevice physical) {
+std::uint64_t largest_heap(const Instance& instance, VkPhysicalDevice physical) {
   VkPhysicalDeviceMemoryProperties memory{};
-  vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+  instance.vk.vkGetPhysicalDeviceMemoryProperties(physical, &memory);
   std::uint64_t bytes = 0;
   for (const VkMemoryHeap& heap : std::span(memory.memoryHeaps, memory.memoryHeapCount))
     if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) bytes = std::max(bytes, heap.size);
@@ -116,7 +107,7 @@ SubgroupOperations operations_of(const VkPhysicalDeviceVulkan11Properties& prope
 
 }  // namespace
 
-DeviceTraits traits_of(VkPhysicalDevice physical) {
+DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical) {
   constexpr std::uint32_t LLVMPIPE_LOOP_ROUNDS = 65535;  // LP_MAX_TGSI_LOOP_ITERATIONS of Mesa
   VkPhysicalDeviceVulkan13Properties v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES};
   VkPhysicalDeviceVulkan12Properties v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
@@ -124,10 +115,10 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
   VkPhysicalDeviceVulkan11Properties v11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
                                          .pNext = &v12};
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v11};
-  vkGetPhysicalDeviceProperties2(physical, &properties);
+  instance.vk.vkGetPhysicalDeviceProperties2(physical, &properties);
   const VkPhysicalDeviceLimits& limits = properties.properties.limits;
   return {.max_storage_buffer_bytes = limits.maxStorageBufferRange,
-          .memory_bytes = largest_heap(physical),
+          .memory_bytes = largest_heap(instance, physical),
           .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                          limits.maxComputeWorkGroupCount[2]},
           .max_group_invocations = limits.maxComputeWorkGroupInvocations,
@@ -142,27 +133,26 @@ DeviceTraits traits_of(VkPhysicalDevice physical) {
 }
 
 void Device::name(VkObjectType type, std::uint64_t object, std::string_view text) const {
-  if (set_object_name == nullptr) return;
+  if (vk.vkSetDebugUtilsObjectNameEXT == nullptr) return;
   const std::string terminated(text);
   const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
                                            .objectType = type,
                                            .objectHandle = object,
                                            .pObjectName = terminated.c_str()};
-  set_object_name(handle, &info);
+  vk.vkSetDebugUtilsObjectNameEXT(handle, &info);
 }
 
-Result<Device> make_device(VkPhysicalDevice physical, VkDevice handle, std::uint32_t instance_version) {
-  if (auto error = check_device(physical, instance_version)) return *error;
-  Device device{.physical = physical, .handle = handle, .traits = traits_of(physical)};
-  vkGetPhysicalDeviceMemoryProperties(physical, &device.memory);
+Result<Device> make_device(const Instance& instance, VkPhysicalDevice physical, VkDevice handle) {
+  if (auto error = check_device(instance, physical)) return *error;
+  const Result<DeviceFunctions> functions = load_device(instance, handle);
+  if (!functions) return functions.error();
+  Device device{
+      .physical = physical, .handle = handle, .vk = functions.value(), .traits = traits_of(instance, physical)};
+  instance.vk.vkGetPhysicalDeviceMemoryProperties(physical, &device.memory);
   VkPhysicalDeviceProperties properties{};
-  vkGetPhysicalDeviceProperties(physical, &properties);
+  instance.vk.vkGetPhysicalDeviceProperties(physical, &properties);
   device.timestamp_period_ns = properties.limits.timestampPeriod;
-  load(handle, "vkCmdPushDescriptorSetKHR", device.push_descriptor_set);
-  load(handle, "vkCmdBeginDebugUtilsLabelEXT", device.begin_label);
-  load(handle, "vkCmdEndDebugUtilsLabelEXT", device.end_label);
-  load(handle, "vkSetDebugUtilsObjectNameEXT", device.set_object_name);
-  if (device.push_descriptor_set == nullptr)
+  if (device.vk.vkCmdPushDescriptorSetKHR == nullptr)
     return Error{"device " + std::string(properties.deviceName),
                  "was created without VK_KHR_push_descriptor; enable required_extensions()"};
   return device;

@@ -34,9 +34,9 @@ Result<OwnedShaderModule> make_module(const Device& device, const std::string& n
   const VkShaderModuleCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv.size_bytes(), .pCode = spirv.data()};
   VkShaderModule module = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateShaderModule(device.handle, &create, nullptr, &module); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkCreateShaderModule(device.handle, &create, nullptr, &module); r != VK_SUCCESS)
     return Error{"shader " + name, result_text(r)};
-  return OwnedShaderModule(device.handle, module);
+  return OwnedShaderModule(device.handle, module, device.vk.vkDestroyShaderModule);
 }
 
 VkPipelineCreateFlags creation_flags(const Device& device) {
@@ -164,9 +164,10 @@ std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineI
                                                    .bindingCount = static_cast<std::uint32_t>(bindings.size()),
                                                    .pBindings = bindings.data()};
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateDescriptorSetLayout(device.handle, &set_create, nullptr, &set_layout); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkCreateDescriptorSetLayout(device.handle, &set_create, nullptr, &set_layout);
+      r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  out.set_layout = OwnedSetLayout(device.handle, set_layout);
+  out.set_layout = OwnedSetLayout(device.handle, set_layout, device.vk.vkDestroyDescriptorSetLayout);
 
   const VkPushConstantRange range{.stageFlags = VK_SHADER_STAGE_ALL, .size = info.push_constant_bytes};
   const VkPipelineLayoutCreateInfo create{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -175,9 +176,9 @@ std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineI
                                           .pushConstantRangeCount = info.push_constant_bytes == 0 ? 0U : 1U,
                                           .pPushConstantRanges = &range};
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreatePipelineLayout(device.handle, &create, nullptr, &layout); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkCreatePipelineLayout(device.handle, &create, nullptr, &layout); r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  out.layout = OwnedPipelineLayout(device.handle, layout);
+  out.layout = OwnedPipelineLayout(device.handle, layout, device.vk.vkDestroyPipelineLayout);
   return std::nullopt;
 }
 
@@ -197,10 +198,11 @@ Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo
                                            .stage = stage,
                                            .layout = objects.layout.get()};
   VkPipeline handle = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateComputePipelines(device.handle, VK_NULL_HANDLE, 1, &create, nullptr, &handle);
+  if (const VkResult r =
+          device.vk.vkCreateComputePipelines(device.handle, VK_NULL_HANDLE, 1, &create, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  objects.pipeline = OwnedPipeline(device.handle, handle);
+  objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);
   objects.statistics = read_statistics(device, handle);
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
   return Pipeline(std::move(objects));
@@ -232,10 +234,11 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
   create.info.pStages = stages.data();
   create.info.layout = objects.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &create.info, nullptr, &handle);
+  if (const VkResult r =
+          device.vk.vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &create.info, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  objects.pipeline = OwnedPipeline(device.handle, handle);
+  objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);
   objects.statistics = read_statistics(device, handle);
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
   return Pipeline(std::move(objects));

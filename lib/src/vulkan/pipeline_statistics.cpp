@@ -21,10 +21,8 @@ double value_of(const VkPipelineExecutableStatisticKHR& statistic) {
 }  // namespace
 
 std::vector<PipelineStatistic> read_statistics(const Device& device, VkPipeline pipeline) {
-  const auto executables_of = reinterpret_cast<PFN_vkGetPipelineExecutablePropertiesKHR>(
-      vkGetDeviceProcAddr(device.handle, "vkGetPipelineExecutablePropertiesKHR"));
-  const auto statistics_of = reinterpret_cast<PFN_vkGetPipelineExecutableStatisticsKHR>(
-      vkGetDeviceProcAddr(device.handle, "vkGetPipelineExecutableStatisticsKHR"));
+  const auto executables_of = device.vk.vkGetPipelineExecutablePropertiesKHR;
+  const auto statistics_of = device.vk.vkGetPipelineExecutableStatisticsKHR;
   if (!device.pipeline_statistics || executables_of == nullptr || statistics_of == nullptr) return {};
   const VkPipelineInfoKHR info{.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, .pipeline = pipeline};
   std::uint32_t count = 0;

@@ -46,9 +46,9 @@ Result<OwnedSampler> depth_sampler(const Device& device) {
                                    .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                    .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
   VkSampler sampler = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateSampler(device.handle, &create, nullptr, &sampler); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkCreateSampler(device.handle, &create, nullptr, &sampler); r != VK_SUCCESS)
     return Error{"sampler of the depth image", result_text(r)};
-  return OwnedSampler(device.handle, sampler);
+  return OwnedSampler(device.handle, sampler, device.vk.vkDestroySampler);
 }
 
 std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
@@ -201,7 +201,7 @@ void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64
                     .access = VK_ACCESS_2_TRANSFER_READ_BIT});
   recorder.barrier(uses);
   for (const Source& source : sources)
-    vkCmdCopyBuffer(recorder.commands(), source.buffer, to.handle(), 1, &source.copy);
+    recorder.device().vk.vkCmdCopyBuffer(recorder.commands(), source.buffer, to.handle(), 1, &source.copy);
   recorder.barrier({{.resource = Resource::storage(to.handle()),
                      .stages = VK_PIPELINE_STAGE_2_HOST_BIT,
                      .access = VK_ACCESS_2_HOST_READ_BIT}});
@@ -222,7 +222,8 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
                       .access = VK_ACCESS_2_TRANSFER_WRITE_BIT});
   if (uses.empty()) return;
   recorder.begin_pass(CLEAR_PASS, uses);
-  for (const Use& use : uses) vkCmdFillBuffer(recorder.commands(), use.resource.buffer, 0, VK_WHOLE_SIZE, 0);
+  for (const Use& use : uses)
+    recorder.device().vk.vkCmdFillBuffer(recorder.commands(), use.resource.buffer, 0, VK_WHOLE_SIZE, 0);
   recorder.end_pass();
 }
 
@@ -263,7 +264,8 @@ void PlanRunner::upload(Recorder& recorder, std::span<const ResourceId> written,
   for (const ResourceId id : written) {
     const std::uint64_t bytes = buffers_[id - PLAN_BUFFER].bytes();
     const VkBufferCopy of_slot{.srcOffset = slot * bytes, .size = bytes};
-    vkCmdCopyBuffer(recorder.commands(), slots_[id - PLAN_BUFFER].handle(), buffer(id), 1, &of_slot);
+    recorder.device().vk.vkCmdCopyBuffer(recorder.commands(), slots_[id - PLAN_BUFFER].handle(), buffer(id), 1,
+                                         &of_slot);
   }
   recorder.end_pass();
 }
@@ -307,40 +309,44 @@ void PlanRunner::record_together(Recorder& recorder, std::span<const BoundPass> 
     uses.clear();
     recorder.bind(bound.built->pipeline, bound.resources);
     if (pass.kind == PassKind::raster)
-      draw(recorder.commands(), pass, inputs);
+      draw(recorder, pass, inputs);
     else
-      dispatch(recorder.commands(), pass, inputs);
+      dispatch(recorder, pass, inputs);
     recorder.end_pass();
   }
 }
 
-void PlanRunner::dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const {
+void PlanRunner::dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const {
+  const DeviceFunctions& vk = recorder.device().vk;
+  const VkCommandBuffer commands = recorder.commands();
   const Extent& extent = pass.extent;
   if (extent.indirect != NO_RESOURCE)
-    return vkCmdDispatchIndirect(commands, buffer(extent.indirect), extent.indirect_offset);
+    return vk.vkCmdDispatchIndirect(commands, buffer(extent.indirect), extent.indirect_offset);
   const std::uint32_t x =
       extent.lights_per_group == 0 ? extent.x : per_light(inputs.host_frame->light_count, extent.lights_per_group);
-  if (x != 0) vkCmdDispatch(commands, x, extent.y, extent.z);
+  if (x != 0) vk.vkCmdDispatch(commands, x, extent.y, extent.z);
 }
 
-void PlanRunner::draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const {
+void PlanRunner::draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const {
+  const DeviceFunctions& vk = recorder.device().vk;
+  const VkCommandBuffer commands = recorder.commands();
   const VkRect2D area{.extent = {pass.raster.width, pass.raster.height}};
   const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1};
   const VkViewport viewport{.width = static_cast<float>(pass.raster.width),
                             .height = static_cast<float>(pass.raster.height),
                             .maxDepth = 1.0F};
-  vkCmdBeginRendering(commands, &rendering);
-  vkCmdSetViewport(commands, 0, 1, &viewport);
-  vkCmdSetScissor(commands, 0, 1, &area);
+  vk.vkCmdBeginRendering(commands, &rendering);
+  vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+  vk.vkCmdSetScissor(commands, 0, 1, &area);
   const Extent& extent = pass.extent;
   if (extent.indirect != NO_RESOURCE) {
-    vkCmdDrawIndirect(commands, buffer(extent.indirect), extent.indirect_offset, 1, sizeof(VkDrawIndirectCommand));
+    vk.vkCmdDrawIndirect(commands, buffer(extent.indirect), extent.indirect_offset, 1, sizeof(VkDrawIndirectCommand));
   } else {
     const std::uint32_t instances =
         extent.lights_per_group == 0 ? extent.y : per_light(inputs.host_frame->light_count, extent.lights_per_group);
-    vkCmdDraw(commands, extent.x, instances, 0, 0);
+    vk.vkCmdDraw(commands, extent.x, instances, 0, 0);
   }
-  vkCmdEndRendering(commands);
+  vk.vkCmdEndRendering(commands);
 }
 
 }  // namespace lamp::vulkan

@@ -20,7 +20,7 @@ std::uint64_t key_of(const Resource& resource) {
 
 }  // namespace
 
-void AccessTracker::barrier(VkCommandBuffer commands, std::span<const Use> uses) {
+void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses) {
   VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
   std::vector<VkImageMemoryBarrier2> images;
   for (const Use& use : uses) {
@@ -72,7 +72,7 @@ void AccessTracker::barrier(VkCommandBuffer commands, std::span<const Use> uses)
                                     .pMemoryBarriers = &memory,
                                     .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
                                     .pImageMemoryBarriers = images.data()};
-  vkCmdPipelineBarrier2(commands, &dependency);
+  vk.vkCmdPipelineBarrier2(commands, &dependency);
 }
 
 void AccessTracker::assume(const Resource& resource) { states_[key_of(resource)] = {.layout = resource.layout}; }
@@ -85,10 +85,11 @@ Result<Timestamps> Timestamps::create(const Device& device, std::uint32_t max_pa
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                      .queryCount = 2 * max_passes};
   VkQueryPool pool = VK_NULL_HANDLE;
-  if (const VkResult r = vkCreateQueryPool(device.handle, &create, nullptr, &pool); r != VK_SUCCESS)
+  if (const VkResult r = device.vk.vkCreateQueryPool(device.handle, &create, nullptr, &pool); r != VK_SUCCESS)
     return Error{"timestamps", result_text(r)};
   timestamps.device_ = device.handle;
-  timestamps.pool_ = OwnedQueryPool(device.handle, pool);
+  timestamps.vk_ = device.vk;
+  timestamps.pool_ = OwnedQueryPool(device.handle, pool, device.vk.vkDestroyQueryPool);
   timestamps.period_ns_ = device.timestamp_period_ns;
   timestamps.max_passes_ = max_passes;
   return timestamps;
@@ -98,15 +99,15 @@ void Timestamps::reset(VkCommandBuffer commands, PartOf part_of) {
   passes_.clear();
   part_of_ = std::move(part_of);
   open_ = false;
-  vkCmdResetQueryPool(commands, pool_.get(), 0, 2 * max_passes_);
+  vk_.vkCmdResetQueryPool(commands, pool_.get(), 0, 2 * max_passes_);
 }
 
 void Timestamps::begin(VkCommandBuffer commands, std::string_view pass) {
   if (open_ && part_of_(passes_.back()) == part_of_(pass)) return;
   finish(commands);
   assert(passes_.size() < max_passes_ && "create Timestamps with room for every pass of the frame");
-  vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
-                       static_cast<std::uint32_t>(2 * passes_.size()));
+  vk_.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
+                           static_cast<std::uint32_t>(2 * passes_.size()));
   passes_.emplace_back(pass);
   open_ = true;
 }
@@ -118,16 +119,16 @@ void Timestamps::end(VkCommandBuffer commands) {
 void Timestamps::finish(VkCommandBuffer commands) {
   if (!open_) return;
   open_ = false;
-  vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
-                       static_cast<std::uint32_t>(2 * passes_.size() - 1));
+  vk_.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
+                           static_cast<std::uint32_t>(2 * passes_.size() - 1));
 }
 
 std::vector<Timestamps::Time> Timestamps::read() const {
   std::vector<std::uint64_t> ticks(2 * passes_.size());
   if (!ticks.empty())
-    vkGetQueryPoolResults(device_, pool_.get(), 0, static_cast<std::uint32_t>(ticks.size()),
-                          ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
-                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    vk_.vkGetQueryPoolResults(device_, pool_.get(), 0, static_cast<std::uint32_t>(ticks.size()),
+                              ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
   const auto since_first = [&](std::size_t query) {
     return static_cast<double>(ticks[query] - ticks.front()) * period_ns_ * 1e-6;
   };
@@ -140,23 +141,23 @@ std::vector<Timestamps::Time> Timestamps::read() const {
 
 void Recorder::begin_pass(std::string_view name, const std::vector<Use>& uses) {
   const std::string full = group_.empty() ? std::string(name) : group_ + ": " + std::string(name);
-  if (device_.begin_label != nullptr) {
+  if (device_.vk.vkCmdBeginDebugUtilsLabelEXT != nullptr) {
     const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = full.c_str()};
-    device_.begin_label(commands_, &label);
+    device_.vk.vkCmdBeginDebugUtilsLabelEXT(commands_, &label);
   }
   // Before the barrier: what a pass waits for is its cost. And Mesa's llvmpipe takes a time only when something flushes
   // what was recorded, which a barrier does and a dispatch that reads no image does not.
   if (timestamps_ != nullptr) timestamps_->begin(commands_, full);
-  tracker_.barrier(commands_, uses);
+  tracker_.barrier(device_.vk, commands_, uses);
 }
 
 void Recorder::end_pass() {
   if (timestamps_ != nullptr) timestamps_->end(commands_);
-  if (device_.end_label != nullptr) device_.end_label(commands_);
+  if (device_.vk.vkCmdEndDebugUtilsLabelEXT != nullptr) device_.vk.vkCmdEndDebugUtilsLabelEXT(commands_);
 }
 
 void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> resources) {
-  vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
+  device_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
   push(pipeline, resources);
 }
 
@@ -176,8 +177,8 @@ void Recorder::push(const Pipeline& pipeline, std::span<const Bound> resources) 
                       .pBufferInfo = &buffers[i]});
   }
   if (!writes.empty())
-    device_.push_descriptor_set(commands_, pipeline.bind_point(), pipeline.layout(), 0,
-                                static_cast<std::uint32_t>(writes.size()), writes.data());
+    device_.vk.vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point(), pipeline.layout(), 0,
+                                         static_cast<std::uint32_t>(writes.size()), writes.data());
 }
 
 }  // namespace lamp::vulkan

@@ -12,6 +12,7 @@
 #include "lamplight/error.h"
 #include "lamplight/export.h"
 #include "lamplight/plan.h"
+#include "lamplight/vulkan/functions.h"
 
 namespace lamp::vulkan {
 
@@ -34,23 +35,21 @@ struct LAMPLIGHT_API RequiredFeatures {
 
 /// Device extensions that methods use where they are enabled: VK_EXT_conservative_rasterization. Those that the device
 /// has. Who enables one says so in Device::traits (`conservative_raster`).
-[[nodiscard]] LAMPLIGHT_API std::vector<const char*> useful_extensions(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API std::vector<const char*> useful_extensions(const Instance& instance,
+                                                                       VkPhysicalDevice physical);
 
 /// Whether the device has VK_EXT_pipeline_robustness and its feature. Who enables both says so in
 /// Device::pipeline_robustness.
-[[nodiscard]] LAMPLIGHT_API bool has_pipeline_robustness(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API bool has_pipeline_robustness(const Instance& instance, VkPhysicalDevice physical);
 
 /// The name of the first of the required features that is VK_FALSE, or nothing.
 [[nodiscard]] LAMPLIGHT_API std::optional<std::string_view> missing_feature(const RequiredFeatures& has);
 
 /// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
-/// `instance_version`: VkApplicationInfo::apiVersion of its instance. A device does not know it, and one of 1.3 does no
-/// more than 1.0 for an instance that asked for no more.
-[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(VkPhysicalDevice physical,
-                                                              std::uint32_t instance_version);
+[[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(const Instance& instance, VkPhysicalDevice physical);
 
 /// Limits for planning.
-[[nodiscard]] LAMPLIGHT_API DeviceTraits traits_of(VkPhysicalDevice physical);
+[[nodiscard]] LAMPLIGHT_API DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical);
 
 class PipelineStore;
 
@@ -58,6 +57,7 @@ class PipelineStore;
 struct LAMPLIGHT_API Device {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice handle = VK_NULL_HANDLE;
+  DeviceFunctions vk;
   VkPhysicalDeviceMemoryProperties memory{};
   DeviceTraits traits;
   float timestamp_period_ns = 1.0F;
@@ -66,18 +66,14 @@ struct LAMPLIGHT_API Device {
                                        ///< pipelines shall be compiled so that the driver can describe them
   bool pipeline_robustness = false;    ///< VK_EXT_pipeline_robustness and its feature are enabled: pipelines then say
                                        ///< that they stay within their buffers, and a driver leaves out its checks
-  PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
-  PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;      ///< null without VK_EXT_debug_utils
-  PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;          ///< null without VK_EXT_debug_utils
-  PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;  ///< null without VK_EXT_debug_utils
 
   /// Gives an object its debug name, where the instance has VK_EXT_debug_utils.
   void name(VkObjectType type, std::uint64_t object, std::string_view text) const;
 };
 
 /// Errors: `check_device`'s, or a device on which the extension was not enabled.
-[[nodiscard]] LAMPLIGHT_API Result<Device> make_device(VkPhysicalDevice physical, VkDevice device,
-                                                       std::uint32_t instance_version);
+[[nodiscard]] LAMPLIGHT_API Result<Device> make_device(const Instance& instance, VkPhysicalDevice physical,
+                                                       VkDevice device);
 
 /// The index of a memory type with all of `wanted`, preferring one that also has `preferred`.
 [[nodiscard]] LAMPLIGHT_API Result<std::uint32_t> find_memory_type(const Device& device, std::uint32_t type_bits,

@@ -8,11 +8,13 @@
 
 namespace lamp::vulkan {
 
-template <class Handle, auto DESTROY>
+/// `destroy`: the Vulkan function that does.
+template <class Handle>
 class Owned {
  public:
+  using Destroy = void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*);
   Owned() = default;
-  Owned(VkDevice device, Handle handle) : device_(device), handle_(handle) {}
+  Owned(VkDevice device, Handle handle, Destroy destroy) : device_(device), handle_(handle), destroy_(destroy) {}
   Owned(Owned&& other) noexcept { swap(other); }
   Owned& operator=(Owned&& other) noexcept {
     swap(other);
@@ -21,7 +23,7 @@ class Owned {
   Owned(const Owned&) = delete;
   Owned& operator=(const Owned&) = delete;
   ~Owned() {
-    if (handle_ != VK_NULL_HANDLE) DESTROY(device_, handle_, nullptr);
+    if (handle_ != VK_NULL_HANDLE) destroy_(device_, handle_, nullptr);
   }
   [[nodiscard]] Handle get() const { return handle_; }
 
@@ -29,22 +31,22 @@ class Owned {
   void swap(Owned& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);
+    std::swap(destroy_, other.destroy_);
   }
   VkDevice device_ = VK_NULL_HANDLE;
   Handle handle_ = VK_NULL_HANDLE;
+  Destroy destroy_ = nullptr;
 };
 
-using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
-using OwnedMemory = Owned<VkDeviceMemory, vkFreeMemory>;
-using OwnedImage = Owned<VkImage, vkDestroyImage>;
-using OwnedImageView = Owned<VkImageView, vkDestroyImageView>;
-using OwnedSampler = Owned<VkSampler, vkDestroySampler>;
-using OwnedPipeline = Owned<VkPipeline, vkDestroyPipeline>;
-using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
-using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
-using OwnedShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
-using OwnedQueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
-using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
-using OwnedFence = Owned<VkFence, vkDestroyFence>;
+using OwnedBuffer = Owned<VkBuffer>;
+using OwnedMemory = Owned<VkDeviceMemory>;
+using OwnedImage = Owned<VkImage>;
+using OwnedImageView = Owned<VkImageView>;
+using OwnedSampler = Owned<VkSampler>;
+using OwnedPipeline = Owned<VkPipeline>;
+using OwnedPipelineLayout = Owned<VkPipelineLayout>;
+using OwnedSetLayout = Owned<VkDescriptorSetLayout>;
+using OwnedShaderModule = Owned<VkShaderModule>;
+using OwnedQueryPool = Owned<VkQueryPool>;
 
 }  // namespace lamp::vulkan

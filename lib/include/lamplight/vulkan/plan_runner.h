@@ -106,8 +106,8 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] static bool depends(const BoundPass& later, const BoundPass& earlier);
   /// Passes of which none waits for another: they may run side by side.
   void record_together(Recorder& recorder, std::span<const BoundPass> passes, const PlanInputs& inputs) const;
-  void dispatch(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
-  void draw(VkCommandBuffer commands, const Pass& pass, const PlanInputs& inputs) const;
+  void dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
+  void draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
   [[nodiscard]] bool projection_changed(const PlanInputs& inputs);
   void zero_buffers(Recorder& recorder) const;
 

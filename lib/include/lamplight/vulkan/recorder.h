@@ -50,7 +50,7 @@ struct Bound {
 class LAMPLIGHT_API AccessTracker {
  public:
   /// Puts a barrier for these uses into the command buffer, if one is needed, and remembers them.
-  void barrier(VkCommandBuffer commands, std::span<const Use> uses);
+  void barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses);
   /// Takes over a resource that somebody else synchronised: it is in `resource.layout` and needs no barrier to be read.
   void assume(const Resource& resource);
   /// Forgets a buffer that is about to be destroyed: its handle may come back as another's.
@@ -94,6 +94,7 @@ class LAMPLIGHT_API Timestamps {
 
  private:
   VkDevice device_ = VK_NULL_HANDLE;
+  DeviceFunctions vk_;
   OwnedQueryPool pool_;
   float period_ns_ = 1.0F;
   std::uint32_t max_passes_ = 0;
@@ -115,7 +116,7 @@ class LAMPLIGHT_API Recorder {
   void begin_pass(std::string_view name, const std::vector<Use>& uses);
   void end_pass();
   /// Only the barrier: for transfers between passes.
-  void barrier(const std::vector<Use>& uses) { tracker_.barrier(commands_, uses); }
+  void barrier(const std::vector<Use>& uses) { tracker_.barrier(device_.vk, commands_, uses); }
 
   /// Binds a pipeline and pushes its descriptors.
   void bind(const Pipeline& pipeline, std::span<const Bound> resources);
@@ -123,6 +124,7 @@ class LAMPLIGHT_API Recorder {
   void push(const Pipeline& pipeline, std::span<const Bound> resources);
 
   [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
+  [[nodiscard]] const Device& device() const { return device_; }
 
  private:
   const Device& device_;
