@@ -1,4 +1,4 @@
-// Makes a buffer with memory of its own.
+// Makes a buffer, with memory of its own or from the host.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/vulkan/buffer.h"
 
@@ -22,40 +22,59 @@ MemoryFlags flags_of(MemoryUse use) {
   return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
 }
 
+Error failed(const BufferInfo& info, VkResult result) {
+  return {"buffer " + info.name, std::to_string(info.bytes) + " bytes: " + result_text(result)};
+}
+
 }  // namespace
 
+Result<Allocation> Buffer::allocate(const Device& device, const BufferInfo& info) {
+  VkMemoryRequirements needs{};
+  device.vk.vkGetBufferMemoryRequirements(device.handle, buffer_.get(), &needs);
+  Allocation made;
+  if (const MemoryCallbacks& host = device.memory_callbacks; host.allocate != nullptr) {
+    if (const VkResult r = host.allocate(host.user, buffer_.get(), needs, info.memory, made); r != VK_SUCCESS)
+      return failed(info, r);
+    host_memory_ = {new Allocation(made), [host](const Allocation* allocation) {
+                      host.release(host.user, *allocation);
+                      delete allocation;
+                    }};
+    if (info.memory == MemoryUse::device || made.mapped != nullptr) return made;
+    return Error{"buffer " + info.name, "expected mapped memory from MemoryCallbacks::allocate, got none"};
+  }
+  const MemoryFlags flags = flags_of(info.memory);
+  const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, flags.preferred);
+  if (!type) return type.error();
+  const VkMemoryAllocateInfo allocate{
+      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type.value()};
+  if (const VkResult r = device.vk.vkAllocateMemory(device.handle, &allocate, nullptr, &made.memory); r != VK_SUCCESS)
+    return failed(info, r);
+  memory_ = OwnedMemory(device.handle, made.memory, device.vk.vkFreeMemory);
+  if (info.memory == MemoryUse::device) return made;
+  if (const VkResult r = device.vk.vkMapMemory(device.handle, made.memory, 0, VK_WHOLE_SIZE, 0, &made.mapped);
+      r != VK_SUCCESS)
+    return failed(info, r);
+  return made;
+}
+
 Result<Buffer> Buffer::create(const Device& device, const BufferInfo& info) {
-  const auto failed = [&](VkResult result) {
-    return Error{"buffer " + info.name, std::to_string(info.bytes) + " bytes: " + result_text(result)};
-  };
   Buffer buffer;
   buffer.bytes_ = info.bytes;
   const VkBufferCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = info.bytes, .usage = info.usage};
   VkBuffer handle = VK_NULL_HANDLE;
   if (const VkResult r = device.vk.vkCreateBuffer(device.handle, &create, nullptr, &handle); r != VK_SUCCESS)
-    return failed(r);
+    return failed(info, r);
   buffer.buffer_ = OwnedBuffer(device.handle, handle, device.vk.vkDestroyBuffer);
   device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle), info.name);
 
-  VkMemoryRequirements needs{};
-  device.vk.vkGetBufferMemoryRequirements(device.handle, handle, &needs);
-  const MemoryFlags flags = flags_of(info.memory);
-  const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, flags.preferred);
-  if (!type) return type.error();
-  const VkMemoryAllocateInfo allocate{
-      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type.value()};
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  if (const VkResult r = device.vk.vkAllocateMemory(device.handle, &allocate, nullptr, &memory); r != VK_SUCCESS)
-    return failed(r);
-  buffer.memory_ = OwnedMemory(device.handle, memory, device.vk.vkFreeMemory);
-  if (const VkResult r = device.vk.vkBindBufferMemory(device.handle, handle, memory, 0); r != VK_SUCCESS)
-    return failed(r);
-  if (info.memory == MemoryUse::device) return buffer;
-  void* mapped = nullptr;
-  if (const VkResult r = device.vk.vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped); r != VK_SUCCESS)
-    return failed(r);
-  buffer.mapped_ = static_cast<std::byte*>(mapped);
+  const Result<Allocation> memory = buffer.allocate(device, info);
+  if (!memory) return memory.error();
+  if (const VkResult r =
+          device.vk.vkBindBufferMemory(device.handle, handle, memory.value().memory, memory.value().offset);
+      r != VK_SUCCESS)
+    return failed(info, r);
+  if (info.memory != MemoryUse::device) buffer.mapped_ = static_cast<std::byte*>(memory.value().mapped);
   return buffer;
 }
 

@@ -199,7 +199,7 @@ Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo
                                            .layout = objects.layout.get()};
   VkPipeline handle = VK_NULL_HANDLE;
   if (const VkResult r =
-          device.vk.vkCreateComputePipelines(device.handle, VK_NULL_HANDLE, 1, &create, nullptr, &handle);
+          device.vk.vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &create, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
   objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);
@@ -235,7 +235,7 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
   create.info.layout = objects.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
   if (const VkResult r =
-          device.vk.vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &create.info, nullptr, &handle);
+          device.vk.vkCreateGraphicsPipelines(device.handle, device.pipeline_cache, 1, &create.info, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
   objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -12,12 +13,6 @@
 #include "lamplight/vulkan/owned.h"
 
 namespace lamp::vulkan {
-
-enum class MemoryUse : std::uint8_t {
-  device,    ///< GPU only
-  upload,    ///< host writes, GPU reads; mapped
-  readback,  ///< GPU writes, host reads; mapped
-};
 
 struct BufferInfo {
   std::string name;
@@ -38,7 +33,11 @@ class LAMPLIGHT_API Buffer {
   [[nodiscard]] std::span<std::byte> mapped() const { return {mapped_, mapped_ == nullptr ? 0 : bytes_}; }
 
  private:
-  OwnedMemory memory_;  // outlives the buffer
+  [[nodiscard]] Result<Allocation> allocate(const Device& device, const BufferInfo& info);
+
+  // One of them; both outlive the buffer.
+  OwnedMemory memory_;
+  std::shared_ptr<const Allocation> host_memory_;
   OwnedBuffer buffer_;
   std::uint64_t bytes_ = 0;
   std::byte* mapped_ = nullptr;

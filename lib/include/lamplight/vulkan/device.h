@@ -13,6 +13,7 @@
 #include "lamplight/export.h"
 #include "lamplight/plan.h"
 #include "lamplight/vulkan/functions.h"
+#include "lamplight/vulkan/memory.h"
 
 namespace lamp::vulkan {
 
@@ -59,6 +60,8 @@ struct LAMPLIGHT_API Device {
   VkDevice handle = VK_NULL_HANDLE;
   DeviceFunctions vk;
   VkPhysicalDeviceMemoryProperties memory{};
+  MemoryCallbacks memory_callbacks;                 ///< the host's allocator, if it wants to be asked
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< the host's, not owned; where pipelines are looked for and kept
   DeviceTraits traits;
   float timestamp_period_ns = 1.0F;
   PipelineStore* pipelines = nullptr;  ///< not owned; where pipelines are shared, or null: each is made anew
