@@ -66,7 +66,7 @@ View RandomVolumes::view() {
   if (chance(0.25)) {  // as far from rigid as views are accepted
     glm::dmat4 near_one(1.0);
     for (int i = 0; i < 9; ++i) near_one[i / 3][i % 3] += uniform(-4.9e-5, 4.9e-5);
-    view_from_world = near_one * view_from_world;
+    view_from_world *= near_one;
   }
   view_from_world[3] = glm::dvec4(-glm::dvec3(view_from_world * glm::dvec4(eye, 0.0)), 1.0);
   return take(View::create(width, height, projection(static_cast<double>(width) / height), view_from_world));
