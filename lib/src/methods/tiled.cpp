@@ -80,25 +80,25 @@ Pass cull_pass(const Problem& problem, const TiledAxes& axes, const parts::TileG
   return pass;
 }
 
-/// Entries of all lists together, if every light is in each of them, or as many as a list in shared memory can hold.
-std::uint64_t worst_lists(const Problem& problem, std::uint64_t cells) {
-  return cells * std::min(parts::capacity(problem), MOST_TILE_CAPACITY);
+/// Whether lists in shared memory can hold every light, and those of all cells take little.
+bool is_small(const Problem& problem, std::uint64_t cells) {
+  const std::uint32_t lights = parts::capacity(problem);
+  return lights <= MOST_TILE_CAPACITY && cells * lights <= parts::SMALL_LISTS;
 }
 
-/// Of each list: for every light, where these are few and shared memory holds them.
+/// Of each list: for every light, in a small problem, if the device has the shared memory.
 std::uint32_t list_capacity(const Problem& problem, TiledAxes axes, std::uint64_t cells) {
   const std::uint32_t given = axes.capacity;
-  if (axes.bits) return given;
-  axes.capacity = std::max(given, std::min(parts::capacity(problem), MOST_TILE_CAPACITY));
-  const bool is_small = given >= TILE_CAPACITY && worst_lists(problem, cells) <= parts::SMALL_LISTS;
-  return is_small && shared_bytes(axes) <= problem.traits.shared_memory_bytes ? axes.capacity : given;
+  if (axes.bits || given < TILE_CAPACITY || !is_small(problem, cells)) return given;
+  axes.capacity = std::max(given, parts::capacity(problem));
+  return shared_bytes(axes) <= problem.traits.shared_memory_bytes ? axes.capacity : given;
 }
 
 /// Of the list that all cells share.
 std::uint64_t shared_entries(const Problem& problem, const TiledAxes& axes, std::uint64_t cells) {
-  const std::uint64_t worst = worst_lists(problem, cells);
-  const bool is_small = axes.mean_capacity >= TILE_MEAN_CAPACITY && worst <= parts::SMALL_LISTS;
-  return is_small ? worst : std::min(cells * axes.mean_capacity, worst);
+  const std::uint64_t worst = cells * parts::capacity(problem);
+  if (axes.mean_capacity >= TILE_MEAN_CAPACITY && is_small(problem, cells)) return worst;
+  return std::min(cells * axes.mean_capacity, worst);
 }
 
 Buffers add_buffers(Plan& plan, const Problem& problem, const TiledAxes& axes, std::uint64_t tiles) {
