@@ -12,11 +12,11 @@ Commands::Commands(const std::function<void(VkCommandBuffer)>& record) {
                                           .queueFamilyIndex = test_context().queue_family()};
   VkCommandPool pool = VK_NULL_HANDLE;
   check(vkCreateCommandPool(device, &pool_info, nullptr, &pool), "creating a command pool");
-  pool_ = vulkan::OwnedCommandPool(device, pool);
+  pool_ = vulkan::OwnedCommandPool(device, pool, vkDestroyCommandPool);
   const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
   VkFence fence = VK_NULL_HANDLE;
   check(vkCreateFence(device, &fence_info, nullptr, &fence), "creating a fence");
-  fence_ = vulkan::OwnedFence(device, fence);
+  fence_ = vulkan::OwnedFence(device, fence, vkDestroyFence);
   const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                              .commandPool = pool,
                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,

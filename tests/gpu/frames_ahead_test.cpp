@@ -9,21 +9,21 @@
 namespace lamp::app {
 namespace {
 
-struct Candidate {
+struct AheadCase {
   std::string_view method;
   std::vector<std::string> options;
 };
 
 /// Every row, and options that keep something from frame to frame or work on the CPU.
-std::vector<Candidate> candidates() {
-  std::vector<Candidate> all;
+std::vector<AheadCase> candidates() {
+  std::vector<AheadCase> all;
   for (const Method& method : methods()) all.push_back({method.name, {}});
   all.push_back({"drobot-zbin", {"sort=cpu"}});
   all.push_back({"tiled-bits", {"frusta=cached"}});
   return all;
 }
 
-vulkan::Culler make_culler(const Candidate& candidate, std::uint32_t frames_in_flight) {
+vulkan::Culler make_culler(const AheadCase& candidate, std::uint32_t frames_in_flight) {
   return take(vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
                                                                .height = ENGINE_HEIGHT,
                                                                .light_capacity = ENGINE_LIGHTS,
@@ -60,7 +60,7 @@ class FramesAhead : public GpuTest {
     }
   }
 
-  std::vector<Masks> alone(const Candidate& candidate) {
+  std::vector<Masks> alone(const AheadCase& candidate) {
     std::vector<Masks> masks;
     for (const EngineFrame& frame : frames_) {
       vulkan::Culler culler = make_culler(candidate, 1);
@@ -77,7 +77,7 @@ class FramesAhead : public GpuTest {
 TEST_F(FramesAhead, OfEveryMethodGiveWhatTheyGiveAlone) {
   constexpr std::size_t ORDER[] = {0, 1, 2, 3};
   constexpr std::size_t OTHER[] = {2, 2, 0, 1};
-  for (const Candidate& candidate : candidates()) {
+  for (const AheadCase& candidate : candidates()) {
     SCOPED_TRACE(fmt::format("{} {}", candidate.method, fmt::join(candidate.options, " ")));
     const std::vector<Masks> masks = alone(candidate);
     vulkan::Culler culler = make_culler(candidate, 4);
@@ -87,7 +87,7 @@ TEST_F(FramesAhead, OfEveryMethodGiveWhatTheyGiveAlone) {
 }
 
 TEST_F(FramesAhead, AsManyAsTheCullerWasMadeFor) {
-  for (const Candidate& candidate : {Candidate{"drobot-zbin", {"sort=cpu"}}, {"tiled-bits", {"frusta=cached"}}}) {
+  for (const AheadCase& candidate : {AheadCase{"drobot-zbin", {"sort=cpu"}}, {"tiled-bits", {"frusta=cached"}}}) {
     const std::vector<Masks> masks = alone(candidate);
     std::uint64_t bytes = 0;
     for (std::uint32_t count = 1; count <= MAX_FRAMES_IN_FLIGHT; ++count) {
@@ -104,7 +104,7 @@ TEST_F(FramesAhead, AsManyAsTheCullerWasMadeFor) {
 
 // The slot of a dropped frame is free at once; that of a frame under way is not.
 TEST_F(FramesAhead, DroppedOnesMakeRoom) {
-  const Candidate candidate{"drobot-zbin", {"sort=cpu"}};
+  const AheadCase candidate{"drobot-zbin", {"sort=cpu"}};
   const std::vector<Masks> masks = alone(candidate);
   vulkan::Culler culler = make_culler(candidate, 2);
   for (int round = 0; round < 3; ++round) {

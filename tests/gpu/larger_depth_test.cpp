@@ -60,21 +60,21 @@ std::vector<shared::Light> scattered_lights(const View& view) {
   return pack(lights);
 }
 
-struct Candidate {
+struct LargerCase {
   const Method* method = nullptr;
   std::vector<std::string> settings;
 };
 
 /// Every row of the table.
-std::vector<Candidate> rows() {
-  std::vector<Candidate> all;
+std::vector<LargerCase> rows() {
+  std::vector<LargerCase> all;
   for (const Method& method : methods()) all.push_back({&method, {}});
   return all;
 }
 
 /// Every way of `tiled` to find every kind of depth bounds; containers and pruning in turns, so that each meets each.
-std::vector<Candidate> tiled_bounds() {
-  std::vector<Candidate> all;
+std::vector<LargerCase> tiled_bounds() {
+  std::vector<LargerCase> all;
   for (const char* bounds : {"minmax", "half", "modified-half", "mask"})
     for (const char* reduce : {"atomic", "subgroup", "parallel"})
       all.push_back({take(find_method("tiled")),
@@ -85,8 +85,8 @@ std::vector<Candidate> tiled_bounds() {
 }
 
 /// Squares of pixels that are gathered at once, in each pass that does so; and pruning.
-std::vector<Candidate> gathers(std::initializer_list<const char*> tiles) {
-  std::vector<Candidate> all;
+std::vector<LargerCase> gathers(std::initializer_list<const char*> tiles) {
+  std::vector<LargerCase> all;
   for (const char* cells : {"gather", "bits", "list"})
     for (const char* tile : tiles)
       all.push_back({take(find_method("lamplight")),
@@ -95,7 +95,7 @@ std::vector<Candidate> gathers(std::initializer_list<const char*> tiles) {
   return all;
 }
 
-std::vector<Candidate> rastered() {
+std::vector<LargerCase> rastered() {
   const Method* tile = take(find_method("drobot-raster-tile"));
   return {{tile, {"raster=full"}},
           {tile, {"raster=quarter-msaa"}},
@@ -104,7 +104,7 @@ std::vector<Candidate> rastered() {
 
 class LargerDepth : public GpuTest {
  protected:
-  static void expect_ignored(glm::uvec2 picture, glm::uvec2 image, const std::vector<Candidate>& tested) {
+  static void expect_ignored(glm::uvec2 picture, glm::uvec2 image, const std::vector<LargerCase>& tested) {
     SCOPED_TRACE(fmt::format("{}x{} in {}x{}", picture.x, picture.y, image.x, image.y));
     const View view = view_of_size(picture);
     const std::vector<shared::Light> lights = scattered_lights(view);

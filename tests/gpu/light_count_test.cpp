@@ -14,14 +14,14 @@ using Passes = vulkan::PlanRunner::Passes;
 
 constexpr std::uint32_t CAPACITY = 32;  ///< half the lights of the frame: those beyond are the second word of a mask
 
-struct Candidate {
+struct CountCase {
   const Method* method = nullptr;
   std::vector<std::string> settings;
 };
 
 /// Every row; and lists that are too short, where the look-up walks all lights.
-std::vector<Candidate> candidates() {
-  std::vector<Candidate> all;
+std::vector<CountCase> candidates() {
+  std::vector<CountCase> all;
   for (const Method& method : methods()) all.push_back({&method, {}});
   for (const auto& [name, settings] : {std::pair<const char*, std::vector<std::string>>{"tiled", {"capacity=1"}},
                                        {"tiled", {"order=type", "mean_capacity=1"}},

@@ -48,5 +48,7 @@ using OwnedPipelineLayout = Owned<VkPipelineLayout>;
 using OwnedSetLayout = Owned<VkDescriptorSetLayout>;
 using OwnedShaderModule = Owned<VkShaderModule>;
 using OwnedQueryPool = Owned<VkQueryPool>;
+using OwnedCommandPool = Owned<VkCommandPool>;
+using OwnedFence = Owned<VkFence>;
 
 }  // namespace lamp::vulkan
