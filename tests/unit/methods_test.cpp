@@ -71,7 +71,7 @@ void expect_plan_or_limit(const Method& method, const Problem& problem) {
   std::uint64_t sum = 0;
   std::set<std::string> names{"total"};  // the row that Stats adds
   for (const lamp::BufferDesc& buffer : plan.buffers) {
-    sum += buffer.bytes;
+    sum += plan.bytes_of(buffer);
     EXPECT_TRUE(names.insert(buffer.name).second) << "a second buffer " << buffer.name;
   }
   EXPECT_EQ(plan.bytes(), sum);
