@@ -105,8 +105,7 @@ TEST_F(Capture, HasOneViewAlone) {
 TEST_F(Capture, FoldersThatCannotBeWritten) {
   expect_error(BAD_INPUT, {"capture", "plane"}, {"--out", "required"});
   expect_error(BAD_INPUT, {"capture", "plane", "--out", ""}, {"--out ''", "expected the name of a folder"});
-  expect_error(BAD_INPUT, {"capture", "plane", "--out", "x", "--lights-as", "csv"},
-               {"--lights-as 'csv'", "json, npy"});
+  expect_error(BAD_INPUT, {"capture", "plane", "--out", "x", "--lights-as", "csv"}, {"--lights-as 'csv'", "json, npy"});
   write("file", "mine");
   expect_error(BAD_INPUT, {"capture", "plane", "--out", "file"}, {"--out 'file'", "is a file, expected a folder"});
   expect_error(BAD_INPUT, {"capture", "plane", "--out", "file/frame"}, {"--out 'file/frame'", "is not a folder"});

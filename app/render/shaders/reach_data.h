@@ -12,8 +12,8 @@ namespace lamp::app::gpu {
 using namespace lamp::shared;
 #endif
 
-// The boundary band of a light: short of `near` a position is inside, beyond `far` outside. Of a spot, both hold for the
-// distance and for the angle from its direction.
+// The boundary band of a light: short of `near` a position is inside, beyond `far` outside. Of a spot, both hold for
+// the distance and for the angle from its direction.
 struct ReachLimits {
   double near_squared;  // m^2, of the distance
   double far_squared;
