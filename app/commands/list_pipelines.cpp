@@ -61,7 +61,7 @@ Exit list_pipelines_of(const std::string& method, const std::string& device, boo
   const Context context({.device = device, .pipeline_statistics = true});
   const std::vector<ListedPipeline> pipelines = list_pipelines(context.device(), ShaderLibrary(), of);
   if (json)
-    print_out("{}\n", as_json(context.row(), pipelines).dump(2));
+    write_out(json_text(as_json(context.row(), pipelines), 2) + "\n");
   else
     print(context.row(), pipelines);
   return Exit::done;
