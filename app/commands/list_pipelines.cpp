@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/request.h"
+#include "files/read_json.h"
 #include "gpu/context.h"
 #include "render/pipeline_list.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
