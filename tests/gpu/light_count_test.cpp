@@ -27,7 +27,7 @@ std::vector<CountCase> candidates() {
                                        {"tiled", {"order=type", "mean_capacity=1"}},
                                        {"clustered", {"mean_capacity=1"}},
                                        {"lamplight", {"cells=bits", "mean_capacity=1"}},
-                                       {"lamplight", {"cells=list", "mean_cells=0", "mean_capacity=1"}},
+                                       {"lamplight", {"cells=list", "mean_cells=0"}},
                                        {"lamplight", {"cells=list", "container=bits", "mean_cells=0"}},
                                        {"drobot-zbin", {"sort=cpu"}}})
     all.push_back({take(find_method(name)), settings});
