@@ -17,6 +17,13 @@ constexpr std::uint32_t CAPACITY = 32;  ///< half the lights of the frame: those
 struct CountCase {
   const Method* method = nullptr;
   std::vector<std::string> settings;
+
+  /// Which of the lists that share too little room find some differs from run to run, and so what is walked for others.
+  [[nodiscard]] bool lists_vary() const {
+    if (settings.empty()) return false;
+    const bool appends = method->name == "lamplight" || settings.front() == "order=type";
+    return appends && settings.back().starts_with("mean_");
+  }
 };
 
 /// Every row; and lists that are too short, where the look-up walks all lights.
@@ -27,7 +34,7 @@ std::vector<CountCase> candidates() {
                                        {"tiled", {"order=type", "mean_capacity=1"}},
                                        {"clustered", {"mean_capacity=1"}},
                                        {"lamplight", {"cells=bits", "mean_capacity=1"}},
-                                       {"lamplight", {"cells=list", "mean_cells=0"}},
+                                       {"lamplight", {"cells=list", "mean_cells=0", "mean_capacity=1"}},
                                        {"lamplight", {"cells=list", "container=bits", "mean_cells=0"}},
                                        {"drobot-zbin", {"sort=cpu"}}})
     all.push_back({take(find_method(name)), settings});
@@ -44,7 +51,7 @@ class LightCount : public GpuTest {
                                     .lights = frame_.light_buffer.handle(),
                                     .spheres = frame_.sphere_buffer.handle(),
                                     .depth = frame_.depth_image.sampled(),
-                                    .host_lights = std::span(frame_.lights).first(CAPACITY),
+                                    .host_lights = frame_.lights,
                                     .host_frame = &honest};
     const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
     const glm::uvec2 group_px = which == Passes::fused
@@ -63,11 +70,17 @@ class LightCount : public GpuTest {
     return pass.masks();
   }
 
-  EngineFrame frame_ = engine_frame();
+  /// Its buffers hold all lights, its truth those that there is room for.
+  EngineFrame frame_ = [] {
+    EngineFrame frame = engine_frame();
+    frame.lights.resize(CAPACITY);
+    return frame;
+  }();
 };
 
 TEST_F(LightCount, BeyondTheCapacityIsCutInEveryShader) {
-  for (const auto& [method, settings] : candidates()) {
+  for (const CountCase& one : candidates()) {
+    const auto& [method, settings] = one;
     SCOPED_TRACE(fmt::format("{} {}", method->name, fmt::join(settings, " ")));
     const Plan plan = take(make_plan(*method, {.width = ENGINE_WIDTH,
                                                .height = ENGINE_HEIGHT,
@@ -80,9 +93,13 @@ TEST_F(LightCount, BeyondTheCapacityIsCutInEveryShader) {
       SCOPED_TRACE(which == Passes::fused ? "fused" : "separate");
       const Masks expected = masks(runner, which, CAPACITY);
       EXPECT_GT(walked(expected), 0);
-      EXPECT_EQ(masks(runner, which, 2 * CAPACITY), expected);
-      EXPECT_EQ(masks(runner, which, ~0U), expected);
-      EXPECT_TRUE(std::ranges::all_of(expected, [](glm::uvec2 mask) { return mask.y == 0; }));
+      for (const std::uint32_t count : {CAPACITY, 2 * CAPACITY, ~0U}) {
+        SCOPED_TRACE(count);
+        const Masks found = masks(runner, which, count);
+        EXPECT_TRUE(one.lists_vary() || found == expected);
+        if (!method->approximate) expect_no_miss(frame_, found);
+        EXPECT_TRUE(std::ranges::all_of(found, [](glm::uvec2 mask) { return mask.y == 0; }));
+      }
     }
   }
 }
