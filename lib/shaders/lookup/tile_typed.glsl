@@ -12,25 +12,12 @@ LOOKUP_BUFFER(1, LookupLists, uint, lookup_lists);
 LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
 LOOKUP_BUFFER(3, LookupHeaders, uvec2, lookup_headers);
 
+#include "lookup/parts/list_walk.glsl"
 #include "lookup/parts/tile_cell.glsl"
 
 LAMP_CONST LOOKUP_OVERFLOWED = ~0u;
 
-struct Walk {
-  uint at;
-  uint end;
-  bool overflowed;
-};
-
 void lookup_prepare() {}
-
-Walk walk_from(uint first, uint end, bool overflowed) {
-  Walk walk;
-  walk.at = first;
-  walk.end = end;
-  walk.overflowed = overflowed;
-  return walk;
-}
 
 // Both kinds, points first.
 Walk walk_begin(uvec2 pixel, float z_view) {

@@ -9,23 +9,10 @@ LOOKUP_CONSTANT(3, bool, LOOKUP_ASCENDS, false);  // a list that ascends can be 
 LOOKUP_BUFFER(1, LookupLists, uint, lookup_lists);
 LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
 
+#include "lookup/parts/list_walk.glsl"
 #include "lookup/parts/tile_cell.glsl"
 
-struct Walk {
-  uint at;
-  uint end;
-  bool overflowed;
-};
-
 void lookup_prepare() {}
-
-Walk walk_from(uint first, uint end, bool overflowed) {
-  Walk walk;
-  walk.at = first;
-  walk.end = end;
-  walk.overflowed = overflowed;
-  return walk;
-}
 
 Walk walk_nothing() { return walk_from(0u, 0u, false); }
 

@@ -11,13 +11,9 @@
 layout(set = 0, binding = TILE_BINDING + 6, scalar) buffer CounterBuffer { Counters counters; };
 #include "methods/tile_overflow.glsl"
 
-TileRanges lookup_ranges;
+#include "lookup/parts/list_walk.glsl"
 
-struct Walk {
-  uint at;
-  uint end;
-  bool overflowed;
-};
+TileRanges lookup_ranges;
 
 void lookup_prepare() {
   lookup_ranges = cull_tile(gl_WorkGroupID.xy);
@@ -34,8 +30,8 @@ uint lookup_cell(uvec2 pixel, float z_view) {
 
 Walk walk_begin(uvec2 pixel, float z_view) {
   const uint range = lookup_range(z_view);
-  if (!list_fits(range)) return Walk(0u, light_count_of(cull_frame), true);
-  return Walk(range * CAPACITY, range * CAPACITY + s_light_count[range], false);
+  if (!list_fits(range)) return walk_from(0u, light_count_of(cull_frame), true);
+  return walk_from(range * CAPACITY, range * CAPACITY + s_light_count[range], false);
 }
 
 uint lookup_light_at(Walk walk, uint place) { return walk.overflowed ? place : s_lights[place] & ~TYPE_BIT; }
