@@ -277,8 +277,9 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
       "  lamp bench stewart-1.6 --scale 0.25 --max-lights 1024 --out out/small\n"
       "Exit code 1: a method's output was wrong. 4: none was wrong, but one could not be checked, because the device "
       "ends its walks; it has its times. After Ctrl-C it writes what it has measured; the same command goes on.");
-  for (const char* argument : arguments)
-    o->command_line += (o->command_line.empty() ? "" : " ") + shell_quoted(argument);
+  // The tool by its name: where it lies is nobody else's concern, and results are passed on.
+  o->command_line = fs::path(arguments.front()).filename().string();
+  for (const char* argument : arguments.subspan(1)) o->command_line += " " + shell_quoted(argument);
   return [o, command] {
     refuse_with_suite(*command, o->request.scene);
     if (!o->max_size.empty() && pixels_of(o->max_size) == 0)

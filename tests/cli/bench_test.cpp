@@ -44,7 +44,7 @@ TEST_F(Bench, ASuiteGivesResultsTableAndReport) {
   EXPECT_EQ(all.at("format"), "lamplight-results");
   EXPECT_EQ(all.at("version"), 1);
   EXPECT_TRUE(all.at("run").at("complete"));
-  EXPECT_NE(all.at("run").at("command").get<std::string>().find("bench mine.json --out out"), std::string::npos);
+  EXPECT_EQ(all.at("run").at("command").get<std::string>().find("lamp bench mine.json --out out"), 0);
   ASSERT_EQ(all.at("results").size(), 4U);
   for (const json& result : all.at("results")) {
     SCOPED_TRACE(result.at("key").get<std::string>());
