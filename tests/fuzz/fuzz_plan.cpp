@@ -172,6 +172,13 @@ std::string read_setting(Reader& in, const Method& method) {
   return key + std::to_string(spec.min + in.number<std::uint32_t>() % (spec.max - spec.min + 1));
 }
 
+/// With the method's defaults: a row names the look-up of the plain walk.
+std::string default_lookup(const Method& method, const Problem& problem) {
+  const auto walk = problem.options.all().find("walk");
+  const bool scalar = walk != problem.options.all().end() && walk->second != "plain";
+  return std::string(method.result) + (scalar && problem.traits.compute_subgroups.ballot ? "_scalar" : "");
+}
+
 void plan_a_problem(Reader& in) {
   const Method& method = methods()[in.number<std::uint8_t>() % methods().size()];
   Problem problem{.width = in.number<std::uint32_t>(),
@@ -185,11 +192,13 @@ void plan_a_problem(Reader& in) {
   require(options.value().all().size() == method.options.size());
   problem.options = std::move(options.value());
 
+  if (in.flag()) problem.traits.compute_subgroups = problem.traits.fragment_subgroups = {};
+
   const Result<Plan> plan = make_plan(method, problem);
   if (!plan) return require(!plan.error().text().empty());
   run_everything(plan.value(), problem.traits);
   require(plan.value().light_capacity == problem.light_capacity);
-  require(!settings.empty() || plan.value().lookup.name == method.result);
+  require(!settings.empty() || plan.value().lookup.name == default_lookup(method, problem));
 }
 
 ResourceId read_resource(Reader& in) {
