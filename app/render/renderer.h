@@ -147,7 +147,4 @@ class Renderer {
   vulkan::Timestamps timestamps_;
 };
 
-/// A truth without lights: for heat maps, where nothing is checked.
-[[nodiscard]] Truth empty_truth(std::uint32_t width, std::uint32_t height);
-
 }  // namespace lamp::app
