@@ -94,6 +94,11 @@ void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& fram
   static_cast<void>(take(runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()))));
 }
 
+void Lighting::finish() {
+  for (vulkan::PlanRunner* runner : {&runner_, any_depth_runner_ ? &*any_depth_runner_ : nullptr})
+    if (runner != nullptr && runner->records() != 0) runner->finish(runner->records());
+}
+
 void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame) {
   if (frame.kept != nullptr)
     frame.kept->record(recorder, frame.targets);

@@ -34,6 +34,8 @@ class Lighting {
   void record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame);
   /// Only the cull, over the depth that is there.
   void record_cull(vulkan::Recorder& recorder, const LightingFrame& frame);
+  /// Says that all that was recorded has run: what is kept need not be made again.
+  void finish();
 
   [[nodiscard]] const LightingInfo& info() const { return info_; }
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }

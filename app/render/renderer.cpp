@@ -85,6 +85,11 @@ LightingFrame Renderer::lighting_frame() const {
           .eye = glm::vec3(view_.world_from_view()[3])};
 }
 
+void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
+  context_.submit(record);
+  if (lighting != nullptr) lighting->finish();
+}
+
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
   data_.record_upload(recorder);
   LightingFrame frame = lighting_frame();
@@ -109,7 +114,7 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
     const Timing timing = i >= warm_up ? times.next() : Timing::passes;
-    context_.submit([&](VkCommandBuffer commands) {
+    submit(&lighting, [&](VkCommandBuffer commands) {
       timestamps_.reset(commands, parts_of(lighting, timing));
       vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
       record_frame(recorder, lighting, relights);
@@ -136,7 +141,7 @@ vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   if (plan.counters == NO_RESOURCE) return {};
   if (!surfaces_drawn_) draw_surfaces();
   const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
-  context_.submit([&](VkCommandBuffer commands) {
+  submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
     lighting.record_cull(recorder, lighting_frame());
@@ -164,7 +169,7 @@ std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing 
 }
 
 std::vector<vulkan::Timestamps::Time> Renderer::time_frame(Lighting& lighting, Timing timing) {
-  context_.submit([&](VkCommandBuffer commands) {
+  submit(&lighting, [&](VkCommandBuffer commands) {
     timestamps_.reset(commands, parts_of(lighting, timing));
     vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
     record_frame(recorder, lighting, false);
@@ -174,7 +179,7 @@ std::vector<vulkan::Timestamps::Time> Renderer::time_frame(Lighting& lighting, T
 }
 
 void Renderer::warm_up(Lighting& lighting) {
-  context_.submit([&](VkCommandBuffer commands) {
+  submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_frame(recorder, lighting, true);
   });
@@ -195,7 +200,7 @@ std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
 std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
 
 void Renderer::draw_surfaces(Lighting* decals) {
-  context_.submit([&](VkCommandBuffer commands) {
+  submit(decals, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
     if (decals != nullptr)
@@ -254,7 +259,7 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
   const std::uint32_t rows = is_fused(pass) || pass.rows.count == 0 ? targets_->height : pass.rows.count;
   const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
 
-  context_.submit([&](VkCommandBuffer commands) {
+  submit(pass.lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     if (pass.prepares) data_.record_upload(recorder);
     if (pass.prepares && pass.lighting != nullptr)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -130,6 +131,8 @@ class Renderer {
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time_frame(Lighting& lighting, Timing timing);
   [[nodiscard]] Rendered render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights);
   void record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights);
+  /// Records, submits and waits; then tells the lighting, if there is one.
+  void submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record);
   [[nodiscard]] LightingFrame lighting_frame() const;
   template <class Texel>
   [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);

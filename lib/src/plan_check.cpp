@@ -258,6 +258,14 @@ std::optional<Error> check_counters(const Plan& plan) {
                                (buffer.begins_at_zero() ? "" : ", not zeroed")};
 }
 
+/// A kept pass that has run with one list of passes has run for the other.
+std::optional<Error> check_kept(const std::vector<Pass>& passes, const std::vector<Pass>& others) {
+  for (const Pass& pass : passes)
+    if (pass.on_projection_change && std::ranges::find(others, pass.name, &Pass::name) == others.end())
+      return Error{"pass " + pass.name, "is kept, so the passes with and those without a fused look-up must have it"};
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
@@ -280,6 +288,8 @@ std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
     return Error{"fused look-up " + fused.lookup.name,
                  "its work group must have 1 to " + std::to_string(traits.max_group_invocations) + " threads"};
   if (auto error = check_shared("fused look-up " + fused.lookup.name, fused.shared_bytes, traits)) return error;
+  if (auto error = check_kept(plan.passes, fused.passes)) return error;
+  if (auto error = check_kept(fused.passes, plan.passes)) return error;
   return check_passes(plan, fused.passes, fused.lookup, plan.counters, traits);
 }
 

@@ -35,6 +35,12 @@ TEST_F(CullerErrors, OfCreationNameWhatIsWrong) {
   info = good;
   info.light_capacity = MAX_LIGHTS + 1;
   expect_error(info, {"light capacity", std::to_string(MAX_LIGHTS).c_str()});
+  info = good;
+  info.readers = 0;
+  expect_error(info, {"readers", "expected the stages"});
+  info = good;
+  info.frames_in_flight = MAX_FRAMES_IN_FLIGHT + 1;
+  expect_error(info, {"frames in flight", "expected 1 to 4, got 5"});
 }
 
 /// Records into no command buffer at all: whoever records anything there does not come back.

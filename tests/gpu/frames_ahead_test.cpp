@@ -3,48 +3,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "gpu/commands.h"
-#include "gpu/engine_frame.h"
+#include "gpu/flying.h"
 
 namespace lamp::app {
 namespace {
-
-struct AheadCase {
-  std::string_view method;
-  std::vector<std::string> options;
-};
-
-/// Every row, and options that keep something from frame to frame or work on the CPU.
-std::vector<AheadCase> candidates() {
-  std::vector<AheadCase> all;
-  for (const Method& method : methods()) all.push_back({method.name, {}});
-  all.push_back({"drobot-zbin", {"sort=cpu"}});
-  all.push_back({"tiled-bits", {"frusta=cached"}});
-  return all;
-}
-
-vulkan::Culler make_culler(const AheadCase& candidate, std::uint32_t frames_in_flight) {
-  return take(vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
-                                                               .height = ENGINE_HEIGHT,
-                                                               .light_capacity = ENGINE_LIGHTS,
-                                                               .method = std::string(candidate.method),
-                                                               .options = candidate.options,
-                                                               .frames_in_flight = frames_in_flight}));
-}
-
-/// A frame that is under way.
-struct Flying {
-  Flying(vulkan::Culler& culler, const EngineFrame& frame)
-      : pass(culler.lookup(), frame), commands([&](VkCommandBuffer buffer) {
-          number = take(culler.record(buffer, culler_frame(frame)));
-          pass.record(buffer, culler.lookup());
-          MaskPass::record_to_host(buffer);
-        }) {}
-
-  std::uint64_t number = 0;
-  MaskPass pass;
-  Commands commands;
-};
 
 class FramesAhead : public GpuTest {
  protected:
@@ -60,12 +22,9 @@ class FramesAhead : public GpuTest {
     }
   }
 
-  std::vector<Masks> alone(const AheadCase& candidate) {
+  std::vector<Masks> alone(const CullerCandidate& candidate) {
     std::vector<Masks> masks;
-    for (const EngineFrame& frame : frames_) {
-      vulkan::Culler culler = make_culler(candidate, 1);
-      masks.push_back(cull_and_walk(culler, frame));
-    }
+    for (const EngineFrame& frame : frames_) masks.push_back(masks_alone(candidate, frame));
     return masks;
   }
 
@@ -77,22 +36,23 @@ class FramesAhead : public GpuTest {
 TEST_F(FramesAhead, OfEveryMethodGiveWhatTheyGiveAlone) {
   constexpr std::size_t ORDER[] = {0, 1, 2, 3};
   constexpr std::size_t OTHER[] = {2, 2, 0, 1};
-  for (const AheadCase& candidate : candidates()) {
+  for (const CullerCandidate& candidate : culler_candidates()) {
     SCOPED_TRACE(fmt::format("{} {}", candidate.method, fmt::join(candidate.options, " ")));
     const std::vector<Masks> masks = alone(candidate);
-    vulkan::Culler culler = make_culler(candidate, 4);
+    vulkan::Culler culler = culler_of(candidate, 4);
     expect_as_alone(culler, ORDER, masks);
     expect_as_alone(culler, OTHER, masks);
   }
 }
 
 TEST_F(FramesAhead, AsManyAsTheCullerWasMadeFor) {
-  for (const AheadCase& candidate : {AheadCase{"drobot-zbin", {"sort=cpu"}}, {"tiled-bits", {"frusta=cached"}}}) {
+  for (const CullerCandidate& candidate :
+       {CullerCandidate{"drobot-zbin", {"sort=cpu"}}, {"tiled-bits", {"frusta=cached"}}}) {
     const std::vector<Masks> masks = alone(candidate);
     std::uint64_t bytes = 0;
     for (std::uint32_t count = 1; count <= MAX_FRAMES_IN_FLIGHT; ++count) {
       SCOPED_TRACE(fmt::format("{}, {} in flight", candidate.method, count));
-      vulkan::Culler culler = make_culler(candidate, count);
+      vulkan::Culler culler = culler_of(candidate, count);
       constexpr std::size_t ORDER[] = {1, 2, 3, 0, 2, 1, 0, 3};
       for (std::size_t first = 0; first + count <= std::size(ORDER); first += count)
         expect_as_alone(culler, std::span(ORDER).subspan(first, count), masks);
@@ -104,9 +64,9 @@ TEST_F(FramesAhead, AsManyAsTheCullerWasMadeFor) {
 
 // The slot of a dropped frame is free at once; that of a frame under way is not.
 TEST_F(FramesAhead, DroppedOnesMakeRoom) {
-  const AheadCase candidate{"drobot-zbin", {"sort=cpu"}};
+  const CullerCandidate candidate{"drobot-zbin", {"sort=cpu"}};
   const std::vector<Masks> masks = alone(candidate);
-  vulkan::Culler culler = make_culler(candidate, 2);
+  vulkan::Culler culler = culler_of(candidate, 2);
   for (int round = 0; round < 3; ++round) {
     Flying first(culler, frames_[0]);
     const Flying never(culler, frames_[1]);

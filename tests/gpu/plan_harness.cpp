@@ -75,6 +75,7 @@ std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
     timestamps_.finish(commands);
     read_back(recorder, copies);
   });
+  runner_.finish(runner_.records());
   times_ = timestamps_.read();
   std::vector<std::vector<std::uint32_t>> words;
   for (const vulkan::Buffer& copy : copies) {

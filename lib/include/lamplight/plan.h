@@ -96,7 +96,7 @@ struct Pass {
   Extent extent;
   RasterState raster;                 ///< raster passes
   HostFunction host = nullptr;        ///< host passes; they run while recording, before every GPU pass
-  bool on_projection_change = false;  ///< only in frames whose projection is not the last frame's; its output is kept
+  bool on_projection_change = false;  ///< kept: not in frames of a projection with which it has run just before
   std::uint32_t shared_bytes = 0;     ///< shared memory of a work group, for plan_check
   std::uint32_t full_subgroups = 0;   ///< not 0: threads of a work group, all in x, whose subgroups must all be full
 };

@@ -15,6 +15,7 @@ constexpr std::uint64_t FREE = 0;  // before every frame's number
 }  // namespace
 
 Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
+  if (info.readers == 0) return Error{"readers", "expected the stages that read the look-up, got none"};
   const Result<const Method*> method = find_method(info.method);
   if (!method) return method.error();
   Result<Options> options = resolve_options(*method.value(), info.options);
@@ -49,6 +50,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   culler.frame_ = std::move(frame.value());
   culler.counts_ = std::move(counts.value());
   culler.runner_ = std::move(runner.value());
+  culler.readers_ = info.readers;
   culler.slots_.assign(info.frames_in_flight, FREE);
   return culler;
 }
@@ -68,19 +70,21 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
                     .host_frame = &record};
   if (auto error = runner_.check(inputs)) return *error;
   inputs.slot = last_slot_ = take_slot(++frames_);
-  Recorder recorder(device_, commands, tracker_);
-  tracker_.assume(inputs.depth);
-  tracker_.assume(Resource::storage(inputs.lights));
-  if (inputs.spheres != VK_NULL_HANDLE) tracker_.assume(Resource::storage(inputs.spheres));
-
+  // A tracker of this frame alone: it knows nothing of others, which may never run, and keeps nothing of the host's.
+  AccessTracker tracker;
+  tracker.assume(inputs.depth);
+  tracker.assume(Resource::storage(inputs.lights));
+  if (inputs.spheres != VK_NULL_HANDLE) tracker.assume(Resource::storage(inputs.spheres));
+  Recorder recorder(device_, commands, tracker);
+  // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
+  const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  recorder.order(stages | readers_, stages);
   recorder.barrier({{.resource = Resource::storage(frame_.handle()),
                      .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                      .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   device_.vk.vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
   if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
-
-  recorder.barrier(runner_.lookup(inputs).buffer_uses(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                                                      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT));
+  recorder.order(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_);
   runner_.record_counts(recorder, counts_, last_slot_ * count_bytes(runner_.plan()));
   return frames_;
 }
@@ -109,21 +113,15 @@ std::span<std::byte> Culler::count_bytes_in(std::uint32_t slot) const {
 
 FrameCounts Culler::counts_in(std::uint32_t slot) const { return read_counts(runner_.plan(), count_bytes_in(slot)); }
 
-void Culler::release(std::uint64_t finished_frame) {
-  for (const Retired& retired : retired_)
-    for (ResourceId id = PLAN_BUFFER;
-         retired.last_frame <= finished_frame && id - PLAN_BUFFER < retired.runner.plan().buffers.size(); ++id)
-      tracker_.forget(retired.runner.buffer(id));
-  std::erase_if(retired_, [&](const Retired& retired) { return retired.last_frame <= finished_frame; });
-}
-
 Result<Growth> Culler::finish(std::uint64_t frame) {
   const std::optional<std::uint32_t> slot = slot_of(frame);
   assert(frame != FREE && slot && "finish each frame once, before frames_in_flight further ones are recorded");
-  release(frame);
+  std::erase_if(retired_, [&](const Retired& retired) { return retired.last_frame <= frame; });
   if (!slot) return Growth::none;
   slots_[*slot] = FREE;
-  if (frame < first_frame_ || runner_.plan().counters == NO_RESOURCE) return Growth::none;
+  if (frame < first_frame_) return Growth::none;
+  runner_.finish(frame - first_frame_ + 1);
+  if (runner_.plan().counters == NO_RESOURCE) return Growth::none;
   std::optional<GrownPlan> grown = grow_plan(*method_, problem_, runner_.plan(), counts_in(*slot).needed);
   return grown ? grow(std::move(*grown)) : Result<Growth>(Growth::none);
 }

@@ -5,24 +5,11 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <cstring>
+
+#include "pass_use.h"
 
 namespace lamp::vulkan {
 namespace {
-
-constexpr std::uint64_t COUNT_BYTES = sizeof(std::uint32_t);
-
-Use use_of(const Resource& resource, Access access, VkPipelineStageFlags2 stages) {
-  VkAccessFlags2 flags = 0;
-  const bool sampled = resource.image != VK_NULL_HANDLE;
-  const bool uniform = resource.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-  if (access != Access::write)
-    flags |= sampled   ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
-             : uniform ? VK_ACCESS_2_UNIFORM_READ_BIT
-                       : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
-  if (access != Access::read) flags |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  return {.resource = resource, .stages = stages, .access = flags};
-}
 
 BufferInfo buffer_info(const BufferDesc& desc) {
   VkBufferUsageFlags usage =
@@ -56,18 +43,6 @@ std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
 }
 
 }  // namespace
-
-std::uint64_t count_bytes(const Plan& plan) { return sizeof(shared::Counters) + plan.capacities.size() * COUNT_BYTES; }
-
-FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes) {
-  assert(bytes.size() >= count_bytes(plan) && "read what record_counts wrote");
-  FrameCounts counts{.needed = std::vector<std::uint32_t>(plan.capacities.size())};
-  std::memcpy(&counts.counters, bytes.data(), sizeof(counts.counters));
-  if (!counts.needed.empty())
-    std::memcpy(counts.needed.data(), bytes.subspan(sizeof(counts.counters)).data(),
-                counts.needed.size() * COUNT_BYTES);
-  return counts;
-}
 
 Result<std::vector<PlanRunner::BuiltPass>> PlanRunner::build(const Device& device, const std::vector<Pass>& passes,
                                                              const ShaderSource& shaders) {
@@ -118,54 +93,17 @@ VkBuffer PlanRunner::buffer(ResourceId id) const {
   return id < PLAN_BUFFER || id == NO_RESOURCE ? VK_NULL_HANDLE : buffers_[id - PLAN_BUFFER].handle();
 }
 
-Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs) const {
-  switch (id) {
-    case INPUT_FRAME:
-      return Resource::storage(inputs.frame);
-    case INPUT_LIGHTS:
-      return Resource::storage(inputs.lights);
-    case INPUT_DEPTH: {
-      Resource depth = inputs.depth;
-      depth.type = descriptor_type(id);
-      depth.sampler = depth_sampler_.get();
-      return depth;
-    }
-    case INPUT_SPHERES:
-      return Resource::storage(inputs.spheres);
-    default:
-      return Resource::storage(buffer(id));
-  }
-}
-
-std::vector<Use> BoundLookUp::buffer_uses(VkPipelineStageFlags2 stages) const {
-  std::vector<Use> of_buffers;
-  for (const Use& use : uses)
-    if (use.resource.buffer != VK_NULL_HANDLE) of_buffers.push_back({use.resource, stages, use.access});
-  return of_buffers;
-}
-
-BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which) const {
-  const LookUp& lookup = which == Passes::fused ? plan_.fused->lookup : plan_.lookup;
-  BoundLookUp bound{.name = lookup.name, .constants = lookup_constants(lookup)};
-  for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i) {
-    const Resource used = resource(lookup.bindings[i].resource, inputs);
-    bound.resources.push_back({LOOKUP_BINDING + i, used});
-    bound.uses.push_back(use_of(used, lookup.bindings[i].access, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT));
-  }
-  return bound;
-}
-
 Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {
   if (auto error = check(inputs)) return *error;
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
   record_host_passes(recorder, passes, inputs);
   zero_buffers(recorder);
-  const bool changed = projection_changed(inputs);
+  const bool kept = is_kept(*inputs.host_frame, ++records_);
   std::vector<BoundPass> together;
   for (const BuiltPass& built : passes) {
     if (built.pass.kind == PassKind::host) continue;
     if (built.pass.on_projection_change) {
-      if (!changed) continue;
+      if (kept) continue;
       ++projection_rebuilds_;
     }
     BoundPass next = bind(built, inputs);
@@ -176,7 +114,7 @@ Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& i
     together.push_back(std::move(next));
   }
   record_together(recorder, together, inputs);
-  return ++records_;
+  return records_;
 }
 
 void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset) const {
@@ -188,9 +126,10 @@ void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64
   std::vector<Source> sources{{buffer(plan_.counters), {.dstOffset = offset, .size = sizeof(shared::Counters)}}};
   for (const Capacity& capacity : plan_.capacities) {
     const VkBufferCopy& last = sources.back().copy;
-    sources.push_back(
-        {buffer(capacity.needed),
-         {.srcOffset = capacity.needed_offset, .dstOffset = last.dstOffset + last.size, .size = COUNT_BYTES}});
+    sources.push_back({buffer(capacity.needed),
+                       {.srcOffset = capacity.needed_offset,
+                        .dstOffset = last.dstOffset + last.size,
+                        .size = sizeof(std::uint32_t)}});
   }
   std::vector<Use> uses{{.resource = Resource::storage(to.handle()),
                          .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
@@ -207,10 +146,25 @@ void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64
                      .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
-bool PlanRunner::projection_changed(const PlanInputs& inputs) {
-  const bool changed = !projection_ || *projection_ != inputs.host_frame->clip_from_view;
-  projection_ = inputs.host_frame->clip_from_view;
-  return changed;
+bool PlanRunner::is_kept(const shared::Frame& frame, std::uint64_t record) {
+  if (!kept_ || kept_->projection != frame.clip_from_view || kept_->size_px != frame.size_px)
+    kept_ = Kept{.projection = frame.clip_from_view, .size_px = frame.size_px, .first_record = record};
+  return kept_->has_run;
+}
+
+void PlanRunner::finish(std::uint64_t record) {
+  assert(record >= 1 && record <= records_ && "finish what was recorded");
+  if (kept_ && record >= kept_->first_record) kept_->has_run = true;
+}
+
+VkPipelineStageFlags2 PlanRunner::stages() const {
+  VkPipelineStageFlags2 all = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+  for (const auto* passes : {&separate_, &fused_})
+    for (const BuiltPass& built : *passes) {
+      all |= shader_stages(built.pass);
+      if (built.pass.extent.indirect != NO_RESOURCE) all |= VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+    }
+  return all;
 }
 
 void PlanRunner::zero_buffers(Recorder& recorder) const {
@@ -272,14 +226,11 @@ void PlanRunner::upload(Recorder& recorder, std::span<const ResourceId> written,
 
 PlanRunner::BoundPass PlanRunner::bind(const BuiltPass& built, const PlanInputs& inputs) const {
   const Pass& pass = built.pass;
-  const VkPipelineStageFlags2 stages =
-      pass.kind == PassKind::raster ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
-                                    : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   BoundPass bound{.built = &built};
   for (std::uint32_t i = 0; i < pass.bindings.size(); ++i) {
     Resource used = resource(pass.bindings[i].resource, inputs);
     used.type = descriptor_type(pass.bindings[i].resource, pass);
-    bound.uses.push_back(use_of(used, pass.bindings[i].access, stages));
+    bound.uses.push_back(use_of(used, pass.bindings[i].access, shader_stages(pass)));
     bound.resources.push_back({i, used});
   }
   if (pass.extent.indirect != NO_RESOURCE)

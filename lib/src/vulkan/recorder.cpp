@@ -151,6 +151,17 @@ void Recorder::begin_pass(std::string_view name, const std::vector<Use>& uses) {
   tracker_.barrier(device_.vk, commands_, uses);
 }
 
+void Recorder::order(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after) {
+  const VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                .srcStageMask = before,
+                                .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                .dstStageMask = after,
+                                .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  const VkDependencyInfo dependency{
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &memory};
+  device_.vk.vkCmdPipelineBarrier2(commands_, &dependency);
+}
+
 void Recorder::end_pass() {
   if (timestamps_ != nullptr) timestamps_->end(commands_);
   if (device_.vk.vkCmdEndDebugUtilsLabelEXT != nullptr) device_.vk.vkCmdEndDebugUtilsLabelEXT(commands_);

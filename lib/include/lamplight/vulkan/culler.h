@@ -20,10 +20,13 @@ struct CullerInfo {
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
   bool brings_spheres = false;  ///< frames bring the lights' spheres; else a method that reads them makes them itself
+  /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
+  VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   std::uint32_t frames_in_flight = MAX_FRAMES_IN_FLIGHT;  ///< that may be recorded and not done yet, 1 .. that
 };
 
-/// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run.
+/// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run,
+/// also for methods that draw, and may change once compute shaders have read them.
 struct CullerFrame {
   const View* view = nullptr;                  ///< of the Culler's size
   VkBuffer lights = VK_NULL_HANDLE;            ///< storage buffer of shared::Light (`lamp::pack`)
@@ -53,16 +56,18 @@ class LAMPLIGHT_API Culler {
   /// memory left.
   [[nodiscard]] static Result<Culler> create(const Device& device, const CullerInfo& info);
 
-  /// Records the passes. What they wrote is visible to compute and fragment shaders recorded later. Returns the frame's
-  /// number, from 1 on. Errors, and then nothing is recorded: no view or one of another size, a handle that the method
-  /// needs and that is missing, more lights than the capacity, fewer host lights than lights.
+  /// Records the passes. What they wrote is visible to CullerInfo::readers recorded later. Returns the frame's number,
+  /// from 1 on. A recorded frame may be dropped (`drop`): none relies on what another one would have done. Errors, and
+  /// then nothing is recorded: no view or one of another size, a handle that the method needs and that is missing, more
+  /// lights than the capacity, fewer host lights than lights.
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
-  /// now on. Call it after the frame's fence, before frames_in_flight further frames are recorded; it waits for
-  /// nothing. Frames that are still under way keep their buffers, which are freed when the last of them is finished. A
-  /// device or a method that allows no more room changes nothing: lists that do not fit are walked the long way.
-  /// Errors: no memory left; the Culler goes on as it was.
+  /// now on, and spares them passes whose output is kept while the projection stays the same (`frusta=cached`). Call it
+  /// after the frame's fence, before frames_in_flight further frames are recorded; it waits for nothing. Frames that
+  /// are still under way keep their buffers, which are freed when the last of them is finished. A device or a method
+  /// that allows no more room changes nothing: lists that do not fit are walked the long way. Errors: no memory left;
+  /// the Culler goes on as it was.
   [[nodiscard]] Result<Growth> finish(std::uint64_t frame);
 
   /// Says that a frame was recorded and will never run, so that it is under way no longer.
@@ -91,7 +96,6 @@ class LAMPLIGHT_API Culler {
   [[nodiscard]] std::uint32_t take_slot(std::uint64_t frame);
   [[nodiscard]] std::span<std::byte> count_bytes_in(std::uint32_t slot) const;
   [[nodiscard]] FrameCounts counts_in(std::uint32_t slot) const;
-  void release(std::uint64_t finished_frame);
   [[nodiscard]] Result<Growth> grow(GrownPlan grown);
 
   Device device_;
@@ -102,7 +106,7 @@ class LAMPLIGHT_API Culler {
   std::vector<std::uint64_t> slots_;  ///< the frame that has each, or FREE
   std::uint32_t last_slot_ = 0;
   PlanRunner runner_;
-  AccessTracker tracker_;
+  VkPipelineStageFlags2 readers_ = 0;
   std::vector<Retired> retired_;
   std::uint64_t frames_ = 0;       ///< that were recorded
   std::uint64_t first_frame_ = 1;  ///< of the runner

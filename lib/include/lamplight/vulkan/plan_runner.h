@@ -67,6 +67,15 @@ class LAMPLIGHT_API PlanRunner {
   /// fewer host lights than lights. The first such thing, or nothing.
   [[nodiscard]] std::optional<Error> check(const PlanInputs& inputs) const;
 
+  /// Says that the record of that number has run, and all before it that were not dropped. Passes that are kept need
+  /// not be recorded again, until the projection changes; nobody else may write their buffers.
+  void finish(std::uint64_t record);
+  /// How many records there were: the number of the last.
+  [[nodiscard]] std::uint64_t records() const { return records_; }
+
+  /// The pipeline stages that its passes run in: inputs must be visible to these, of shaders.
+  [[nodiscard]] VkPipelineStageFlags2 stages() const;
+
   /// Records the copy of the frame's counts to a mapped buffer, for `read_counts` after the frame's fence.
   void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0) const;
 
@@ -79,7 +88,7 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] std::span<const HostTime> host_times() const { return host_times_; }
   /// What the driver says of a pass's pipeline (Pipeline::statistics); of the first pass of that name.
   [[nodiscard]] std::span<const PipelineStatistic> statistics(std::string_view pass) const;
-  /// How often passes that wait for a change of projection have been recorded.
+  /// How often passes that are kept have been recorded.
   [[nodiscard]] std::uint64_t projection_rebuilds() const { return projection_rebuilds_; }
   [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate) const;
   /// The buffer of a plan's resource, VK_NULL_HANDLE for inputs.
@@ -108,7 +117,7 @@ class LAMPLIGHT_API PlanRunner {
   void record_together(Recorder& recorder, std::span<const BoundPass> passes, const PlanInputs& inputs) const;
   void dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
   void draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
-  [[nodiscard]] bool projection_changed(const PlanInputs& inputs);
+  [[nodiscard]] bool is_kept(const shared::Frame& frame, std::uint64_t record);
   void zero_buffers(Recorder& recorder) const;
 
   Plan plan_;
@@ -117,7 +126,15 @@ class LAMPLIGHT_API PlanRunner {
   OwnedSampler depth_sampler_;
   std::vector<BuiltPass> separate_;
   std::vector<BuiltPass> fused_;
-  std::optional<glm::mat4> projection_;  ///< of the last recorded frame
+  /// What the passes that are kept are recorded with, from which record on, and whether one of these is known to have
+  /// run. Each of them records the passes until then, so that it does not matter which.
+  struct Kept {
+    glm::mat4 projection{};
+    glm::uvec2 size_px{};
+    std::uint64_t first_record = 0;
+    bool has_run = false;
+  };
+  std::optional<Kept> kept_;
   std::uint64_t projection_rebuilds_ = 0;
   std::vector<HostTime> host_times_;
   std::uint64_t records_ = 0;

@@ -46,7 +46,9 @@ struct Bound {
   Resource resource;
 };
 
-/// Remembers, over any number of command buffers of one queue, who last touched what.
+/// Remembers, over any number of command buffers of one queue, who last touched what. It believes that what it was told
+/// of runs, in that order. Whoever drops a command buffer goes on with a copy from before, or with a new tracker behind
+/// `Recorder::order`.
 class LAMPLIGHT_API AccessTracker {
  public:
   /// Puts a barrier for these uses into the command buffer, if one is needed, and remembers them.
@@ -115,6 +117,9 @@ class LAMPLIGHT_API Recorder {
   /// Label, timestamp, barrier.
   void begin_pass(std::string_view name, const std::vector<Use>& uses);
   void end_pass();
+  /// What was recorded before and runs in `before` comes before what is recorded from now on and runs in `after`, and
+  /// what it wrote can be read there, whoever recorded it.
+  void order(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after);
   /// Only the barrier: for transfers between passes.
   void barrier(const std::vector<Use>& uses) { tracker_.barrier(device_.vk, commands_, uses); }
 
