@@ -205,7 +205,7 @@ Exit bench(const BenchOptions& o) {
   write_text(folder / "report.html", report_html({&run, 1}));
   print_faults(results);
   const auto count = [&](std::string_view verdict) {
-    return std::ranges::count(results["results"], verdict, [](const json& entry) { return entry["verdict"]; });
+    return std::ranges::count_if(results["results"], [&](const json& entry) { return entry["verdict"] == verdict; });
   };
   const auto wrong = count("wrong");
   const auto unchecked = count(name_of(Verdict::unchecked));

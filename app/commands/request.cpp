@@ -102,7 +102,8 @@ std::pair<float, float> parse_range(const std::string& text) {
       parse_number(colon == std::string::npos ? std::string_view(text) : std::string_view(text).substr(colon + 1),
                    high);
   const bool without = std::isinf(low) && std::isinf(high);
-  if (!parsed || !(low > 0.0F) || !(high >= low) || !(high <= LONGEST_RANGE_M || without))
+  const bool in_order = low > 0.0F && high >= low;  // not of NaN
+  if (!parsed || !in_order || (high > LONGEST_RANGE_M && !without))
     throw Error(fmt::format("--range '{}': expected MIN:MAX in metres with 0 < MIN <= MAX <= {}, or inf", text,
                             LONGEST_RANGE_M));
   return {low, high};

@@ -36,7 +36,7 @@ class Follower {
       case Event::array_start:
         if (levels_.size() == DEEPEST) fail(fmt::format("is nested too deep, expected at most {} levels", DEEPEST));
         begin_value();
-        levels_.push_back({.is_array = event == Event::array_start});
+        levels_.emplace_back().is_array = event == Event::array_start;
         break;
       case Event::object_end:
       case Event::array_end:
@@ -61,7 +61,7 @@ class Follower {
     bool is_array = false;
     std::size_t begun = 0;  ///< values
     std::string key;        ///< the last one
-    std::set<std::string> keys = {};
+    std::set<std::string> keys;
   };
 
   void add_key(const std::string& key) {

@@ -128,7 +128,7 @@ void write_capture(const fs::path& folder, const Scene& scene, LightsFormat ligh
     NewFolders above(place.parent_path());
     Temporary made(Temporary::Removal::everything, [&] {
       fs::create_directory(name);
-      return name;
+      return fs::path(name);
     });
     write_contents(name, scene, lights);
     made.move_to(place);
