@@ -15,7 +15,6 @@
 #include "bench/report.h"
 #include "bench/results.h"
 #include "commands/bench_measure.h"
-#include "commands/bench_progress.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
@@ -24,6 +23,7 @@
 #include "render/judgement.h"
 #include "scene/builtin.h"
 #include "system/print.h"
+#include "system/progress.h"
 #include "system/signals.h"
 
 namespace lamp::app {

@@ -11,6 +11,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <mutex>
+
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
@@ -163,8 +166,18 @@ Occupancy empty_grid(const Box& box) {
 
 Occupancy find_occupancy(const Scene& scene) {
   Occupancy grid = empty_grid(bounds(scene));
-  tbb::parallel_for(std::size_t{0}, scene.instances.size(),
-                    [&](std::size_t i) { draw(scene, scene.instances[i], grid); });
+  Progress progress;
+  std::mutex shown;
+  std::atomic<std::size_t> done = 0;
+  tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
+    draw(scene, scene.instances[i], grid);
+    const std::size_t so_far = ++done;
+    if (so_far % 256 == 0 && shown.try_lock()) {
+      const std::lock_guard lock(shown, std::adopt_lock);
+      progress.show("looking for open air", static_cast<double>(so_far) / static_cast<double>(scene.instances.size()));
+    }
+  });
+  progress.clear();
   return grid;
 }
 

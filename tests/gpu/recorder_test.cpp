@@ -241,5 +241,36 @@ TEST_F(RecorderTest, AForgottenBuffersHandleStartsAnew) {
   }
 }
 
+VkMemoryBarrier2 last_barrier{};
+
+VKAPI_ATTR void VKAPI_CALL keep_barrier(VkCommandBuffer, const VkDependencyInfo* dependency) {
+  ASSERT_EQ(dependency->memoryBarrierCount, 1);
+  last_barrier = dependency->pMemoryBarriers[0];
+}
+
+// Fragments see the write as a uniform buffer, compute shaders as a storage buffer; then these as a uniform buffer,
+// too.
+TEST_F(RecorderTest, EachReadersStageSeesTheWriteByItsOwnAccess) {
+  vulkan::DeviceFunctions vk{};
+  vk.vkCmdPipelineBarrier2 = keep_barrier;
+  const vulkan::Buffer buffer = host_buffer("buffer", 4);
+  vulkan::AccessTracker tracker;
+  std::vector<VkMemoryBarrier2> since_the_write;
+  const auto use = [&](VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+    last_barrier = {};
+    tracker.barrier(vk, VK_NULL_HANDLE,
+                    std::array{vulkan::Use{vulkan::Resource::storage(buffer.handle()), stages, access}});
+    since_the_write.push_back(last_barrier);
+  };
+  use(VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  use(VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_UNIFORM_READ_BIT);
+  use(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+  use(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_UNIFORM_READ_BIT);
+  EXPECT_TRUE(std::ranges::any_of(since_the_write, [](const VkMemoryBarrier2& barrier) {
+    return (barrier.dstStageMask & VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT) != 0 &&
+           (barrier.dstAccessMask & VK_ACCESS_2_UNIFORM_READ_BIT) != 0;
+  }));
+}
+
 }  // namespace
 }  // namespace lamp::app

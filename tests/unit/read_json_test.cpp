@@ -75,6 +75,14 @@ TEST(ReadJson, ADocumentOfTooManyValuesIsRefusedWhileItIsRead) {
   EXPECT_THROW(static_cast<void>(app::parse_json("[1, [2], {}]", "file", 4)), app::Error);
 }
 
+// Of linear cost: a parser that looks through the array again behind each of its objects does not end in a test's time.
+TEST(ReadJson, LongArraysOfObjectsAreRead) {
+  constexpr std::size_t COUNT = 400'000;
+  std::string text = "[{}";
+  for (std::size_t i = 1; i < COUNT; ++i) text += ",{}";
+  EXPECT_EQ(parse_json(text + "]", "long.json").size(), COUNT);
+}
+
 TEST(ReadJson, WhatIsNoUtf8IsReplacedOnWriting) {
   EXPECT_EQ(app::json_text({{"scene", "caf\xe9\x7f\xc2\x9b.gltf"}}, -1), R"({"scene":"caf\ufffd\u007f\u009b.gltf"})")
       << "and no terminal acts on it";

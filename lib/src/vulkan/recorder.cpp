@@ -48,8 +48,9 @@ void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands,
     } else if (orders_write || orders_reads) {
       memory.srcStageMask |= (orders_write ? state.write_stages : 0) | (orders_reads ? state.read_stages : 0);
       memory.srcAccessMask |= orders_write ? state.write_access : 0;
-      memory.dstStageMask |= use.stages;
-      memory.dstAccessMask |= use.access;
+      // Readers join those that see the write already: each of the stages by each of the accesses.
+      memory.dstStageMask |= use.stages | (writes ? VkPipelineStageFlags2{0} : state.visible_stages);
+      memory.dstAccessMask |= use.access | (writes ? VkAccessFlags2{0} : state.visible_access);
     }
 
     if (writes || changes_layout) {

@@ -63,8 +63,8 @@ class LAMPLIGHT_API AccessTracker {
     VkPipelineStageFlags2 write_stages = 0;
     VkAccessFlags2 write_access = 0;
     VkPipelineStageFlags2 read_stages = 0;     // since the write
-    VkPipelineStageFlags2 visible_stages = 0;  // stages that already wait for the write
-    VkAccessFlags2 visible_access = 0;
+    VkPipelineStageFlags2 visible_stages = 0;  // stages that already wait for the write,
+    VkAccessFlags2 visible_access = 0;         // and see it by each of these
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   };
   std::map<std::uint64_t, State> states_;

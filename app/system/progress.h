@@ -12,6 +12,7 @@ class Progress {
   Progress();
   /// `done` of all work, 0 .. 1. Cheap to call often: draws at most ten times a second.
   void show(const std::string& text, double done);
+  /// Takes the line away, if there is one.
   void clear() const;
 
  private:

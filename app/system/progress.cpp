@@ -1,11 +1,13 @@
 // Draws progress.
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/bench_progress.h"
-#include "system/print.h"
+#include "system/progress.h"
 
 #include <fmt/format.h>
 
+#include "system/print.h"
+
 namespace lamp::app {
+
 Progress::Progress() : terminal_(shows_progress()), start_(Clock::now()), drawn_(start_) {}
 
 void Progress::show(const std::string& text, double done) {
@@ -18,7 +20,7 @@ void Progress::show(const std::string& text, double done) {
 }
 
 void Progress::clear() const {
-  if (terminal_) print_error("\r\033[K");
+  if (drawn_ != start_) print_error("\r\033[K");
 }
 
 std::string about(double seconds) {
