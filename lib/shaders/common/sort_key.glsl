@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_SORT_KEY
 #define LAMP_COMMON_SORT_KEY
+#include "common/frame.glsl"
 #include "lamplight/shared/light.h"
 #include "lamplight/shared/slices.h"
 
@@ -14,5 +15,8 @@ uint sort_key(LightBounds sphere) {
 }
 
 uint sort_digit(LightBounds sphere, uint shift) { return sort_key(sphere) >> shift & (SORT_DIGITS - 1u); }
+
+// Blocks that hold a light. Passes may be dispatched for more lights than there are; groups beyond have nothing to do.
+uint sort_blocks(Frame frame) { return (light_count_of(frame) + SORT_BLOCK - 1u) / SORT_BLOCK; }
 
 #endif

@@ -4,7 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "common/frame.glsl"
 #include "common/sort_key.glsl"
 
 layout(local_size_x_id = 0) in;
@@ -18,6 +17,8 @@ layout(set = 0, binding = 3, scalar) writeonly buffer CountBuffer { uint counts[
 shared uint s_counts[SORT_DIGITS];
 
 void main() {
+  const uint blocks = sort_blocks(frame);
+  if (gl_WorkGroupID.x >= blocks) return;
   const uint thread = gl_LocalInvocationIndex;
   for (uint digit = thread; digit < SORT_DIGITS; digit += gl_WorkGroupSize.x) s_counts[digit] = 0u;
   barrier();  // cleared before counting
@@ -26,5 +27,5 @@ void main() {
     atomicAdd(s_counts[sort_digit(bounds[FIRST ? i : order[i]], SHIFT)], 1u);
   barrier();  // all counted before they are written
   for (uint digit = thread; digit < SORT_DIGITS; digit += gl_WorkGroupSize.x)
-    counts[digit * gl_NumWorkGroups.x + gl_WorkGroupID.x] = s_counts[digit];
+    counts[digit * blocks + gl_WorkGroupID.x] = s_counts[digit];
 }

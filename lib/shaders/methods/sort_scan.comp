@@ -3,8 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "common/frame.glsl"
-#include "lamplight/shared/slices.h"
+#include "common/sort_key.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
@@ -13,7 +12,7 @@ layout(set = 0, binding = 2, scalar) writeonly buffer TotalBuffer { uint totals[
 #include "common/group_scan.glsl"
 
 void main() {
-  const uint blocks = (light_count_of(frame) + SORT_BLOCK - 1u) / SORT_BLOCK;
+  const uint blocks = sort_blocks(frame);
   const uint row = gl_WorkGroupID.x * blocks;
   uint before = 0u;
   for (uint first = 0u; first < blocks; first += gl_WorkGroupSize.x) {

@@ -4,7 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "common/frame.glsl"
 #include "common/sort_key.glsl"
 
 layout(local_size_x_id = 0) in;
@@ -23,13 +22,13 @@ shared uint s_next[SORT_DIGITS];          // where the next light of a digit goe
 shared uint s_has[SORT_DIGITS * WORDS];   // which threads hold a light of a digit
 
 // Places of a digit begin behind all lights of smaller digits and those of the blocks before.
-void make_places() {
+void make_places(uint blocks) {
   uint before = 0u;
   for (uint first = 0u; first < SORT_DIGITS; first += gl_WorkGroupSize.x) {
     const uint digit = first + gl_LocalInvocationIndex;
     uint total;
     const uint place = group_scan(totals[digit], total);
-    s_next[digit] = before + place + counts[digit * gl_NumWorkGroups.x + gl_WorkGroupID.x];
+    s_next[digit] = before + place + counts[digit * blocks + gl_WorkGroupID.x];
     before += total;
   }
 }
@@ -41,9 +40,11 @@ uint lights_of_digit(uint digit, uint words) {
 }
 
 void main() {
+  const uint blocks = sort_blocks(frame);
+  if (gl_WorkGroupID.x >= blocks) return;
   const uint thread = gl_LocalInvocationIndex;
   const uint bit = 1u << (thread % 32u);
-  make_places();
+  make_places(blocks);
   const uint begin = gl_WorkGroupID.x * SORT_BLOCK;
   const uint end = min(begin + SORT_BLOCK, light_count_of(frame));
   for (uint first = begin; first < end; first += gl_WorkGroupSize.x) {
