@@ -97,6 +97,23 @@ TEST_F(CullerErrors, FewerHostLightsThanLights) {
   EXPECT_EQ(next_number(on_gpu, short_of_one), 1) << "nobody reads them";
 }
 
+TEST_F(CullerErrors, OfCountsOnTheGpuNameWhatIsWrong) {
+  const EngineFrame frame = engine_frame({.lights = 20});
+  const vulkan::Buffer counts = host_buffer_of<std::uint32_t>("counts", {20, 20});
+  vulkan::CullerFrame counted = culler_frame(frame);
+  counted.light_count_buffer = counts.handle();
+  counted.light_count_offset = 4;
+  vulkan::Culler on_gpu = take(engine_culler("drobot-zbin"));
+  EXPECT_EQ(refusal(on_gpu, counted), "light count: expected 0 beside a buffer that holds the count, got 20");
+  counted.light_count = 0;
+  vulkan::Culler on_cpu = take(engine_culler("drobot-zbin", {"sort=cpu"}));
+  EXPECT_EQ(refusal(on_cpu, counted),
+            "light count buffer: expected light_count, since option sort=cpu works on the CPU, which knows no other");
+  EXPECT_EQ(next_number(on_gpu, counted), 1);
+  counted.light_count_offset = 6;
+  EXPECT_EQ(refusal(on_gpu, counted), "light count offset: expected a multiple of 4 bytes, got 6");
+}
+
 // What a method does not read may be missing.
 TEST_F(CullerErrors, NothingIsAskedForThatNobodyReads) {
   const EngineFrame frame = engine_frame({.lights = 20});

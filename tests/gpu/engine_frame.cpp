@@ -92,9 +92,13 @@ void MaskPass::record_to_host(VkCommandBuffer commands) {
 }
 
 Masks cull_and_walk(vulkan::Culler& culler, const EngineFrame& frame) {
+  return cull_and_walk(culler, frame, culler_frame(frame));
+}
+
+Masks cull_and_walk(vulkan::Culler& culler, const EngineFrame& frame, const vulkan::CullerFrame& told) {
   const MaskPass pass(culler.lookup(), frame);
   test_context().submit([&](VkCommandBuffer commands) {
-    static_cast<void>(take(culler.record(commands, culler_frame(frame))));
+    static_cast<void>(take(culler.record(commands, told)));
     pass.record(commands, culler.lookup());
     MaskPass::record_to_host(commands);
   });

@@ -64,6 +64,8 @@ class MaskPass {
 
 /// Culls and walks in one command buffer. The engine orders nothing between the two: the Culler has done so.
 [[nodiscard]] Masks cull_and_walk(vulkan::Culler& culler, const EngineFrame& frame);
+/// Likewise, of a frame whose parts the Culler is told in another way.
+[[nodiscard]] Masks cull_and_walk(vulkan::Culler& culler, const EngineFrame& frame, const vulkan::CullerFrame& told);
 
 /// Every light that reaches a pixel, by the oracle, is in its mask.
 void expect_no_miss(const EngineFrame& frame, const Masks& masks);

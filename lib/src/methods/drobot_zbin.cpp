@@ -122,7 +122,8 @@ Buffers add_sorted_lights(Plan& plan, const Problem& problem, const Sizes& s) {
                     .kind = PassKind::host,
                     .constants = {s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U},
                     .bindings = {{b.order, Access::write}, {b.bins, Access::write}},
-                    .host = sort_into_bins},
+                    .host = sort_into_bins,
+                    .option = "sort=cpu"},
                    parts::light_bounds_pass(b.bounds),
                    gather_pass(b)};
     return b;

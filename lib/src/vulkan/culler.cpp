@@ -4,13 +4,30 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <cstring>
+#include <string>
 #include <utility>
 
 namespace lamp::vulkan {
 namespace {
 
 constexpr std::uint64_t FREE = 0;  // before every frame's number
+constexpr std::uint64_t LIGHT_COUNT_BYTES = sizeof(shared::Frame::light_count);
+
+/// What of a count on the GPU does not go together.
+std::optional<Error> check_gpu_count(const CullerFrame& frame, const Plan& plan) {
+  if (frame.light_count != 0)
+    return Error{"light count",
+                 "expected 0 beside a buffer that holds the count, got " + std::to_string(frame.light_count)};
+  if (frame.light_count_offset % LIGHT_COUNT_BYTES != 0)
+    return Error{"light count offset",
+                 "expected a multiple of 4 bytes, got " + std::to_string(frame.light_count_offset)};
+  const auto host = std::ranges::find(plan.passes, PassKind::host, &Pass::kind);
+  if (host == plan.passes.end()) return std::nullopt;
+  return Error{"light count buffer",
+               "expected light_count, since option " + host->option + " works on the CPU, which knows no other"};
+}
 
 }  // namespace
 
@@ -32,15 +49,16 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                      .frames_in_flight = info.frames_in_flight};
   Result<Plan> plan = make_plan(*method.value(), culler.problem_);
   if (!plan) return plan.error();
-  const std::uint64_t slots_bytes = info.frames_in_flight * count_bytes(plan.value());
   Result<PlanRunner> runner = PlanRunner::create(device, std::move(plan.value()));
   if (!runner) return runner.error();
+  culler.runner_ = std::move(runner.value());
   Result<Buffer> frame =
       Buffer::create(device, {.name = "frame",
                               .bytes = sizeof(shared::Frame),
                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
   if (!frame) return frame.error();
+  const std::uint64_t slots_bytes = info.frames_in_flight * culler.slot_bytes();
   Result<Buffer> counts = Buffer::create(device, {.name = "counts read-back",
                                                   .bytes = slots_bytes,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -49,7 +67,6 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   std::memset(counts.value().mapped().data(), 0, slots_bytes);
   culler.frame_ = std::move(frame.value());
   culler.counts_ = std::move(counts.value());
-  culler.runner_ = std::move(runner.value());
   culler.readers_ = info.readers;
   culler.slots_.assign(info.frames_in_flight, FREE);
   return culler;
@@ -57,7 +74,12 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
 
 Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
   if (frame.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
-  const shared::Frame record = frame.view->frame(frame.light_count, problem_.light_capacity);
+  const bool gpu_counts = frame.light_count_buffer != VK_NULL_HANDLE;
+  if (gpu_counts)
+    if (auto error = check_gpu_count(frame, runner_.plan())) return *error;
+  // Of lights that the GPU counts, passes are dispatched for as many as there is room for; shaders stop at the count.
+  const std::uint32_t capacity = problem_.light_capacity;
+  const shared::Frame record = frame.view->frame(gpu_counts ? capacity : frame.light_count, capacity);
   PlanInputs inputs{.frame = frame_.handle(),
                     .lights = frame.lights,
                     .spheres = frame.spheres,
@@ -79,14 +101,42 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
   const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   recorder.order(stages | readers_, stages);
-  recorder.barrier({{.resource = Resource::storage(frame_.handle()),
-                     .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                     .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
-  device_.vk.vkCmdUpdateBuffer(commands, frame_.handle(), 0, sizeof(record), &record);
+  record_frame(recorder, record, frame);
   if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
   recorder.order(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_);
-  runner_.record_counts(recorder, counts_, last_slot_ * count_bytes(runner_.plan()));
+  record_counts(recorder, last_slot_ * slot_bytes(), gpu_counts);
   return frames_;
+}
+
+void Culler::record_frame(Recorder& recorder, const shared::Frame& record, const CullerFrame& frame) const {
+  const Use written{.resource = Resource::storage(frame_.handle()),
+                    .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                    .access = VK_ACCESS_2_TRANSFER_WRITE_BIT};
+  recorder.barrier({written});
+  device_.vk.vkCmdUpdateBuffer(recorder.commands(), frame_.handle(), 0, sizeof(record), &record);
+  if (frame.light_count_buffer == VK_NULL_HANDLE) return;
+  recorder.barrier({written});
+  const VkBufferCopy count{.srcOffset = frame.light_count_offset,
+                           .dstOffset = offsetof(shared::Frame, light_count),
+                           .size = LIGHT_COUNT_BYTES};
+  device_.vk.vkCmdCopyBuffer(recorder.commands(), frame.light_count_buffer, frame_.handle(), 1, &count);
+}
+
+/// What the plan counted, and behind it the lights that there were.
+void Culler::record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts) const {
+  runner_.record_counts(recorder, counts_, slot_begin);
+  if (!gpu_counts) return;
+  const Resource to = Resource::storage(counts_.handle());
+  recorder.barrier(
+      {{.resource = Resource::storage(frame_.handle()),
+        .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
+        .access = VK_ACCESS_2_TRANSFER_READ_BIT},
+       {.resource = to, .stages = VK_PIPELINE_STAGE_2_COPY_BIT, .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
+  const VkBufferCopy count{.srcOffset = offsetof(shared::Frame, light_count),
+                           .dstOffset = slot_begin + count_bytes(runner_.plan()),
+                           .size = LIGHT_COUNT_BYTES};
+  device_.vk.vkCmdCopyBuffer(recorder.commands(), frame_.handle(), counts_.handle(), 1, &count);
+  recorder.barrier({{.resource = to, .stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
 BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle()}); }
@@ -107,11 +157,19 @@ std::uint32_t Culler::take_slot(std::uint64_t frame) {
 }
 
 std::span<std::byte> Culler::count_bytes_in(std::uint32_t slot) const {
-  const std::uint64_t bytes = count_bytes(runner_.plan());
-  return counts_.mapped().subspan(slot * bytes, bytes);
+  return counts_.mapped().subspan(slot * slot_bytes(), slot_bytes());
 }
 
-FrameCounts Culler::counts_in(std::uint32_t slot) const { return read_counts(runner_.plan(), count_bytes_in(slot)); }
+std::uint64_t Culler::slot_bytes() const { return count_bytes(runner_.plan()) + LIGHT_COUNT_BYTES; }
+
+FrameCounts Culler::counts_in(std::uint32_t slot) const {
+  const std::span<std::byte> bytes = count_bytes_in(slot);
+  FrameCounts counts = read_counts(runner_.plan(), bytes);
+  std::uint32_t lights = 0;  // unless the GPU counted them
+  std::memcpy(&lights, bytes.last(LIGHT_COUNT_BYTES).data(), LIGHT_COUNT_BYTES);
+  counts.counters.excess_lights = lights - std::min(lights, problem_.light_capacity);
+  return counts;
+}
 
 Result<Growth> Culler::finish(std::uint64_t frame) {
   const std::optional<std::uint32_t> slot = slot_of(frame);

@@ -25,14 +25,19 @@ struct CullerInfo {
   std::uint32_t frames_in_flight = MAX_FRAMES_IN_FLIGHT;  ///< that may be recorded and not done yet, 1 .. that
 };
 
-/// What a frame brings. Lights, spheres and depth must be visible to compute shaders when the recorded commands run,
-/// also for methods that draw, and may change once compute shaders have read them.
+/// What a frame brings. Lights, their count, spheres and depth must be visible to compute shaders when the recorded
+/// commands run, also for methods that draw, and may change once compute shaders have read them.
 struct CullerFrame {
-  const View* view = nullptr;                  ///< of the Culler's size
-  VkBuffer lights = VK_NULL_HANDLE;            ///< storage buffer of shared::Light (`lamp::pack`)
-  VkBuffer spheres = VK_NULL_HANDLE;           ///< CullerInfo::brings_spheres: storage buffer of shared::LightSphere
-                                               ///< (`lamp::bounding_spheres`), which is a quarter to read
-  std::uint32_t light_count = 0;               ///< at most the capacity
+  const View* view = nullptr;         ///< of the Culler's size
+  VkBuffer lights = VK_NULL_HANDLE;   ///< storage buffer of shared::Light (`lamp::pack`)
+  VkBuffer spheres = VK_NULL_HANDLE;  ///< CullerInfo::brings_spheres: storage buffer of shared::LightSphere
+                                      ///< (`lamp::bounding_spheres`), which is a quarter to read
+  std::uint32_t light_count = 0;      ///< at most the capacity
+  /// Instead of light_count, for lights that the GPU makes: a buffer with the count, a 32-bit word. Its usage has
+  /// VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Of more lights than the capacity the first ones are taken, and the others
+  /// counted (Counters::excess_lights).
+  VkBuffer light_count_buffer = VK_NULL_HANDLE;
+  VkDeviceSize light_count_offset = 0;         ///< bytes, a multiple of 4
   std::span<const shared::Light> host_lights;  ///< only for options that work on the CPU: the same lights
   VkImage depth_image = VK_NULL_HANDLE;        ///< only for methods that need depth: one sample, device depth
   VkImageView depth_view = VK_NULL_HANDLE;     ///< of its depth aspect
@@ -59,7 +64,7 @@ class LAMPLIGHT_API Culler {
   /// Records the passes. What they wrote is visible to CullerInfo::readers recorded later. Returns the frame's number,
   /// from 1 on. A recorded frame may be dropped (`drop`): none relies on what another one would have done. Errors, and
   /// then nothing is recorded: no view or one of another size, a handle that the method needs and that is missing, more
-  /// lights than the capacity, fewer host lights than lights.
+  /// lights than the capacity, fewer host lights than lights, a count on the GPU for an option that works on the CPU.
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
@@ -77,8 +82,8 @@ class LAMPLIGHT_API Culler {
   /// descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows in `finish`.
   [[nodiscard]] BoundLookUp lookup() const;
 
-  /// What the frame that was recorded last counted: cells that did not fit and were walked the long way. Read it after
-  /// that frame's fence; before it has run, nothing was counted.
+  /// What the frame that was recorded last counted: cells that did not fit and were walked the long way, and lights
+  /// beyond the capacity. Read it after that frame's fence; before it has run, nothing was counted.
   [[nodiscard]] shared::Counters counters() const { return counts_in(last_slot_).counters; }
 
   /// Bytes on the GPU of the buffers in use.
@@ -94,6 +99,9 @@ class LAMPLIGHT_API Culler {
   };
   [[nodiscard]] std::optional<std::uint32_t> slot_of(std::uint64_t frame) const;
   [[nodiscard]] std::uint32_t take_slot(std::uint64_t frame);
+  void record_frame(Recorder& recorder, const shared::Frame& record, const CullerFrame& frame) const;
+  void record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts) const;
+  [[nodiscard]] std::uint64_t slot_bytes() const;
   [[nodiscard]] std::span<std::byte> count_bytes_in(std::uint32_t slot) const;
   [[nodiscard]] FrameCounts counts_in(std::uint32_t slot) const;
   [[nodiscard]] Result<Growth> grow(GrownPlan grown);
