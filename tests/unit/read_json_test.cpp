@@ -80,7 +80,7 @@ TEST(ReadJson, LongArraysOfObjectsAreRead) {
   constexpr std::size_t COUNT = 400'000;
   std::string text = "[{}";
   for (std::size_t i = 1; i < COUNT; ++i) text += ",{}";
-  EXPECT_EQ(parse_json(text + "]", "long.json").size(), COUNT);
+  EXPECT_EQ(app::parse_json(text + "]", "long.json").size(), COUNT);
 }
 
 TEST(ReadJson, WhatIsNoUtf8IsReplacedOnWriting) {
