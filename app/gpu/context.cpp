@@ -78,12 +78,14 @@ bool can_describe_pipelines(VkPhysicalDevice physical) {
 /// Extensions and features that are enabled where the device has them.
 class OptionalFeatures {
  public:
-  OptionalFeatures(const vulkan::Instance& instance, VkPhysicalDevice physical, bool pipeline_statistics, void* next)
+  OptionalFeatures(const vulkan::Instance& instance, VkPhysicalDevice physical, const ContextInfo& info, void* next)
       : extensions(vulkan::useful_extensions(instance, physical)),
-        conservative_raster(!extensions.empty()),
-        describes(pipeline_statistics && can_describe_pipelines(physical)),
+        conservative_raster(has(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)),
+        describes(info.pipeline_statistics && can_describe_pipelines(physical)),
         unchecked(vulkan::has_pipeline_robustness(instance, physical)),
         chain_(next) {
+    if (!info.push_descriptors)
+      std::erase_if(extensions, [](std::string_view name) { return name == VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME; });
     if (describes) add(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME, describe_);
     if (unchecked) add(VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME, robustness_);
   }
@@ -98,6 +100,9 @@ class OptionalFeatures {
   bool unchecked;
 
  private:
+  [[nodiscard]] bool has(std::string_view name) const {
+    return std::ranges::find(extensions, name) != extensions.end();
+  }
   template <class Features>
   void add(const char* extension, Features& features) {
     extensions.push_back(extension);
@@ -152,7 +157,7 @@ Context::Context(const ContextInfo& info) : messages_(std::make_unique<Messages>
   if (info.validation == ContextInfo::Validation::on) create_messenger();
   physical_ = choose_device(instance_, info.device);
   row_ = describe(instance_, physical_);
-  create_device(info.pipeline_statistics);
+  create_device(info);
 }
 
 void Context::create_messenger() {
@@ -168,7 +173,7 @@ void Context::create_messenger() {
   check(create_function(instance_.handle, &create, nullptr, &messenger_), "creating a debug messenger");
 }
 
-void Context::create_device(bool pipeline_statistics) {
+void Context::create_device(const ContextInfo& info) {
   queue_family_ = graphics_queue_family(physical_);
   vulkan::RequiredFeatures features;
   VkPhysicalDeviceFeatures has{};
@@ -186,7 +191,7 @@ void Context::create_device(bool pipeline_statistics) {
                                       .queueCount = 1,
                                       .pQueuePriorities = &priority};
   const auto required = vulkan::required_extensions();
-  const OptionalFeatures optional(instance_, physical_, pipeline_statistics, &features.base);
+  const OptionalFeatures optional(instance_, physical_, info, &features.base);
   std::vector<const char*> extensions(required.begin(), required.end());
   extensions.insert(extensions.end(), optional.extensions.begin(), optional.extensions.end());
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -203,9 +208,12 @@ void Context::create_device(bool pipeline_statistics) {
   device_.pipeline_robustness = optional.unchecked;
   pipelines_ = std::make_unique<vulkan::PipelineStore>();
   device_.pipelines = pipelines_.get();
+  sets_ = std::make_unique<vulkan::DescriptorSets>(device_);
+  device_.sets = sets_.get();
 }
 
 Context::~Context() {
+  sets_.reset();
   pipelines_.reset();
   if (handle_ != VK_NULL_HANDLE) {
     vkDestroyFence(handle_, fence_, nullptr);
@@ -238,7 +246,9 @@ void Context::submit(const std::function<void(VkCommandBuffer)>& record) {
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
   check(vkBeginCommandBuffer(commands, &begin), "beginning a command buffer");
+  sets_->reset();
   record(commands);
+  if (const std::optional<lamp::Error>& error = sets_->error()) throw Error(*error, Exit::no_device);
   check(vkEndCommandBuffer(commands), "ending a command buffer");
   const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                          .commandBuffer = commands};

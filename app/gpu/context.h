@@ -26,6 +26,7 @@ struct DeviceRow {
 struct ContextInfo {
   std::string device;                                              ///< empty: the best
   enum class Validation { off, on } validation = Validation::off;  ///< core and synchronization validation
+  bool push_descriptors = true;      ///< where the device has them; else descriptors lie in sets
   bool pipeline_statistics = false;  ///< pipelines that the driver can describe, if it can; they may compile slowly
 };
 
@@ -49,7 +50,7 @@ class Context {
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
 
-  /// Records, submits and waits.
+  /// Records, submits and waits. Throws Error when there is no memory for what it binds.
   void submit(const std::function<void(VkCommandBuffer)>& record);
 
   /// Milliseconds since the last submission was done, or since the device was made.
@@ -61,7 +62,7 @@ class Context {
  private:
   struct Messages;
   void create_messenger();
-  void create_device(bool pipeline_statistics);
+  void create_device(const ContextInfo& info);
   /// What `submit` needs: a driver that only compiles has no fences.
   void create_submission();
 
@@ -75,6 +76,7 @@ class Context {
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;
   std::unique_ptr<vulkan::PipelineStore> pipelines_;
+  std::unique_ptr<vulkan::DescriptorSets> sets_;  ///< of the submission that is being recorded
   vulkan::Device device_;
   DeviceRow row_;
   bool doubles_ = false;

@@ -77,9 +77,15 @@ void draw_meshes(vulkan::Recorder& recorder, const MeshDraws& what) {
     const std::uint32_t material = scene.scene().meshes[draw.mesh].material;
     const bool opaque = scene.material_of(draw).alpha_mode == AlphaMode::opaque;
     const vulkan::Pipeline* pipeline = opaque && what.opaque_pipeline != nullptr ? what.opaque_pipeline : what.pipeline;
-    if (pipeline != bound_pipeline) recorder.bind(*pipeline, shared_bound);
     if (material != bound_material || pipeline != bound_pipeline) {
-      recorder.push(*pipeline, scene.material_bound(material));
+      const auto of_material = scene.material_bound(material);
+      if (pipeline == bound_pipeline) {
+        recorder.push(*pipeline, of_material);
+      } else {
+        std::vector<vulkan::Bound> all = shared_bound;
+        all.insert(all.end(), of_material.begin(), of_material.end());
+        recorder.bind(*pipeline, all);
+      }
       vkCmdSetCullMode(commands, scene.material_of(draw).double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
     }
     bound_pipeline = pipeline;

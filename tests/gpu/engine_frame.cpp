@@ -66,7 +66,8 @@ MaskPass::MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, 
       pipeline_(walk_pipeline(lookup, group_px)),
       frames_(host_buffer_of("engine frame", std::vector{frame.view.frame(
                                                  static_cast<std::uint32_t>(frame.lights.size()), ENGINE_LIGHTS)})),
-      masks_(host_buffer("masks", frame.depth.size() * sizeof(glm::uvec2))) {}
+      masks_(host_buffer("masks", frame.depth.size() * sizeof(glm::uvec2))),
+      sets_(std::make_unique<vulkan::DescriptorSets>(test_context().device())) {}
 
 void MaskPass::record(VkCommandBuffer commands, const vulkan::BoundLookUp& lookup) const {
   std::vector<vulkan::Bound> bound = lookup.resources;
@@ -74,7 +75,9 @@ void MaskPass::record(VkCommandBuffer commands, const vulkan::BoundLookUp& looku
   bound.push_back({1, frame_.depth_image.sampled()});
   bound.push_back({2, vulkan::Resource::storage(masks_.handle())});
   vulkan::AccessTracker tracker;
-  vulkan::Recorder recorder(test_context().device(), commands, tracker);
+  vulkan::Device device = test_context().device();
+  device.sets = sets_.get();
+  vulkan::Recorder recorder(device, commands, tracker);
   recorder.bind(pipeline_, bound);
   const glm::uvec2 groups = (glm::uvec2(ENGINE_WIDTH, ENGINE_HEIGHT) + group_px_ - 1U) / group_px_;
   vkCmdDispatch(commands, groups.x, groups.y, 1);

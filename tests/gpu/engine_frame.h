@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +61,7 @@ class MaskPass {
   vulkan::Pipeline pipeline_;
   vulkan::Buffer frames_;
   vulkan::Buffer masks_;
+  std::unique_ptr<vulkan::DescriptorSets> sets_;  ///< its own: other frames are recorded before it is done
 };
 
 /// Culls and walks in one command buffer. The engine orders nothing between the two: the Culler has done so.

@@ -12,13 +12,18 @@ namespace {
 std::optional<Context> the_context;
 std::vector<std::function<void()>> releases;
 
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
 /// Destroys the context before main returns, while the driver is still whole; its last messages count too.
 class ContextEnvironment : public ::testing::Environment {
  public:
   void SetUp() override {
-    const char* device = std::getenv("LAMPLIGHT_TEST_DEVICE");
-    the_context.emplace(
-        ContextInfo{.device = device == nullptr ? "" : device, .validation = ContextInfo::Validation::on});
+    the_context.emplace(ContextInfo{.device = environment("LAMPLIGHT_TEST_DEVICE"),
+                                    .validation = ContextInfo::Validation::on,
+                                    .push_descriptors = environment("LAMPLIGHT_TEST_DESCRIPTORS") != "sets"});
   }
   void TearDown() override {
     for (; !releases.empty(); releases.pop_back()) releases.back()();

@@ -17,7 +17,8 @@ namespace lamp {
 
 namespace lamp::app {
 
-/// The device of the test run: LAMPLIGHT_TEST_DEVICE (number or part of a name), else the best.
+/// The device of the test run: LAMPLIGHT_TEST_DEVICE (number or part of a name), else the best. It is made without push
+/// descriptors where it has none, or where LAMPLIGHT_TEST_DESCRIPTORS is "sets".
 [[nodiscard]] Context& test_context();
 [[nodiscard]] const ShaderLibrary& shader_library();
 

@@ -1,4 +1,4 @@
-// Instance, device, queue and submission. Two lines are Lamplight's: the features and the extension it needs.
+// Instance, device, queue and submission. Two lines are Lamplight's: the features it needs and the extensions it uses.
 // SPDX-License-Identifier: Apache-2.0
 #include "engine.h"
 
@@ -91,7 +91,7 @@ void Engine::create_device() {
   if (const auto lack = lamp::vulkan::check_device(loaded_, physical_)) throw std::runtime_error(lack->text());
 
   const lamp::vulkan::RequiredFeatures features;  // an engine with features of its own sets these among them
-  const auto extensions = lamp::vulkan::required_extensions();
+  const auto extensions = lamp::vulkan::useful_extensions(loaded_, physical_);
   const std::uint32_t family = graphics_family(physical_);
   const float priority = 1.0F;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -108,6 +108,7 @@ void Engine::create_device() {
   vkGetDeviceQueue(device_, family, 0, &queue_);
   push_descriptor_set_ =
       reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device_, "vkCmdPushDescriptorSetKHR"));
+  if (push_descriptor_set_ == nullptr) throw std::runtime_error("this engine pushes descriptors, the device does not");
   const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
   check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "creating a command pool");
   const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};

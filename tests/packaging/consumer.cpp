@@ -20,12 +20,12 @@ VkPhysicalDevice first_device(VkInstance instance) {
   return physical;
 }
 
-VkDevice make_device(VkPhysicalDevice physical) {
+VkDevice make_device(const lamp::vulkan::Instance& instance, VkPhysicalDevice physical) {
   const float priority = 1.0F;
   const VkDeviceQueueCreateInfo queue{
       .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
   const lamp::vulkan::RequiredFeatures features;
-  const auto extensions = lamp::vulkan::required_extensions();
+  const auto extensions = lamp::vulkan::useful_extensions(instance, physical);
   const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                 .pNext = &features.base,
                                 .queueCreateInfoCount = 1,
@@ -71,7 +71,7 @@ int main() {
   const VkPhysicalDevice physical = first_device(instance);
   if (physical == VK_NULL_HANDLE || lamp::vulkan::check_device(loaded.value(), physical))
     return fail("no device for Lamplight");
-  const VkDevice device = make_device(physical);
+  const VkDevice device = make_device(loaded.value(), physical);
   if (device == VK_NULL_HANDLE) return fail("the device cannot be made");
   const bool good = culls(loaded.value(), physical, device);
   vkDestroyDevice(device, nullptr);

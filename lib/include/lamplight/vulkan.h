@@ -4,6 +4,7 @@
 
 #include "lamplight/vulkan/buffer.h"               // IWYU pragma: export
 #include "lamplight/vulkan/culler.h"               // IWYU pragma: export
+#include "lamplight/vulkan/descriptor_sets.h"      // IWYU pragma: export
 #include "lamplight/vulkan/device.h"               // IWYU pragma: export
 #include "lamplight/vulkan/functions.h"            // IWYU pragma: export
 #include "lamplight/vulkan/pass_pipeline.h"        // IWYU pragma: export

@@ -12,7 +12,7 @@
 namespace lamp::vulkan {
 namespace {
 
-constexpr std::array<const char*, 1> EXTENSIONS{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+constexpr std::array USEFUL{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
 
 bool has_extension(const Instance& instance, VkPhysicalDevice physical, std::string_view name) {
   std::uint32_t count = 0;
@@ -53,11 +53,13 @@ std::optional<std::string_view> missing_feature(const RequiredFeatures& has) {
   return missing;
 }
 
-std::span<const char* const> required_extensions() { return EXTENSIONS; }
+std::span<const char* const> required_extensions() { return {}; }
 
 std::vector<const char*> useful_extensions(const Instance& instance, VkPhysicalDevice physical) {
-  if (!has_extension(instance, physical, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)) return {};
-  return {VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
+  std::vector<const char*> extensions;
+  for (const char* extension : USEFUL)
+    if (has_extension(instance, physical, extension)) extensions.push_back(extension);
+  return extensions;
 }
 
 bool has_pipeline_robustness(const Instance& instance, VkPhysicalDevice physical) {
@@ -75,9 +77,6 @@ std::optional<Error> check_device(const Instance& instance, VkPhysicalDevice phy
   const std::string source = "device " + std::string(properties.deviceName);
   if (properties.apiVersion < VK_API_VERSION_1_3)
     return Error{source, "needs Vulkan 1.3, has " + version_text(properties.apiVersion)};
-  for (const char* extension : EXTENSIONS)
-    if (!has_extension(instance, physical, extension))
-      return Error{source, std::string("lacks the extension ") + extension};
   RequiredFeatures has(VK_FALSE);
   instance.vk.vkGetPhysicalDeviceFeatures2(physical, &has.base);
   if (const auto missing = missing_feature(has)) return Error{source, "lacks the feature " + std::string(*missing)};
@@ -152,9 +151,6 @@ Result<Device> make_device(const Instance& instance, VkPhysicalDevice physical, 
   VkPhysicalDeviceProperties properties{};
   instance.vk.vkGetPhysicalDeviceProperties(physical, &properties);
   device.timestamp_period_ns = properties.limits.timestampPeriod;
-  if (device.vk.vkCmdPushDescriptorSetKHR == nullptr)
-    return Error{"device " + std::string(properties.deviceName),
-                 "was created without VK_KHR_push_descriptor; enable required_extensions()"};
   return device;
 }
 

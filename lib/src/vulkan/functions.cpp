@@ -60,9 +60,11 @@ Result<Instance> load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instanc
 Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
   DeviceFunctions vk;
   Loader loader(instance.vk.vkGetDeviceProcAddr, device);
+  loader.required("vkAllocateDescriptorSets", vk.vkAllocateDescriptorSets);
   loader.required("vkAllocateMemory", vk.vkAllocateMemory);
   loader.required("vkBindBufferMemory", vk.vkBindBufferMemory);
   loader.required("vkCmdBeginRendering", vk.vkCmdBeginRendering);
+  loader.required("vkCmdBindDescriptorSets", vk.vkCmdBindDescriptorSets);
   loader.required("vkCmdBindPipeline", vk.vkCmdBindPipeline);
   loader.required("vkCmdCopyBuffer", vk.vkCmdCopyBuffer);
   loader.required("vkCmdDispatch", vk.vkCmdDispatch);
@@ -79,6 +81,7 @@ Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
   loader.required("vkCmdWriteTimestamp2", vk.vkCmdWriteTimestamp2);
   loader.required("vkCreateBuffer", vk.vkCreateBuffer);
   loader.required("vkCreateComputePipelines", vk.vkCreateComputePipelines);
+  loader.required("vkCreateDescriptorPool", vk.vkCreateDescriptorPool);
   loader.required("vkCreateDescriptorSetLayout", vk.vkCreateDescriptorSetLayout);
   loader.required("vkCreateGraphicsPipelines", vk.vkCreateGraphicsPipelines);
   loader.required("vkCreatePipelineLayout", vk.vkCreatePipelineLayout);
@@ -86,6 +89,7 @@ Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
   loader.required("vkCreateSampler", vk.vkCreateSampler);
   loader.required("vkCreateShaderModule", vk.vkCreateShaderModule);
   loader.required("vkDestroyBuffer", vk.vkDestroyBuffer);
+  loader.required("vkDestroyDescriptorPool", vk.vkDestroyDescriptorPool);
   loader.required("vkDestroyDescriptorSetLayout", vk.vkDestroyDescriptorSetLayout);
   loader.required("vkDestroyPipeline", vk.vkDestroyPipeline);
   loader.required("vkDestroyPipelineLayout", vk.vkDestroyPipelineLayout);
@@ -96,6 +100,8 @@ Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
   loader.required("vkGetBufferMemoryRequirements", vk.vkGetBufferMemoryRequirements);
   loader.required("vkGetQueryPoolResults", vk.vkGetQueryPoolResults);
   loader.required("vkMapMemory", vk.vkMapMemory);
+  loader.required("vkResetDescriptorPool", vk.vkResetDescriptorPool);
+  loader.required("vkUpdateDescriptorSets", vk.vkUpdateDescriptorSets);
   loader.optional("vkCmdPushDescriptorSetKHR", vk.vkCmdPushDescriptorSetKHR);
   loader.optional("vkGetPipelineExecutablePropertiesKHR", vk.vkGetPipelineExecutablePropertiesKHR);
   loader.optional("vkGetPipelineExecutableStatisticsKHR", vk.vkGetPipelineExecutableStatisticsKHR);

@@ -1,4 +1,4 @@
-// Builds pipelines: one push-descriptor set, optional push constants, specialization constants by id.
+// Builds pipelines: one descriptor set, pushed or not, optional push constants, specialization constants by id.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/vulkan/pipeline.h"
 
@@ -153,14 +153,17 @@ struct GraphicsCreate {
 
 std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineInfo& info, Objects& out) {
   out.name = info.name;
+  out.bindings = info.bindings;
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const DescriptorBinding& binding : info.bindings)
     bindings.push_back({.binding = binding.binding,
                         .descriptorType = binding.type,
                         .descriptorCount = 1,
                         .stageFlags = VK_SHADER_STAGE_ALL});
+  const VkDescriptorSetLayoutCreateFlags flags =
+      device.pushes_descriptors() ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
   const VkDescriptorSetLayoutCreateInfo set_create{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                   .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+                                                   .flags = flags,
                                                    .bindingCount = static_cast<std::uint32_t>(bindings.size()),
                                                    .pBindings = bindings.data()};
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
@@ -248,7 +251,7 @@ Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& inf
                                    std::span<const std::uint32_t> spirv) {
   const auto make = [&] { return make_compute(device, info, spirv); };
   if (device.pipelines == nullptr) return make();
-  return device.pipelines->find_or_make((Description() << info << spirv).bytes(), make);
+  return device.pipelines->find_or_make((Description(device) << info << spirv).bytes(), make);
 }
 
 Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& info,
@@ -256,7 +259,7 @@ Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& in
                                     const GraphicsState& state) {
   const auto make = [&] { return make_graphics(device, info, vertex, fragment, state); };
   if (device.pipelines == nullptr) return make();
-  return device.pipelines->find_or_make((Description() << info << vertex << fragment << state).bytes(), make);
+  return device.pipelines->find_or_make((Description(device) << info << vertex << fragment << state).bytes(), make);
 }
 
 }  // namespace lamp::vulkan

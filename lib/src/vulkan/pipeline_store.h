@@ -8,6 +8,8 @@ namespace lamp::vulkan {
 
 class Description {
  public:
+  /// Set layouts differ where descriptors are pushed.
+  explicit Description(const Device& device) { add(device.pushes_descriptors() ? 1 : 0); }
   Description& operator<<(const PipelineInfo& info);
   Description& operator<<(std::span<const std::uint32_t> spirv);
   Description& operator<<(const GraphicsState& state);

@@ -50,14 +50,26 @@ Result<std::vector<PlanRunner::BuiltPass>> PlanRunner::build(const Device& devic
   for (const Pass& pass : passes) {
     Result<Pipeline> pipeline = make_pipeline(device, pass, shaders);
     if (!pipeline) return pipeline.error();
-    built.push_back({pass, std::move(pipeline.value())});
+    built.push_back({.pass = pass, .pipeline = std::move(pipeline.value())});
+    if (auto error = make_sets(device, built.back())) return *error;
   }
   return built;
+}
+
+std::optional<Error> PlanRunner::make_sets(const Device& device, BuiltPass& built) {
+  if (device.pushes_descriptors() || built.pass.kind == PassKind::host) return std::nullopt;
+  for (std::uint32_t slot = 0; slot < plan_.frames_in_flight; ++slot) {
+    const Result<VkDescriptorSet> set = sets_.allocate(built.pipeline);
+    if (!set) return set.error();
+    built.sets.push_back(set.value());
+  }
+  return std::nullopt;
 }
 
 Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const ShaderSource& shaders) {
   PlanRunner runner;
   runner.plan_ = std::move(plan);
+  runner.sets_ = DescriptorSets(device);
   for (const BufferDesc& desc : runner.plan_.buffers) {
     Result<Buffer> buffer = Buffer::create(device, buffer_info(desc));
     if (!buffer) return buffer.error();
@@ -71,11 +83,11 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
     if (!sampler) return sampler.error();
     runner.depth_sampler_ = std::move(sampler.value());
   }
-  auto separate = build(device, runner.plan_.passes, shaders);
+  auto separate = runner.build(device, runner.plan_.passes, shaders);
   if (!separate) return separate.error();
   runner.separate_ = std::move(separate.value());
   if (runner.plan_.fused) {
-    auto fused = build(device, runner.plan_.fused->passes, shaders);
+    auto fused = runner.build(device, runner.plan_.fused->passes, shaders);
     if (!fused) return fused.error();
     runner.fused_ = std::move(fused.value());
   }
@@ -258,7 +270,7 @@ void PlanRunner::record_together(Recorder& recorder, std::span<const BoundPass> 
     const Pass& pass = bound.built->pass;
     recorder.begin_pass(pass.name, uses);
     uses.clear();
-    recorder.bind(bound.built->pipeline, bound.resources);
+    recorder.bind(bound.built->pipeline, bound.resources, bound.built->set(inputs.slot));
     if (pass.kind == PassKind::raster)
       draw(recorder, pass, inputs);
     else

@@ -1,9 +1,13 @@
-// Barriers from uses, labels, timestamps, push descriptors.
+// Barriers from uses, labels, timestamps, descriptors.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/vulkan/recorder.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
+
+#include "lamplight/vulkan/descriptor_sets.h"
 
 namespace lamp::vulkan {
 namespace {
@@ -16,6 +20,32 @@ constexpr VkAccessFlags2 WRITES = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCE
 std::uint64_t key_of(const Resource& resource) {
   return resource.image != VK_NULL_HANDLE ? reinterpret_cast<std::uint64_t>(resource.image)
                                           : reinterpret_cast<std::uint64_t>(resource.buffer);
+}
+
+/// Calls `function` with the writes of the resources' descriptors, some at a time: none are kept on the heap.
+template <class Function>
+void for_each_writes(std::span<const Bound> resources, VkDescriptorSet set, Function function) {
+  constexpr std::size_t MOST = 16;
+  std::array<VkDescriptorBufferInfo, MOST> buffers;
+  std::array<VkDescriptorImageInfo, MOST> images;
+  std::array<VkWriteDescriptorSet, MOST> writes;
+  while (!resources.empty()) {
+    const std::size_t count = std::min(resources.size(), MOST);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [binding, resource] = resources[i];
+      buffers[i] = {.buffer = resource.buffer, .offset = resource.offset, .range = resource.range};
+      images[i] = {.sampler = resource.sampler, .imageView = resource.view, .imageLayout = resource.layout};
+      writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                   .dstSet = set,
+                   .dstBinding = binding,
+                   .descriptorCount = 1,
+                   .descriptorType = resource.type,
+                   .pImageInfo = &images[i],
+                   .pBufferInfo = &buffers[i]};
+    }
+    function(std::span(writes).first(count));
+    resources = resources.subspan(count);
+  }
 }
 
 }  // namespace
@@ -169,28 +199,45 @@ void Recorder::end_pass() {
 }
 
 void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> resources) {
+  bound_.clear();
   device_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
   push(pipeline, resources);
 }
 
+void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> resources, VkDescriptorSet set) {
+  device_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
+  if (set == VK_NULL_HANDLE)
+    push_writes(pipeline, resources);
+  else
+    bind_set(pipeline, resources, set);
+}
+
 void Recorder::push(const Pipeline& pipeline, std::span<const Bound> resources) {
-  std::vector<VkDescriptorBufferInfo> buffers(resources.size());
-  std::vector<VkDescriptorImageInfo> images(resources.size());
-  std::vector<VkWriteDescriptorSet> writes;
-  for (std::size_t i = 0; i < resources.size(); ++i) {
-    const auto& [binding, resource] = resources[i];
-    buffers[i] = {.buffer = resource.buffer, .offset = resource.offset, .range = resource.range};
-    images[i] = {.sampler = resource.sampler, .imageView = resource.view, .imageLayout = resource.layout};
-    writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                      .dstBinding = binding,
-                      .descriptorCount = 1,
-                      .descriptorType = resource.type,
-                      .pImageInfo = &images[i],
-                      .pBufferInfo = &buffers[i]});
+  if (device_.pushes_descriptors()) return push_writes(pipeline, resources);
+  assert(device_.sets != nullptr && "set Device::sets where push descriptors are not enabled");
+  for (const Bound& bound : resources) {
+    const auto before = std::ranges::find(bound_, bound.binding, &Bound::binding);
+    if (before == bound_.end())
+      bound_.push_back(bound);
+    else
+      *before = bound;
   }
-  if (!writes.empty())
+  if (const Result<VkDescriptorSet> set = device_.sets->allocate(pipeline)) bind_set(pipeline, bound_, set.value());
+}
+
+void Recorder::push_writes(const Pipeline& pipeline, std::span<const Bound> resources) const {
+  for_each_writes(resources, VK_NULL_HANDLE, [&](std::span<const VkWriteDescriptorSet> writes) {
     device_.vk.vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point(), pipeline.layout(), 0,
                                          static_cast<std::uint32_t>(writes.size()), writes.data());
+  });
+}
+
+void Recorder::bind_set(const Pipeline& pipeline, std::span<const Bound> resources, VkDescriptorSet set) const {
+  for_each_writes(resources, set, [&](std::span<const VkWriteDescriptorSet> writes) {
+    device_.vk.vkUpdateDescriptorSets(device_.handle, static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                                      nullptr);
+  });
+  device_.vk.vkCmdBindDescriptorSets(commands_, pipeline.bind_point(), pipeline.layout(), 0, 1, &set, 0, nullptr);
 }
 
 }  // namespace lamp::vulkan

@@ -31,11 +31,12 @@ struct LAMPLIGHT_API RequiredFeatures {
   VkPhysicalDeviceVulkan13Features vulkan13{};
 };
 
-/// The device extensions to enable: VK_KHR_push_descriptor.
+/// The device extensions to enable: none.
 [[nodiscard]] LAMPLIGHT_API std::span<const char* const> required_extensions();
 
-/// Device extensions that methods use where they are enabled: VK_EXT_conservative_rasterization. Those that the device
-/// has. Who enables one says so in Device::traits (`conservative_raster`).
+/// Device extensions that are used where they are enabled, as far as the device has them: VK_KHR_push_descriptor, and
+/// for methods VK_EXT_conservative_rasterization. Who enables the latter says so in Device::traits
+/// (`conservative_raster`).
 [[nodiscard]] LAMPLIGHT_API std::vector<const char*> useful_extensions(const Instance& instance,
                                                                        VkPhysicalDevice physical);
 
@@ -52,6 +53,7 @@ struct LAMPLIGHT_API RequiredFeatures {
 /// Limits for planning.
 [[nodiscard]] LAMPLIGHT_API DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical);
 
+class DescriptorSets;
 class PipelineStore;
 
 /// An engine's device, with what recording needs at hand. Plain handles; destroys nothing.
@@ -65,16 +67,22 @@ struct LAMPLIGHT_API Device {
   DeviceTraits traits;
   float timestamp_period_ns = 1.0F;
   PipelineStore* pipelines = nullptr;  ///< not owned; where pipelines are shared, or null: each is made anew
+  DescriptorSets* sets = nullptr;      ///< not owned; where Recorder::bind takes sets from if it cannot push
+                                       ///< descriptors. Passes of a plan have sets of their own
   bool pipeline_statistics = false;    ///< VK_KHR_pipeline_executable_properties and its feature are enabled, and
                                        ///< pipelines shall be compiled so that the driver can describe them
   bool pipeline_robustness = false;    ///< VK_EXT_pipeline_robustness and its feature are enabled: pipelines then say
                                        ///< that they stay within their buffers, and a driver leaves out its checks
 
+  /// Whether descriptors are pushed: VK_KHR_push_descriptor is enabled, and nobody cleared its function. Else they lie
+  /// in sets. Pipelines are made for one or the other.
+  [[nodiscard]] bool pushes_descriptors() const { return vk.vkCmdPushDescriptorSetKHR != nullptr; }
+
   /// Gives an object its debug name, where the instance has VK_EXT_debug_utils.
   void name(VkObjectType type, std::uint64_t object, std::string_view text) const;
 };
 
-/// Errors: `check_device`'s, or a device on which the extension was not enabled.
+/// Errors: `check_device`'s, or a function that the device does not know.
 [[nodiscard]] LAMPLIGHT_API Result<Device> make_device(const Instance& instance, VkPhysicalDevice physical,
                                                        VkDevice device);
 

@@ -23,9 +23,11 @@ struct InstanceFunctions {
 };
 
 struct DeviceFunctions {
+  PFN_vkAllocateDescriptorSets vkAllocateDescriptorSets = nullptr;
   PFN_vkAllocateMemory vkAllocateMemory = nullptr;
   PFN_vkBindBufferMemory vkBindBufferMemory = nullptr;
   PFN_vkCmdBeginRendering vkCmdBeginRendering = nullptr;
+  PFN_vkCmdBindDescriptorSets vkCmdBindDescriptorSets = nullptr;
   PFN_vkCmdBindPipeline vkCmdBindPipeline = nullptr;
   PFN_vkCmdCopyBuffer vkCmdCopyBuffer = nullptr;
   PFN_vkCmdDispatch vkCmdDispatch = nullptr;
@@ -42,6 +44,7 @@ struct DeviceFunctions {
   PFN_vkCmdWriteTimestamp2 vkCmdWriteTimestamp2 = nullptr;
   PFN_vkCreateBuffer vkCreateBuffer = nullptr;
   PFN_vkCreateComputePipelines vkCreateComputePipelines = nullptr;
+  PFN_vkCreateDescriptorPool vkCreateDescriptorPool = nullptr;
   PFN_vkCreateDescriptorSetLayout vkCreateDescriptorSetLayout = nullptr;
   PFN_vkCreateGraphicsPipelines vkCreateGraphicsPipelines = nullptr;
   PFN_vkCreatePipelineLayout vkCreatePipelineLayout = nullptr;
@@ -49,6 +52,7 @@ struct DeviceFunctions {
   PFN_vkCreateSampler vkCreateSampler = nullptr;
   PFN_vkCreateShaderModule vkCreateShaderModule = nullptr;
   PFN_vkDestroyBuffer vkDestroyBuffer = nullptr;
+  PFN_vkDestroyDescriptorPool vkDestroyDescriptorPool = nullptr;
   PFN_vkDestroyDescriptorSetLayout vkDestroyDescriptorSetLayout = nullptr;
   PFN_vkDestroyPipeline vkDestroyPipeline = nullptr;
   PFN_vkDestroyPipelineLayout vkDestroyPipelineLayout = nullptr;
@@ -59,6 +63,8 @@ struct DeviceFunctions {
   PFN_vkGetBufferMemoryRequirements vkGetBufferMemoryRequirements = nullptr;
   PFN_vkGetQueryPoolResults vkGetQueryPoolResults = nullptr;
   PFN_vkMapMemory vkMapMemory = nullptr;
+  PFN_vkResetDescriptorPool vkResetDescriptorPool = nullptr;
+  PFN_vkUpdateDescriptorSets vkUpdateDescriptorSets = nullptr;
   // Of extensions; null where a device or an instance was made without.
   PFN_vkCmdPushDescriptorSetKHR vkCmdPushDescriptorSetKHR = nullptr;
   PFN_vkGetPipelineExecutablePropertiesKHR vkGetPipelineExecutablePropertiesKHR = nullptr;

@@ -45,6 +45,7 @@ using OwnedImageView = Owned<VkImageView>;
 using OwnedSampler = Owned<VkSampler>;
 using OwnedPipeline = Owned<VkPipeline>;
 using OwnedPipelineLayout = Owned<VkPipelineLayout>;
+using OwnedDescriptorPool = Owned<VkDescriptorPool>;
 using OwnedSetLayout = Owned<VkDescriptorSetLayout>;
 using OwnedShaderModule = Owned<VkShaderModule>;
 using OwnedQueryPool = Owned<VkQueryPool>;

@@ -1,4 +1,4 @@
-// Compute and graphics pipelines with push descriptors, from SPIR-V and plain descriptions.
+// Compute and graphics pipelines with one descriptor set, pushed or not, from SPIR-V and plain descriptions.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -69,6 +69,8 @@ class LAMPLIGHT_API Pipeline {
   /// Only of a pipeline that has been made.
   [[nodiscard]] VkPipeline handle() const { return objects_->pipeline.get(); }
   [[nodiscard]] VkPipelineLayout layout() const { return objects_->layout.get(); }
+  [[nodiscard]] VkDescriptorSetLayout set_layout() const { return objects_->set_layout.get(); }
+  [[nodiscard]] std::span<const DescriptorBinding> bindings() const { return objects_->bindings; }
   [[nodiscard]] VkPipelineBindPoint bind_point() const { return objects_->bind_point; }
   [[nodiscard]] const std::string& name() const { return objects_->name; }
   /// What the driver says of it; empty unless the device has `pipeline_statistics`, or of no pipeline.
@@ -79,6 +81,7 @@ class LAMPLIGHT_API Pipeline {
  private:
   struct Objects {
     std::string name;
+    std::vector<DescriptorBinding> bindings;
     OwnedSetLayout set_layout;
     OwnedPipelineLayout layout;
     OwnedPipeline pipeline;

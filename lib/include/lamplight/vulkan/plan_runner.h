@@ -8,6 +8,7 @@
 #include "lamplight/plan.h"
 #include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
+#include "lamplight/vulkan/descriptor_sets.h"
 #include "lamplight/vulkan/pass_pipeline.h"
 #include "lamplight/vulkan/recorder.h"
 
@@ -98,6 +99,9 @@ class LAMPLIGHT_API PlanRunner {
   struct BuiltPass {
     Pass pass;
     Pipeline pipeline;
+    std::vector<VkDescriptorSet> sets;  ///< one a slot; none where descriptors are pushed
+
+    [[nodiscard]] VkDescriptorSet set(std::uint32_t slot) const { return sets.empty() ? VK_NULL_HANDLE : sets[slot]; }
   };
   /// With what it touches in this frame.
   struct BoundPass {
@@ -106,8 +110,9 @@ class LAMPLIGHT_API PlanRunner {
     std::vector<Bound> resources;
   };
   [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
-  [[nodiscard]] static Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
-                                                            const ShaderSource& shaders);
+  [[nodiscard]] Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
+                                                     const ShaderSource& shaders);
+  [[nodiscard]] std::optional<Error> make_sets(const Device& device, BuiltPass& built);
   void record_host_passes(Recorder& recorder, const std::vector<BuiltPass>& passes, const PlanInputs& inputs);
   void run_on_host(const Pass& pass, const PlanInputs& inputs);
   void upload(Recorder& recorder, std::span<const ResourceId> written, std::uint32_t slot) const;
@@ -124,6 +129,7 @@ class LAMPLIGHT_API PlanRunner {
   std::vector<Buffer> buffers_;
   std::vector<Buffer> slots_;  ///< of each buffer of upload memory, one behind the other, mapped; else none
   OwnedSampler depth_sampler_;
+  DescriptorSets sets_;
   std::vector<BuiltPass> separate_;
   std::vector<BuiltPass> fused_;
   /// What the passes that are kept are recorded with, from which record on, and whether one of these is known to have

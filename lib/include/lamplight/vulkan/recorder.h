@@ -1,4 +1,4 @@
-// Records passes: barriers from declared uses, debug labels, timestamps, push descriptors.
+// Records passes: barriers from declared uses, debug labels, timestamps, descriptors.
 // Promise: between two uses of a resource stands the smallest barrier that orders them; a pass that declares all its
 // uses needs no thought about synchronization.
 // SPDX-License-Identifier: Apache-2.0
@@ -123,20 +123,27 @@ class LAMPLIGHT_API Recorder {
   /// Only the barrier: for transfers between passes.
   void barrier(const std::vector<Use>& uses) { tracker_.barrier(device_.vk, commands_, uses); }
 
-  /// Binds a pipeline and pushes its descriptors.
+  /// Binds a pipeline and the descriptors of all its bindings: pushed, or in a set of Device::sets. If that has no
+  /// memory left, it says so (DescriptorSets::error), and no descriptors are bound.
   void bind(const Pipeline& pipeline, std::span<const Bound> resources);
-  /// Pushes descriptors that change between draws.
+  /// The same with a set of the caller's own, which no commands under way use; null where descriptors are pushed.
+  void bind(const Pipeline& pipeline, std::span<const Bound> resources, VkDescriptorSet set);
+  /// Descriptors that change between draws: the others stay as `bind` had them.
   void push(const Pipeline& pipeline, std::span<const Bound> resources);
 
   [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
   [[nodiscard]] const Device& device() const { return device_; }
 
  private:
+  void push_writes(const Pipeline& pipeline, std::span<const Bound> resources) const;
+  void bind_set(const Pipeline& pipeline, std::span<const Bound> resources, VkDescriptorSet set) const;
+
   const Device& device_;
   VkCommandBuffer commands_;
   AccessTracker& tracker_;
   Timestamps* timestamps_;
   std::string group_;
+  std::vector<Bound> bound_;  ///< in the last set of Device::sets: what the next of the same pipeline begins with
 };
 
 }  // namespace lamp::vulkan
