@@ -26,7 +26,7 @@ struct PlanInputs {
 };
 
 /// A look-up's resources at their bindings and how a compute shader uses each, and its constants with their ids.
-struct BoundLookUp {
+struct LAMPLIGHT_API BoundLookUp {
   std::string_view name;
   std::vector<Constant> constants;
   std::vector<Bound> resources;
