@@ -1,4 +1,4 @@
-// lamp list: methods, scenes, suites, devices, pipelines.
+// lamp list: methods, look-ups, scenes, suites, devices, pipelines.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "bench/suite.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/list_lookups.h"
 #include "commands/list_pipelines.h"
 #include "commands/request.h"
 #include "files/read_json.h"
@@ -130,7 +131,7 @@ void print_suites() {
   }
 }
 
-constexpr std::string_view KINDS[] = {"methods", "scenes", "suites", "devices", "pipelines"};
+constexpr std::string_view KINDS[] = {"methods", "lookups", "scenes", "suites", "devices", "pipelines"};
 
 struct ListOptions {
   std::string what;
@@ -147,6 +148,7 @@ Exit list(const ListOptions& o) {
   if (!name.empty() && what != "methods")
     throw Error(fmt::format("argument '{}': was not expected; only a method has more to show", name));
   if (!name.empty()) return list_method(name, json);
+  if (what == "lookups") return list_lookups(json);
   if (what == "devices") {
     const std::vector<DeviceRow> rows = list_devices();
     if (json)
@@ -168,9 +170,11 @@ Exit list(const ListOptions& o) {
 }  // namespace
 
 Run add_list(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "List methods, scenes, suites, devices or pipelines");
+  CLI::App* command = app.add_subcommand("list", "List methods, look-ups, scenes, suites, devices or pipelines");
   auto o = std::make_shared<ListOptions>();
-  command->add_option("what", o->what, "methods, scenes, suites, devices or pipelines")->type_name("WHAT")->required();
+  command->add_option("what", o->what, "methods, lookups, scenes, suites, devices or pipelines")
+      ->type_name("WHAT")
+      ->required();
   command->add_option("name", o->name, "a method, to see its options or its pipelines alone")->type_name("NAME");
   command->add_option("--device", o->device, "what pipelines are made for: number or part of the name of a device");
   add_json_flag(*command, o->json, "print an array of objects, of one method or of pipelines an object");
@@ -178,6 +182,7 @@ Run add_list(CLI::App& app) {
       "Examples:\n"
       "  lamp list methods\n"
       "  lamp list methods tiled\n"
+      "  lamp list lookups                 what a shader includes to read the result of each method\n"
       "  lamp list devices --json\n"
       "  lamp list pipelines lamplight     compiles them: registers and spills, where the driver tells");
   return [o] { return list(*o); };

@@ -1,6 +1,8 @@
 // What `lamp` says of itself: the welcome, the help, the version, the lists.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <set>
 
 #include "cli/cli_test.h"
@@ -52,6 +54,27 @@ TEST_F(List, VersionIsTheProjects) {
 
 void expect_keys(const nlohmann::json& object, const std::vector<const char*>& keys) {
   for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << key << " is not in " << object.dump();
+}
+
+TEST_F(List, LookUpsOfEveryMethodAreFiles) {
+  const nlohmann::json lookups = json_of({"list", "lookups", "--json"});
+  std::map<std::string, nlohmann::json> defaults;
+  for (const nlohmann::json& row : lookups) {
+    expect_keys(row, {"constants", "bindings"});
+    for (const char* language : {".glsl", ".hlsl"}) {
+      const std::string file = row.at("lookup").get<std::string>() + language;
+      EXPECT_TRUE(std::filesystem::exists(LAMPLIGHT_SOURCE_DIR "/lib/shaders/lookup/" + file)) << file;
+    }
+    if (row.at("options").empty()) defaults.emplace(row.at("method"), row);
+  }
+  for (const nlohmann::json& method : json_of({"list", "methods", "--json"})) {
+    const nlohmann::json& row = defaults.at(method.at("name"));
+    const auto lookup = row.at("lookup").get<std::string>();
+    EXPECT_TRUE(lookup.starts_with(method.at("result").get<std::string>())) << lookup;
+    for (const char* key : {"ordered", "approximate", "needs_depth", "any_depth"})
+      EXPECT_EQ(row.at(key), method.at(key)) << method.at("name") << ": " << key;
+  }
+  EXPECT_NE(output_of({"list", "lookups"}).find("tiled container=bits walk=scalar-entity"), std::string::npos);
 }
 
 TEST_F(List, MethodsAsJson) {
