@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <set>
 #include <string>
 
 namespace {
@@ -36,6 +37,23 @@ TEST(Docs, QuotesStandInTheFilesTheyName) {
     }
   }
   EXPECT_GE(quotes, 10);
+}
+
+std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
+  std::set<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) found.insert((*at)[1]);
+  return found;
+}
+
+// The page for those who create the device has every feature that is asked for, and no other.
+TEST(Docs, WhatToEnableNamesEveryRequiredFeature) {
+  const fs::path root(LAMPLIGHT_SOURCE_DIR);
+  const std::string page = read(root / "docs" / "what-to-enable.md");
+  const std::string table = page.substr(page.find("| feature |"), page.find("## Optional") - page.find("| feature |"));
+  const auto asked = matches(read(root / "lib" / "src" / "vulkan" / "device.cpp"),
+                             std::regex("function\\(features\\.[a-z0-9.]*[a-zA-Z0-9]+, \"(\\w+)\"\\)"));
+  EXPECT_GE(asked.size(), 7);
+  EXPECT_EQ(matches(table.substr(0, table.rfind('|')), std::regex("`([a-z][a-zA-Z0-9]+)`")), asked);
 }
 
 // Index pages aside, every page of docs/methods shows its idea in a picture and says what it costs, where it wins and
