@@ -58,7 +58,7 @@ std::uint64_t next_number(vulkan::Culler& culler, const vulkan::CullerFrame& fra
 TEST_F(CullerErrors, OfFramesNameTheElementAndRecordNothing) {
   const EngineFrame frame = engine_frame({.lights = 20});
   const vulkan::CullerFrame good = culler_frame(frame);
-  vulkan::Culler culler = take(engine_culler("tiled", {}, /* brings_spheres= */ true));
+  vulkan::Culler culler = take(engine_culler("tiled", {"spot=cone-sphere"}, /* brings_spheres= */ true));
   EXPECT_EQ(next_number(culler, good), 1);
   const auto with = [&](auto change) {
     vulkan::CullerFrame bad = good;
@@ -126,6 +126,13 @@ TEST_F(CullerErrors, NothingIsAskedForThatNobodyReads) {
   EXPECT_EQ(next_number(clustered, bare), 1);
   bare.lights = VK_NULL_HANDLE;
   EXPECT_NE(refusal(clustered, bare), "nothing");
+  vulkan::Culler with_spheres = take(engine_culler("clustered", {}, /* brings_spheres= */ true));
+  bare.spheres = frame.sphere_buffer.handle();
+  EXPECT_EQ(next_number(with_spheres, bare), 1);
+  bare = culler_frame(frame);
+  bare.lights = VK_NULL_HANDLE;
+  vulkan::Culler spheres_alone = take(engine_culler("tiled", {}, /* brings_spheres= */ true));
+  EXPECT_EQ(next_number(spheres_alone, bare), 1);
   vulkan::Culler all = take(engine_culler("all"));
   EXPECT_EQ(next_number(all, bare), 1);
 }

@@ -31,10 +31,11 @@ std::vector<std::uint32_t> tile_constants(const TiledAxes& axes) {
           axes.ranges()};
 }
 
-/// Bindings of tile_inputs.glsl. A buffer that the axes do without is bound to the lights, and not read.
-std::vector<Binding> tile_bindings(const Buffers& b) {
-  const auto or_lights = [](ResourceId id) { return Binding{id == NO_RESOURCE ? INPUT_LIGHTS : id}; };
-  return {{INPUT_FRAME}, {INPUT_DEPTH}, {INPUT_LIGHTS}, or_lights(b.bounds), or_lights(b.frusta), or_lights(b.ranges)};
+/// Bindings of tile_inputs.glsl. Where the axes do without a buffer, another one is bound, and not read.
+std::vector<Binding> tile_bindings(const TiledAxes& axes, const Buffers& b) {
+  const ResourceId lights = axes.reads_lights() ? INPUT_LIGHTS : b.bounds;
+  const auto or_other = [&](ResourceId id) { return Binding{id == NO_RESOURCE ? lights : id}; };
+  return {{INPUT_FRAME}, {INPUT_DEPTH}, {lights}, or_other(b.bounds), or_other(b.frusta), or_other(b.ranges)};
 }
 
 /// What comes before the cull: light bounds, tile frusta, depth ranges, as far as the axes have them.
@@ -68,7 +69,7 @@ Pass cull_pass(const Problem& problem, const TiledAxes& axes, const parts::TileG
   Pass pass{.name = "tiled cull",
             .shader = std::string("methods/tile_") + container + "_" + reduce,
             .constants = {parts::cull_threads(problem, axes.tile_px * axes.tile_px)},
-            .bindings = tile_bindings(b),
+            .bindings = tile_bindings(axes, b),
             .extent = {.x = tiles.width, .y = tiles.height},
             .shared_bytes = shared_bytes(axes)};
   const std::vector<std::uint32_t> constants = tile_constants(axes);
@@ -174,7 +175,7 @@ Plan plan_tiled(const Problem& problem) {
     plan.passes.back().constants.push_back(static_cast<std::uint32_t>(shared_list));
   plan.lookup = look_up(plan, problem, axes, buffers);
   if (axes.bits || axes.tile_px * axes.tile_px > problem.traits.max_group_invocations) return plan;
-  std::vector<Binding> fused_bindings = tile_bindings(buffers);
+  std::vector<Binding> fused_bindings = tile_bindings(axes, buffers);
   fused_bindings.push_back({buffers.counters, Access::read_write});
   plan.fused =
       FusedLookUp{.lookup = {.name = axes.reduce == TiledAxes::Reduce::subgroup ? "tile_fused_subgroup" : "tile_fused",

@@ -33,6 +33,10 @@ struct TiledAxes {
   [[nodiscard]] std::uint32_t ranges() const {
     return bounds == shared::BOUNDS_HALF || bounds == shared::BOUNDS_MODIFIED_HALF ? 2 : 1;
   }
+  /// The light records, and not only the bounds.
+  [[nodiscard]] bool reads_lights() const {
+    return aos || prune || spot != shared::SPOT_SPHERE || order == shared::ORDER_TYPE;
+  }
   [[nodiscard]] bool cone() const { return test == shared::TEST_CONE || test == shared::TEST_CONE_APPROXIMATE; }
 };
 
