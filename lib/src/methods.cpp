@@ -5,7 +5,7 @@
 
 #include "lamplight/method.h"
 #include "methods/methods.h"
-#include "own_spheres.h"
+#include "own_inputs.h"
 
 namespace lamp {
 
@@ -72,6 +72,7 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   if (problem.frames_in_flight == 0 || problem.frames_in_flight > MAX_FRAMES_IN_FLIGHT)
     return Error{"frames in flight", "expected 1 to " + std::to_string(MAX_FRAMES_IN_FLIGHT) + ", got " +
                                          std::to_string(problem.frames_in_flight)};
+  if (auto error = problem.light_layout.check()) return *error;
   if (method.check != nullptr)
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(problem);
@@ -79,7 +80,8 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   plan.height = problem.height;
   plan.light_capacity = problem.light_capacity;
   plan.frames_in_flight = problem.frames_in_flight;
-  if (problem.own_spheres) make_own_spheres(plan, problem.traits);
+  plan.light_layout = problem.light_layout;
+  make_own_inputs(plan, problem);
   std::optional<Error> error = plan_check(plan, problem.traits);
   if (!error) error = check_walks(problem, plan);
   if (error) {

@@ -271,8 +271,9 @@ std::optional<Error> check_kept(const std::vector<Pass>& passes, const std::vect
 std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
   for (const BufferDesc& buffer : plan.buffers)
     if (auto error = check_buffer(buffer, traits)) return error;
-  const std::uint64_t light_bytes = std::uint64_t{plan.light_capacity} * sizeof(shared::Light);
-  if (auto error = check_bytes("light buffer", light_bytes, traits)) return error;
+  const LightLayout& layout = plan.light_layout;
+  if (auto error = check_bytes("light buffer", layout.light_bytes(plan.light_capacity), traits)) return error;
+  if (auto error = check_bytes("cone buffer", layout.cone_bytes(plan.light_capacity), traits)) return error;
   if (plan.bytes() > traits.memory_bytes)
     return Error{"memory", "all buffers together need " + std::to_string(plan.bytes()) + " bytes, the device has " +
                                std::to_string(traits.memory_bytes)};

@@ -138,7 +138,8 @@ class StrictDevice {
 };
 
 void run_everything(const Plan& plan, const DeviceTraits& traits) {
-  require(std::uint64_t{plan.light_capacity} * sizeof(shared::Light) <= traits.max_storage_buffer_bytes);
+  require(plan.light_layout.light_bytes(plan.light_capacity) <= traits.max_storage_buffer_bytes);
+  require(plan.light_layout.cone_bytes(plan.light_capacity) <= traits.max_storage_buffer_bytes);
   require(plan.cells >= 1);
   if (plan.counters != NO_RESOURCE) {
     const BufferDesc& counters = plan.buffers.at(plan.counters - PLAN_BUFFER);
@@ -160,6 +161,12 @@ DeviceTraits read_traits(Reader& in) {
   traits.shared_memory_bytes = std::max(in.number<std::uint32_t>(), traits.shared_memory_bytes);
   traits.max_image_size = in.number<std::uint32_t>();
   return traits;
+}
+
+/// Often without a fault.
+RecordPlaces read_places(Reader& in) {
+  if (in.flag()) return {.offset = in.number<std::uint32_t>(), .stride = in.number<std::uint32_t>()};
+  return {.offset = in.number<std::uint8_t>() * 16U, .stride = in.number<std::uint8_t>() * 16U};
 }
 
 /// Often a key of the method with a value that it might take, else any text.
@@ -193,6 +200,10 @@ void plan_a_problem(Reader& in) {
   problem.options = std::move(options.value());
 
   if (in.flag()) problem.traits.compute_subgroups = problem.traits.fragment_subgroups = {};
+
+  problem.light_layout = {
+      .form = static_cast<LightForm>(in.below(4)), .lights = read_places(in), .cones = read_places(in)};
+  problem.own_spheres = in.flag();
 
   const Result<Plan> plan = make_plan(method, problem);
   if (!plan) return require(!plan.error().text().empty());

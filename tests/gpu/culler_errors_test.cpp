@@ -43,6 +43,22 @@ TEST_F(CullerErrors, OfCreationNameWhatIsWrong) {
   expect_error(info, {"frames in flight", "expected 1 to 4, got 5"});
 }
 
+TEST_F(CullerErrors, OfLightLayoutsNameTheNumber) {
+  vulkan::CullerInfo info{
+      .width = ENGINE_WIDTH, .height = ENGINE_HEIGHT, .light_capacity = ENGINE_LIGHTS, .method = "tiled"};
+  const auto with = [&](const LightLayout& layout, std::initializer_list<const char*> parts) {
+    info.light_layout = layout;
+    expect_error(info, parts);
+  };
+  with({.lights = {.stride = 72}}, {"light stride: expected a multiple of 16 bytes, at least 64, got 72"});
+  with({.lights = {.stride = 48}}, {"light stride: expected a multiple of 16 bytes, at least 64, got 48"});
+  with({.lights = {.offset = 8}}, {"light offset: expected a multiple of 16 bytes, got 8"});
+  with({.form = LightForm::spots, .cones = {.offset = 20}}, {"cone offset: expected a multiple of 16 bytes, got 20"});
+  with({.form = LightForm::spots, .cones = {.stride = 8}}, {"cone stride: ", "at least 16, got 8"});
+  with({.form = static_cast<LightForm>(3)}, {"light form: expected record, points or spots, got 3"});
+  with({.form = LightForm::points, .lights = {.stride = 1U << 31}}, {"light buffer: needs 135291469840 bytes"});
+}
+
 /// Records into no command buffer at all: whoever records anything there does not come back.
 std::string refusal(vulkan::Culler& culler, const vulkan::CullerFrame& frame) {
   const Result<std::uint64_t> recorded = culler.record(VK_NULL_HANDLE, frame);
@@ -82,6 +98,38 @@ TEST_F(CullerErrors, OfFramesNameTheElementAndRecordNothing) {
   EXPECT_EQ(with([](auto& f) { f.depth_layout = VK_IMAGE_LAYOUT_UNDEFINED; }),
             "depth layout: expected the layout that the image is in, got VK_IMAGE_LAYOUT_UNDEFINED");
   EXPECT_EQ(next_number(culler, good), 2);
+}
+
+TEST_F(CullerErrors, OfPartsOfBuffersNameTheNumber) {
+  const EngineFrame frame = engine_frame({.lights = 20});
+  const VkBuffer lights = frame.light_buffer.handle();
+  vulkan::Device device = test_context().device();
+  const auto culler_on = [&](std::uint32_t alignment) {
+    device.traits.storage_offset_alignment = alignment;
+    return take(vulkan::Culler::create(device, {.width = ENGINE_WIDTH,
+                                                .height = ENGINE_HEIGHT,
+                                                .light_capacity = ENGINE_LIGHTS,
+                                                .method = "lamplight",
+                                                .light_layout = {.form = LightForm::spots},
+                                                .brings_spheres = true}));
+  };
+  vulkan::Culler fine = culler_on(4);
+  vulkan::Culler coarse = culler_on(64);
+  vulkan::CullerFrame told = culler_frame(frame);
+  EXPECT_EQ(refusal(fine, told), "cones: expected a buffer, which the method reads, got none");
+  told.cones = {frame.sphere_buffer.handle(), 24};
+  EXPECT_EQ(refusal(fine, told), "cones offset: expected a multiple of 16 bytes, got 24");
+  told.cones = {frame.sphere_buffer.handle(), 16};
+  EXPECT_EQ(refusal(coarse, told),
+            "cones offset: expected a multiple of 64 bytes, this device's minStorageBufferOffsetAlignment, got 16");
+  told.lights = {lights, 0, 319};
+  EXPECT_EQ(refusal(fine, told), "lights: expected a part of at least 320 bytes, for all lights, got 319");
+  told.lights = {lights, 0, 320};
+  told.spheres = {frame.sphere_buffer.handle(), 16, 319};
+  EXPECT_EQ(refusal(fine, told), "spheres: expected a part of at least 320 bytes, for all lights, got 319");
+  told.light_count = 0;
+  told.spheres = {frame.sphere_buffer.handle(), 16, 0};
+  EXPECT_EQ(refusal(fine, told), "spheres: expected a part of at least 1 bytes, for all lights, got 0");
 }
 
 TEST_F(CullerErrors, FewerHostLightsThanLights) {

@@ -163,6 +163,40 @@ TEST_P(EveryMethod, MakesSpheresOfItsOwnExactlyIfItReadsAny) {
   EXPECT_TRUE(std::all_of(own.passes.begin(), maker, [](const auto& p) { return p.kind == lamp::PassKind::host; }));
 }
 
+// A host that keeps no records of 64 bytes gets a plan that makes them, and none where only spheres are read.
+TEST_P(EveryMethod, MakesRecordsOfItsOwnExactlyIfItReadsAny) {
+  const Method& method = *GetParam();
+  Problem problem{
+      .width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE};
+  const Plan standard = lamp::make_plan(method, problem).value();
+  const bool reads = standard.binds(lamp::INPUT_LIGHTS);
+  for (const lamp::LightForm form : {lamp::LightForm::record, lamp::LightForm::points, lamp::LightForm::spots}) {
+    problem.light_layout = {.form = form, .lights = {.stride = 80}};
+    const Plan own = lamp::make_plan(method, problem).value();
+    EXPECT_EQ(own.bytes(), standard.bytes() + (reads ? 100 * sizeof(lamp::shared::Light) : 0));
+    EXPECT_EQ(own.passes.size(), standard.passes.size() + (reads ? 1 : 0));
+    EXPECT_EQ(own.binds(lamp::INPUT_LIGHTS), reads);
+    EXPECT_EQ(own.binds(lamp::INPUT_CONES), reads && form == lamp::LightForm::spots);
+    for (const lamp::Pass& pass : own.passes) {
+      const bool binds =
+          std::ranges::find(pass.bindings, lamp::INPUT_LIGHTS, &lamp::Binding::resource) != pass.bindings.end();
+      EXPECT_EQ(binds, pass.name == "light records") << pass.name;
+    }
+  }
+}
+
+// No look-up reads a light: an engine's shader needs nothing of them but its own.
+TEST_P(EveryMethod, LooksLightsUpWithoutReadingThem) {
+  const Method& method = *GetParam();
+  const Plan plan =
+      lamp::make_plan(
+          method,
+          {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE})
+          .value();
+  for (const lamp::ResourceId input : {lamp::INPUT_LIGHTS, lamp::INPUT_CONES, lamp::INPUT_SPHERES})
+    EXPECT_EQ(std::ranges::find(plan.lookup.bindings, input, &lamp::Binding::resource), plan.lookup.bindings.end());
+}
+
 // Every shader that reads through a look-up exists in a variant for this method's look-up.
 TEST_P(EveryMethod, HasItsLookUpInEveryShader) {
   const Method& method = *GetParam();

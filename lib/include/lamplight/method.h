@@ -52,6 +52,9 @@ struct Problem {
   std::uint32_t light_capacity = 0;
   Options options;
   DeviceTraits traits;
+  /// What the host brings of its lights. Where it is not records of 64 bytes, one behind the other, the plan makes
+  /// those itself, if it reads them.
+  LightLayout light_layout;
   /// The host keeps no spheres: the plan makes INPUT_SPHERES from the lights, if it reads any.
   bool own_spheres = false;
   /// Frames that may be recorded and not done yet, 1 .. MAX_FRAMES_IN_FLIGHT: what the host writes has as many slots.

@@ -14,6 +14,7 @@
 
 #include "lamplight/error.h"
 #include "lamplight/export.h"
+#include "lamplight/light_layout.h"
 #include "lamplight/shared/frame.h"
 #include "lamplight/shared/light.h"
 
@@ -23,10 +24,11 @@ namespace lamp {
 using ResourceId = std::uint32_t;
 
 inline constexpr ResourceId INPUT_FRAME = 0;    ///< one shared::Frame: a uniform buffer in compute passes, else storage
-inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, shared::Light[light capacity]
+inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, what Plan::light_layout says of each light
 inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth, one sample a pixel; may be larger
 inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]
-inline constexpr ResourceId PLAN_BUFFER = 4;    ///< the first buffer of the plan
+inline constexpr ResourceId INPUT_CONES = 4;    ///< storage buffer, likewise, where the layout has cones
+inline constexpr ResourceId PLAN_BUFFER = 5;    ///< the first buffer of the plan
 inline constexpr ResourceId NO_RESOURCE = ~0U;
 
 enum class Access : std::uint8_t { read, write, read_write };
@@ -153,6 +155,7 @@ struct LAMPLIGHT_API Plan {
   std::uint32_t width = 0;             ///< the problem's, pixels
   std::uint32_t height = 0;            ///< likewise
   std::uint32_t light_capacity = 0;    ///< likewise
+  LightLayout light_layout;            ///< likewise
   std::uint32_t frames_in_flight = 1;  ///< likewise
   ResourceId counters = NO_RESOURCE;   ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;    ///< everything that can overflow
@@ -190,9 +193,10 @@ struct DeviceTraits {
   std::uint32_t shared_memory_bytes = 16384;
   std::uint32_t max_image_size = 4096;     ///< pixels a side
   std::uint32_t max_storage_buffers = 16;  ///< that a shader stage sees; Vulkan guarantees 4, too few for most methods
-  std::uint32_t subgroup_size = 32;        ///< threads, of most pipelines
-  std::uint32_t max_subgroup_size = 32;    ///< of any pipeline: some drivers choose for each; at least `subgroup_size`
-  std::uint32_t max_loop_rounds = ~0U;     ///< of all loops of a thread together; llvmpipe ends them after 65 535
+  std::uint32_t storage_offset_alignment = 256;  ///< bytes, minStorageBufferOffsetAlignment; a power of two
+  std::uint32_t subgroup_size = 32;              ///< threads, of most pipelines
+  std::uint32_t max_subgroup_size = 32;  ///< of any pipeline: some drivers choose for each; at least `subgroup_size`
+  std::uint32_t max_loop_rounds = ~0U;   ///< of all loops of a thread together; llvmpipe ends them after 65 535
   SubgroupOperations compute_subgroups = ALL_SUBGROUP_OPERATIONS;   ///< in compute shaders; none are guaranteed
   SubgroupOperations fragment_subgroups = ALL_SUBGROUP_OPERATIONS;  ///< in fragment shaders; likewise
   bool conservative_raster = false;                                 ///< VK_EXT_conservative_rasterization is enabled

@@ -45,6 +45,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                      .light_capacity = info.light_capacity,
                      .options = std::move(options.value()),
                      .traits = device.traits,
+                     .light_layout = info.light_layout,
                      .own_spheres = !info.brings_spheres,
                      .frames_in_flight = info.frames_in_flight};
   Result<Plan> plan = make_plan(*method.value(), culler.problem_);
@@ -82,6 +83,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   const shared::Frame record = frame.view->frame(gpu_counts ? capacity : frame.light_count, capacity);
   PlanInputs inputs{.frame = frame_.handle(),
                     .lights = frame.lights,
+                    .cones = frame.cones,
                     .spheres = frame.spheres,
                     .depth = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                               .image = frame.depth_image,
@@ -95,8 +97,8 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   // A tracker of this frame alone: it knows nothing of others, which may never run, and keeps nothing of the host's.
   AccessTracker tracker;
   tracker.assume(inputs.depth);
-  tracker.assume(Resource::storage(inputs.lights));
-  if (inputs.spheres != VK_NULL_HANDLE) tracker.assume(Resource::storage(inputs.spheres));
+  for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres})
+    if (part.buffer != VK_NULL_HANDLE) tracker.assume(Resource::storage(part));
   Recorder recorder(device_, commands, tracker);
   // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
   const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;

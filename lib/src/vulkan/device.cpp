@@ -124,6 +124,7 @@ DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical) {
           .shared_memory_bytes = limits.maxComputeSharedMemorySize,
           .max_image_size = limits.maxImageDimension2D,
           .max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers,
+          .storage_offset_alignment = static_cast<std::uint32_t>(limits.minStorageBufferOffsetAlignment),
           .subgroup_size = v11.subgroupSize,
           .max_subgroup_size = std::max(v11.subgroupSize, v13.maxSubgroupSize),
           .max_loop_rounds = v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? LLVMPIPE_LOOP_ROUNDS : ~0U,

@@ -36,6 +36,22 @@ std::optional<Error> check_buffer(const char* element, VkBuffer buffer) {
   return Error{element, "expected a buffer, which the method reads, got none"};
 }
 
+/// Shaders read 16 bytes at once, and a descriptor begins where the device lets it.
+std::optional<Error> check_part(const std::string& element, const BufferPart& part, std::uint64_t needed,
+                                std::uint32_t device_alignment) {
+  constexpr std::uint32_t UNIT = 16;
+  if (auto error = check_buffer(element.c_str(), part.buffer)) return error;
+  const std::uint32_t alignment = std::max(UNIT, device_alignment);
+  if (part.offset % alignment != 0)
+    return Error{element + " offset", "expected a multiple of " + std::to_string(alignment) + " bytes" +
+                                          (alignment > UNIT ? ", this device's minStorageBufferOffsetAlignment" : "") +
+                                          ", got " + std::to_string(part.offset)};
+  if (part.bytes != VK_WHOLE_SIZE && (part.bytes == 0 || part.bytes < needed))
+    return Error{element, "expected a part of at least " + std::to_string(std::max<std::uint64_t>(needed, 1)) +
+                              " bytes, for all lights, got " + std::to_string(part.bytes)};
+  return std::nullopt;
+}
+
 std::optional<Error> check_depth(const Resource& depth) {
   if (depth.image == VK_NULL_HANDLE) return Error{"depth image", "expected an image, which the method reads, got none"};
   if (depth.view == VK_NULL_HANDLE) return Error{"depth view", "expected a view of the depth image, got none"};
@@ -50,14 +66,23 @@ bool has_host_pass(const std::vector<Pass>& passes) {
 
 }  // namespace
 
+std::optional<Error> PlanRunner::check_lights(const PlanInputs& inputs) const {
+  const std::uint64_t count = inputs.host_frame->light_count;
+  const LightLayout& layout = plan_.light_layout;
+  if (plan_.binds(INPUT_LIGHTS))
+    if (auto error = check_part("lights", inputs.lights, layout.light_bytes(count), offset_alignment_)) return error;
+  if (plan_.binds(INPUT_CONES))
+    if (auto error = check_part("cones", inputs.cones, layout.cone_bytes(count), offset_alignment_)) return error;
+  if (plan_.binds(INPUT_SPHERES))
+    return check_part("spheres", inputs.spheres, count * sizeof(shared::LightSphere), offset_alignment_);
+  return std::nullopt;
+}
+
 std::optional<Error> PlanRunner::check(const PlanInputs& inputs) const {
   if (inputs.host_frame == nullptr) return Error{"host frame", "expected the frame's record, got none"};
   if (auto error = check_record(plan_, *inputs.host_frame)) return error;
   if (auto error = check_buffer("frame", inputs.frame)) return error;
-  if (plan_.binds(INPUT_LIGHTS))
-    if (auto error = check_buffer("lights", inputs.lights)) return error;
-  if (plan_.binds(INPUT_SPHERES))
-    if (auto error = check_buffer("spheres", inputs.spheres)) return error;
+  if (auto error = check_lights(inputs)) return error;
   if (plan_.binds(INPUT_DEPTH))
     if (auto error = check_depth(inputs.depth)) return error;
   if (inputs.slot >= plan_.frames_in_flight)

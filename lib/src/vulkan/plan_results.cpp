@@ -34,6 +34,8 @@ Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs) const {
       depth.sampler = depth_sampler_.get();
       return depth;
     }
+    case INPUT_CONES:
+      return Resource::storage(inputs.cones);
     case INPUT_SPHERES:
       return Resource::storage(inputs.spheres);
     default:

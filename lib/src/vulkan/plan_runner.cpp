@@ -70,6 +70,7 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   PlanRunner runner;
   runner.plan_ = std::move(plan);
   runner.sets_ = DescriptorSets(device);
+  runner.offset_alignment_ = device.traits.storage_offset_alignment;
   for (const BufferDesc& desc : runner.plan_.buffers) {
     Result<Buffer> buffer = Buffer::create(device, buffer_info(desc));
     if (!buffer) return buffer.error();

@@ -1,6 +1,6 @@
-// A light as the GPU reads it, and its 16-byte bounds.
+// A light as the GPU reads it, or what culling reads of it, and its 16-byte bounds.
 // Based on: Khronos, KHR_lights_punctual (units, range window, cone).
-// Promise: Light is 64 bytes, LightSphere and LightBounds 16 bytes, in C++ and in GLSL.
+// Promise: Light is 64 bytes, all others 16 bytes, in C++ and in GLSL.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_LIGHT_H
 #define LAMPLIGHT_SHARED_LIGHT_H
@@ -13,6 +13,11 @@ namespace lamp::shared {
 
 LAMP_CONST LIGHT_POINT = 0u;
 LAMP_CONST LIGHT_SPOT = 1u;
+
+// What a host brings of its lights (light_layout.h).
+LAMP_CONST FORM_RECORD = 0u;
+LAMP_CONST FORM_POINTS = 1u;
+LAMP_CONST FORM_SPOTS = 2u;
 
 // m. A range from here on is infinite: larger than any scene, and its square is still a finite float.
 LAMP_CONST_FLOAT INFINITE_RADIUS = 1e18f;
@@ -37,6 +42,18 @@ struct Light {
   float sin_outer;    // sin(outer_angle)
 };
 
+// World space. All that culling reads of a light, where nothing else is brought: its first 16 bytes.
+struct LightReach {
+  vec3 position;  // m
+  float range;    // m, as in Light
+};
+
+// And what it reads of a spot besides.
+struct LightCone {
+  vec3 direction;     // unit length; where a spot looks
+  float outer_angle;  // radians, as in Light; negative: a point light
+};
+
 // World space. A sphere that encloses everything the light reaches, but for rounding: all that most of the culling
 // reads of a light.
 struct LightSphere {
@@ -53,6 +70,7 @@ struct LightBounds {
 
 #ifdef __cplusplus
 static_assert(sizeof(Light) == 64 && sizeof(LightSphere) == 16 && sizeof(LightBounds) == 16);
+static_assert(sizeof(LightReach) == 16 && sizeof(LightCone) == 16);
 }  // namespace lamp::shared
 #endif
 

@@ -14,6 +14,17 @@
 
 namespace lamp::vulkan {
 
+/// A part of somebody's buffer, as descriptors show it; a handle alone is the whole.
+struct BufferPart {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;             ///< bytes, where the part begins
+  VkDeviceSize bytes = VK_WHOLE_SIZE;  ///< that it has, or all that follow; at most maxStorageBufferRange
+
+  BufferPart() = default;
+  BufferPart(VkBuffer of, VkDeviceSize from = 0, VkDeviceSize length = VK_WHOLE_SIZE)
+      : buffer(of), offset(from), bytes(length) {}
+};
+
 struct BufferInfo {
   std::string name;
   std::uint64_t bytes = 0;  ///< > 0

@@ -19,6 +19,7 @@ struct CullerInfo {
   std::uint32_t light_capacity = 0;
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
+  LightLayout light_layout;          ///< what frames bring of each light, and where it lies
   bool brings_spheres = false;  ///< frames bring the lights' spheres; else a method that reads them makes them itself
   /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
   VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -28,11 +29,13 @@ struct CullerInfo {
 /// What a frame brings. Lights, their count, spheres and depth must be visible to compute shaders when the recorded
 /// commands run, also for methods that draw, and may change once compute shaders have read them.
 struct CullerFrame {
-  const View* view = nullptr;         ///< of the Culler's size
-  VkBuffer lights = VK_NULL_HANDLE;   ///< storage buffer of shared::Light (`lamp::pack`)
-  VkBuffer spheres = VK_NULL_HANDLE;  ///< CullerInfo::brings_spheres: storage buffer of shared::LightSphere
-                                      ///< (`lamp::bounding_spheres`), which is a quarter to read
-  std::uint32_t light_count = 0;      ///< at most the capacity
+  const View* view = nullptr;  ///< of the Culler's size
+  /// Storage buffers. The part of each begins at a multiple of 16 bytes and of minStorageBufferOffsetAlignment.
+  BufferPart lights;   ///< of shared::Light (`lamp::pack`), or what CullerInfo::light_layout says
+  BufferPart cones;    ///< of shared::LightCone, where the layout has them
+  BufferPart spheres;  ///< CullerInfo::brings_spheres: of shared::LightSphere (`lamp::bounding_spheres`), which is a
+                       ///< quarter to read
+  std::uint32_t light_count = 0;  ///< at most the capacity
   /// Instead of light_count, for lights that the GPU makes: a buffer with the count, a 32-bit word. Its usage has
   /// VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Of more lights than the capacity the first ones are taken, and the others
   /// counted (Counters::excess_lights).

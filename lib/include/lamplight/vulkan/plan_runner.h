@@ -17,8 +17,9 @@ namespace lamp::vulkan {
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
   VkBuffer frame = VK_NULL_HANDLE;             ///< one shared::Frame; usable as uniform and as storage buffer
-  VkBuffer lights = VK_NULL_HANDLE;            ///< shared::Light, as many as the record says
-  VkBuffer spheres = VK_NULL_HANDLE;           ///< shared::LightSphere, likewise
+  BufferPart lights;                           ///< as many as the record says, in the plan's layout
+  BufferPart cones;                            ///< likewise, where the layout has them
+  BufferPart spheres;                          ///< shared::LightSphere, as many
   Resource depth;                              ///< image, view, aspect and layout; unset where none is needed
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights
   std::uint32_t slot = 0;                      ///< below the plan's frames in flight; of no frame that is not done yet
@@ -64,8 +65,9 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] Result<std::uint64_t> record(Recorder& recorder, const PlanInputs& inputs,
                                              Passes which = Passes::separate);
 
-  /// What of a frame does not go with the plan: a handle that it needs, another size, more lights than its capacity,
-  /// fewer host lights than lights. The first such thing, or nothing.
+  /// What of a frame does not go with the plan: a handle that it needs, a part of a buffer that begins at an odd place
+  /// or is too short, another size, more lights than its capacity, fewer host lights than lights. The first such thing,
+  /// or nothing.
   [[nodiscard]] std::optional<Error> check(const PlanInputs& inputs) const;
 
   /// Says that the record of that number has run, and all before it that were not dropped. Passes that are kept need
@@ -109,6 +111,7 @@ class LAMPLIGHT_API PlanRunner {
     std::vector<Use> uses;
     std::vector<Bound> resources;
   };
+  [[nodiscard]] std::optional<Error> check_lights(const PlanInputs& inputs) const;
   [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
   [[nodiscard]] Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
                                                      const ShaderSource& shaders);
@@ -130,6 +133,7 @@ class LAMPLIGHT_API PlanRunner {
   std::vector<Buffer> slots_;  ///< of each buffer of upload memory, one behind the other, mapped; else none
   OwnedSampler depth_sampler_;
   DescriptorSets sets_;
+  std::uint32_t offset_alignment_ = 1;  ///< bytes, of storage buffers
   std::vector<BuiltPass> separate_;
   std::vector<BuiltPass> fused_;
   /// What the passes that are kept are recorded with, from which record on, and whether one of these is known to have

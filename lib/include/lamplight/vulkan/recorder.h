@@ -29,7 +29,9 @@ struct Resource {
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while used this way
   VkSampler sampler = VK_NULL_HANDLE;
 
-  [[nodiscard]] static Resource storage(VkBuffer buffer) { return {.buffer = buffer}; }
+  [[nodiscard]] static Resource storage(const BufferPart& part) {
+    return {.buffer = part.buffer, .offset = part.offset, .range = part.bytes};
+  }
 };
 
 /// How a pass uses a resource.
