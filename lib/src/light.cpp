@@ -118,6 +118,12 @@ std::vector<shared::Light> pack(std::span<const Light> lights) {
   return packed;
 }
 
+shared::LightReach light_reach(const shared::Light& light) { return {light.position, light.range}; }
+
+shared::LightCone light_cone(const shared::Light& light) {
+  return {light.direction, light.type == shared::LIGHT_SPOT ? light.outer_angle : -1.0F};
+}
+
 /// A narrow cone's goes through the apex and the rim, a wide one's has the rim as a great circle: `shift` to the centre
 /// and the radius are the lesser and the greater of both, and a point light is the widest. What reaches everything does
 /// so around the origin, where scenes are, wherever the light may be.

@@ -27,12 +27,6 @@ class HostBytes {
   std::vector<std::uint32_t> words_;
 };
 
-shared::LightReach reach_of(const shared::Light& light) { return {light.position, light.range}; }
-
-shared::LightCone cone_of(const shared::Light& light) {
-  return {light.direction, light.type == shared::LIGHT_SPOT ? light.outer_angle : -1.0F};
-}
-
 /// A layout, and buffers that hold the lights so.
 struct HostLights {
   const char* name = "";
@@ -75,9 +69,9 @@ HostLights apart(const std::vector<shared::Light>& lights, LightForm form) {
           .layout = {.form = form},
           .light_buffer =
               placed(lights, 0, places, 16,
-                     [](HostBytes& bytes, std::size_t at, const auto& light) { bytes.put(at, reach_of(light)); }),
+                     [](HostBytes& bytes, std::size_t at, const auto& light) { bytes.put(at, light_reach(light)); }),
           .cone_buffer = placed(lights, 0, places, 16, [](HostBytes& bytes, std::size_t at, const auto& light) {
-            bytes.put(at, cone_of(light));
+            bytes.put(at, light_cone(light));
           })};
 }
 
@@ -89,8 +83,8 @@ HostLights inside(const std::vector<shared::Light>& lights) {
           .layout = {.form = LightForm::spots, .lights = REACHES, .cones = CONES},
           .light_buffer = placed(lights, PART, REACHES, 64,
                                  [](HostBytes& bytes, std::size_t at, const auto& light) {
-                                   bytes.put(at, reach_of(light));
-                                   bytes.put(at + CONES.offset - REACHES.offset, cone_of(light));
+                                   bytes.put(at, light_reach(light));
+                                   bytes.put(at + CONES.offset - REACHES.offset, light_cone(light));
                                  }),
           .part = PART,
           .cones_inside = true};

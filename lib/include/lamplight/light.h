@@ -37,6 +37,10 @@ struct Light {
 /// `pack` for many.
 [[nodiscard]] LAMPLIGHT_API std::vector<shared::Light> pack(std::span<const Light> lights);
 
+/// What culling reads of a light, for hosts that bring no more (light_layout.h).
+[[nodiscard]] LAMPLIGHT_API shared::LightReach light_reach(const shared::Light& light);
+[[nodiscard]] LAMPLIGHT_API shared::LightCone light_cone(const shared::Light& light);
+
 /// The 16-byte sphere around all that a light reaches, in world space. Source: for spots, Primal engine, Light Culling
 /// with Approximate Sphere-Cone Intersection, listing 6.
 [[nodiscard]] LAMPLIGHT_API shared::LightSphere bounding_sphere(const shared::Light& light);
