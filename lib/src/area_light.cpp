@@ -37,7 +37,7 @@ Light in_front(const glm::dvec3& center, const glm::dvec3& normal, double radius
   const double length = glm::length(normal);
   if (!(length > 0.0)) return light;
   light.direction = glm::vec3(normal / length);
-  Light moved = around(center - behind / length * normal, radius + behind, range);
+  const Light moved = around(center - behind / length * normal, radius + behind, range);
   light.position = moved.position;
   light.range = moved.range;
   return light;
