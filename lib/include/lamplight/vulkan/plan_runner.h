@@ -23,7 +23,9 @@ struct PlanInputs {
   Resource depth;                              ///< image, view, aspect and layout; unset where none is needed
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights
   std::uint32_t slot = 0;                      ///< below the plan's frames in flight; of no frame that is not done yet
-  const shared::Frame* host_frame = nullptr;   ///< the frame's record, as in `frame`
+  /// The frame's record, as in `frame`. If the GPU counts the lights there, with the most that there may be, which
+  /// passes are dispatched for.
+  const shared::Frame* host_frame = nullptr;
 };
 
 /// A look-up's resources at their bindings and how a compute shader uses each, and its constants with their ids.
