@@ -68,6 +68,8 @@ void for_each_path(Check check) {
 class KnownAnswer : public GpuTest {};
 
 TEST_F(KnownAnswer, PlaneUnderItsLight) {
+  const std::uint32_t bits = test_context().device().traits.sub_pixel_bits;
+  if (bits < 8) GTEST_SKIP() << "the device has " << bits << " sub-pixel bits: it draws the plane's corners elsewhere";
   const Scene& scene = builtin_test_scene("plane").scene;
   const Material& material = scene.materials[0];
   for (const std::string_view projection : tested_projections()) {
@@ -76,6 +78,7 @@ TEST_F(KnownAnswer, PlaneUnderItsLight) {
     for_each_path([&](ShadingPath path) {
       std::uint32_t seen = 0;
       for (const glm::uvec2 pixel : {glm::uvec2(32, 24), {32, 30}, {10, 40}, {50, 28}, {60, 47}, {3, 33}}) {
+        SCOPED_TRACE(fmt::format("pixel ({}, {})", pixel.x, pixel.y));
         const glm::dvec3 point = seen_point(pictures.view, pixel, {0.0, 1.0, 0.0});
         const double z_view = -(pictures.view.view_from_world() * glm::dvec4(point, 1.0)).z;
         if (std::abs(point.x) > 9.9 || std::abs(point.z) > 9.9 || z_view < pictures.view.z_view(1.0)) continue;

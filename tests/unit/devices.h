@@ -14,7 +14,8 @@ inline const DeviceTraits SOFTWARE_DEVICE{.max_group_invocations = 1024,
                                           .shared_memory_bytes = 32768,
                                           .max_image_size = 16384,
                                           .subgroup_size = 8,
-                                          .max_subgroup_size = 8};
+                                          .max_subgroup_size = 8,
+                                          .sub_pixel_bits = 8};
 
 /// A large GPU: storage buffers of 4 GiB less a byte, as 32 bits can say.
 inline const DeviceTraits LARGE_DEVICE{.max_storage_buffer_bytes = 0xffffffffU,
@@ -24,6 +25,7 @@ inline const DeviceTraits LARGE_DEVICE{.max_storage_buffer_bytes = 0xffffffffU,
                                        .shared_memory_bytes = 49152,
                                        .max_image_size = 32768,
                                        .max_storage_buffers = 1024,
+                                       .sub_pixel_bits = 8,
                                        .conservative_raster = true};
 
 /// The same without subgroup operations.

@@ -55,4 +55,27 @@ TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
   }
 }
 
+// Devices with the 4 bits that Vulkan guarantees; most have 8.
+TEST(RasterisedCulling, ReachesFartherWhereCornersAreSnappedFarther) {
+  for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {
+    const Method& method = *lamp::find_method(name).value();
+    const auto reach_px = [&](const char* raster, std::uint32_t bits) {
+      DeviceTraits traits = SOFTWARE_DEVICE;
+      traits.sub_pixel_bits = bits;
+      const auto options = lamp::resolve_options(method, {std::string("raster=") + raster}).value();
+      const Plan plan =
+          lamp::make_plan(method,
+                          {.width = 65, .height = 64, .light_capacity = 100, .options = options, .traits = traits})
+              .value();
+      EXPECT_EQ(plan.passes.front().name, "light proxies");
+      return plan.passes.front().constants[1] / 1024.0;
+    };
+    EXPECT_NEAR(reach_px("full", 8), 0.05, 0.001);
+    EXPECT_NEAR(reach_px("half-msaa", 8), 2 * 0.45, 0.001);
+    EXPECT_NEAR(reach_px("full", 4), 0.5, 0.001);
+    EXPECT_NEAR(reach_px("half-msaa", 4), 2 * 0.9, 0.001);
+    EXPECT_NEAR(reach_px("quarter-msaa", 4), 4 * 0.9, 0.001);
+  }
+}
+
 }  // namespace

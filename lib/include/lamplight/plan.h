@@ -199,7 +199,8 @@ struct DeviceTraits {
   std::uint32_t max_loop_rounds = ~0U;   ///< of all loops of a thread together; llvmpipe ends them after 65 535
   SubgroupOperations compute_subgroups = ALL_SUBGROUP_OPERATIONS;   ///< in compute shaders; none are guaranteed
   SubgroupOperations fragment_subgroups = ALL_SUBGROUP_OPERATIONS;  ///< in fragment shaders; likewise
-  bool conservative_raster = false;                                 ///< VK_EXT_conservative_rasterization is enabled
+  std::uint32_t sub_pixel_bits = 4;  ///< triangles' corners are snapped to 1 / 2^that of a pixel; Vulkan guarantees 4
+  bool conservative_raster = false;  ///< VK_EXT_conservative_rasterization is enabled
 };
 
 /// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond

@@ -8,10 +8,10 @@
 #include "common/atomic_load.glsl"
 #include "methods/raster_face.glsl"
 
-layout(constant_id = 6) const uint MODE = 0;
-#define SLICE_CONSTANT 7
+layout(constant_id = 7) const uint MODE = 0;
+#define SLICE_CONSTANT 8
 #include "common/slice_constants.glsl"
-layout(constant_id = 11) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
+layout(constant_id = 12) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
 #include "lamplight/shared/tile.h"
 
 layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };

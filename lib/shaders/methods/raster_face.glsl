@@ -14,8 +14,10 @@ layout(location = 1) in float in_z_view;
 const float FARTHEST_M = 1e18;
 
 // Least and greatest depth of the face's plane up to `reach` raster pixels away in x and y. Over the screen, 1 / w is linear
-// (perspective), or depth is. Uses derivatives: for all threads of the quad together.
+// (perspective), or depth is. Uses derivatives: for all threads of the quad together. Where a thin triangle's corners are
+// snapped coarsely its plane says nothing: then those of the whole light.
 vec2 face_depths(float reach) {
+  if (!FACE_DEPTHS) return vec2(proxies[in_light].z_near, proxies[in_light].z_far);
   const mat4 m = frame.clip_from_view;
   const float inverse_w = gl_FragCoord.w;
   const float change_w = reach * (abs(dFdx(inverse_w)) + abs(dFdy(inverse_w)));

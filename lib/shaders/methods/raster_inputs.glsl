@@ -13,6 +13,7 @@ layout(constant_id = 2) const uint RASTER_PX = 1;  // pixels the side of a raste
 layout(constant_id = 3) const uint TILE_PX = 8;
 layout(constant_id = 4) const uint WORDS = 1;          // words a tile: light capacity / 32, rounded up
 layout(constant_id = 5) const bool EXACT_PIXEL = true;  // a raster pixel is a pixel and is sampled at its centre
+layout(constant_id = 6) const bool FACE_DEPTHS = true;   // corners are snapped finely enough to tell how deep a face lies
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };

@@ -13,8 +13,8 @@ layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ra
 
 layout(set = 0, binding = 7, scalar) readonly buffer StencilBuffer { uint stencil[]; };  // read by back faces of two
 
-layout(constant_id = 6) const uint STEP = 0;  // TILES_ONE_PASS, TILES_STENCIL or TILES_BEHIND
-layout(constant_id = 7) const bool DEPTH_BOUNDS = true;
+layout(constant_id = 7) const uint STEP = 0;  // TILES_ONE_PASS, TILES_STENCIL or TILES_BEHIND
+layout(constant_id = 8) const bool DEPTH_BOUNDS = true;
 
 const float ROUND_DEPTH = 1e-5;  // of a depth: interpolation in 32 bits
 

@@ -3,6 +3,9 @@
 // Advances (2017), "Rasterization based culling". Promise: meshes enclose their lights by what a sample may be off a
 // pixel's centre, so no pixel is lost at any resolution; two indirect draws for all lights; bits do not depend on who
 // comes first. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include "lamplight/shared/proxy.h"
 #include "lamplight/shared/tile.h"
 #include "methods.h"
@@ -20,19 +23,30 @@ struct Raster {
   [[nodiscard]] bool exact() const { return pixel == 1 && samples == 1; }  ///< samples are pixels' centres
 };
 
-/// Vulkan's standard places of four samples: within 0.4 of a raster pixel's side from any point of it. Corners of
-/// triangles are snapped to 1 / 256 of a raster pixel or finer; 0.05 covers that.
+/// How far a mesh's edges are off, in raster pixels. Devices snap corners to a grid, by up to a step along each side,
+/// and may cut triangles at the picture's edge before that: cracks open between neighbours. SwiftShader does so with
+/// steps of 1/16, and lost a tile's only sample with a margin of 1.5 steps, none with 8. At least 0.05, for what the
+/// arithmetic before that rounds.
+double snapped(const DeviceTraits& traits) {
+  return std::max(0.05, 8.0 * std::ldexp(1.0, -static_cast<int>(traits.sub_pixel_bits)));
+}
+
+/// Whether the plane of a triangle that is thinner than a raster pixel is still that of the face.
+bool knows_face_depths(const DeviceTraits& traits) { return traits.sub_pixel_bits >= 8; }
+
+/// Vulkan's standard places of four samples: within 0.4 of a raster pixel's side from any point of it.
 Raster raster_of(Plan& plan, const Problem& problem) {
+  const double snap = snapped(problem.traits);
   std::string word = problem.options.word("raster");
   if (word == "conservative" && problem.traits.conservative_raster)
-    return {.pixel = 8, .samples = 1, .reach_px = 0.05 * 8, .conservative = true};
+    return {.pixel = 8, .samples = 1, .reach_px = snap * 8, .conservative = true};
   if (word == "conservative") {
     word = "half-msaa";
     plan.notes.emplace_back("raster=half-msaa instead of conservative: the device has no conservative rasterization");
   }
-  if (word == "half-msaa") return {.pixel = 2, .samples = 4, .reach_px = 0.45 * 2};
-  if (word == "quarter-msaa") return {.pixel = 4, .samples = 4, .reach_px = 0.45 * 4};
-  return {.pixel = 1, .samples = 1, .reach_px = 0.05};
+  if (word == "half-msaa") return {.pixel = 2, .samples = 4, .reach_px = (0.4 + snap) * 2};
+  if (word == "quarter-msaa") return {.pixel = 4, .samples = 4, .reach_px = (0.4 + snap) * 4};
+  return {.pixel = 1, .samples = 1, .reach_px = snap};
 }
 
 struct Buffers {
@@ -72,7 +86,8 @@ Pass draw_pass(const Problem& problem, const Raster& raster, const Buffers& b, c
           .kind = PassKind::raster,
           .shader = draw.shader,
           .constants = {parts::capacity(problem), draw.which, raster.pixel, problem.options.integer("tile"),
-                        parts::divide_up(parts::capacity(problem), 32), raster.exact() ? 1U : 0U},
+                        parts::divide_up(parts::capacity(problem), 32), raster.exact() ? 1U : 0U,
+                        knows_face_depths(problem.traits) ? 1U : 0U},
           .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {b.proxies}, {b.drawn}},
           .extent = {.indirect = b.draws, .indirect_offset = draw.which * sizeof(shared::ProxyDraw)},
           .raster = {.vertex_shader = "methods/light_proxy",

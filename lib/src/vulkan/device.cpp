@@ -129,7 +129,8 @@ DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical) {
           .max_subgroup_size = std::max(v11.subgroupSize, v13.maxSubgroupSize),
           .max_loop_rounds = v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? LLVMPIPE_LOOP_ROUNDS : ~0U,
           .compute_subgroups = operations_of(v11, VK_SHADER_STAGE_COMPUTE_BIT),
-          .fragment_subgroups = operations_of(v11, VK_SHADER_STAGE_FRAGMENT_BIT)};
+          .fragment_subgroups = operations_of(v11, VK_SHADER_STAGE_FRAGMENT_BIT),
+          .sub_pixel_bits = limits.subPixelPrecisionBits};
 }
 
 void Device::name(VkObjectType type, std::uint64_t object, std::string_view text) const {
