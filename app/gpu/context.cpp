@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/context.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -139,7 +141,10 @@ struct Context::Messages {
                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto& messages = *static_cast<Messages*>(user);
     const std::lock_guard lock(messages.mutex);
-    messages.lines.emplace_back(data->pMessage);
+    const std::string_view text(data->pMessage);
+    const std::string_view id(data->pMessageIdName == nullptr ? "" : data->pMessageIdName);
+    // Layers since 1.4 leave the name out of the text.
+    messages.lines.push_back(text.find(id) != text.npos ? std::string(text) : fmt::format("[{}] {}", id, text));
     return VK_FALSE;
   }
 };

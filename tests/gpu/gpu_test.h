@@ -28,6 +28,10 @@ namespace lamp::app {
 /// Calls `release` before the context goes: for what tests keep between each other. Last come, first released.
 void at_context_end(std::function<void()> release);
 
+/// At the beginning of a test, or of a fixture's SetUp.
+#define LAMP_SKIP_WITHOUT_DOUBLES() \
+  if (!test_context().has_doubles()) GTEST_SKIP() << "the device lacks the feature shaderFloat64"
+
 class GpuTest : public ::testing::Test {
  protected:
   void TearDown() override {

@@ -64,6 +64,7 @@ std::vector<Param> params() {
 class GpuVerifierMatrix : public GpuTest, public ::testing::WithParamInterface<Param> {};
 
 TEST_P(GpuVerifierMatrix, FindsWhatTheOracleFinds) {
+  LAMP_SKIP_WITHOUT_DOUBLES();
   const auto& [name, projection, count, mix] = GetParam();
   constexpr std::uint32_t WIDTH = 50;
   constexpr std::uint32_t HEIGHT = 37;
@@ -96,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GpuVerifierMatrix, ::testing::ValuesIn(params()
 
 class GpuVerifierFaults : public GpuTest {
  protected:
+  void SetUp() override { LAMP_SKIP_WITHOUT_DOUBLES(); }
+
   static constexpr std::uint32_t WIDTH = 24;
   static constexpr std::uint32_t HEIGHT = 20;
   static constexpr std::uint32_t COUNT = 40;

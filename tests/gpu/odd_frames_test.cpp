@@ -99,6 +99,7 @@ TEST_P(OddFrames, MissNothing) {
 }
 
 TEST_F(GpuTest, OddFramesHaveTheSameTruthOnTheGpu) {
+  LAMP_SKIP_WITHOUT_DOUBLES();
   Lighting lighting =
       make_lighting(stages().front()->renderer, {.method = &brute_force(), .light_capacity = ODD_LIGHTS});
   for (const std::unique_ptr<Stage>& stage : stages()) {
