@@ -48,6 +48,15 @@ std::vector<HostLight> make_lights(std::uint32_t count, std::uint32_t frame) {
 
 glm::dmat4 view_from_world() { return glm::lookAt(glm::dvec3(4, 6, 15), glm::dvec3(0, 0.5, 1), glm::dvec3(0, 1, 0)); }
 
+glm::dmat4 reversed_projection(double left, double right, double bottom, double top) {
+  glm::dmat4 m(0.0);
+  m[0][0] = 2.0 / (right - left);
+  m[1][1] = 2.0 / (bottom - top);
+  m[2] = {(right + left) / (right - left), (bottom + top) / (bottom - top), 0.0, -1.0};
+  m[3][2] = 0.1;
+  return m;
+}
+
 bool compare(Pixels culled, Pixels brute_force, float tolerance) {
   float difference = 0.0F;
   glm::dvec4 mean(0.0);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// Drawn as 36 vertices of an instance, without vertex buffers (shaders/box.glsl).
+/// An instance of 36 vertices, drawn without vertex buffers (shaders/box.glsl).
 struct Box {
   glm::vec3 center;
   std::uint32_t material;
@@ -31,6 +31,8 @@ struct HostLight {
 [[nodiscard]] std::vector<HostLight> make_lights(std::uint32_t count, std::uint32_t frame);
 
 [[nodiscard]] glm::dmat4 view_from_world();
+/// What lies in a window, whose edges are those at 1 m ahead. Depth is 1 at 0.1 m and 0 infinitely far; y points down.
+[[nodiscard]] glm::dmat4 reversed_projection(double left, double right, double bottom, double top);
 
 /// Red, green and blue, linear; and how many lights the pixel's shader walked.
 using Pixels = std::span<const glm::vec4>;

@@ -72,6 +72,8 @@ void draw(VkCommandBuffer commands, const Pipeline& pipeline, const Push& push, 
 
 bool run(const Options& options) {
   Gpu gpu(options.validate);
+  const double aspect = double{SIZE.width} / SIZE.height;
+  const glm::dmat4 clip_from_view = reversed_projection(-0.42 * aspect, 0.42 * aspect, -0.42, 0.42);
   // lamplight {
   const auto instance = value_of(lamp::vulkan::load_instance(vkGetInstanceProcAddr, gpu.instance, VK_API_VERSION_1_3));
   if (const auto lack = lamp::vulkan::check_device(instance, gpu.physical)) throw std::runtime_error(lack->text());
@@ -80,10 +82,9 @@ bool run(const Options& options) {
   const auto device = value_of(lamp::vulkan::make_device(instance, gpu.physical, gpu.device));
   auto culler = value_of(lamp::vulkan::Culler::create(
       device, {.width = SIZE.width, .height = SIZE.height, .light_capacity = LIGHTS, .method = "clustered"}));
-  const double aspect = double{SIZE.width} / SIZE.height;
-  const glm::dmat4 clip_from_view = lamp::perspective(lamp::symmetric_window(0.8, aspect), 0.1, lamp::INFINITE_FAR);
   const lamp::View view = value_of(lamp::View::create(SIZE.width, SIZE.height, clip_from_view, view_from_world()));
   // }
+
   const Push push{glm::mat4(clip_from_view * view_from_world()), LIGHTS};
 
   const std::vector<Box> boxes = make_boxes();

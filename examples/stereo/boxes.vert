@@ -1,0 +1,17 @@
+// The boxes of the scene, for both eyes in one draw call.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_multiview : require
+#include "box.glsl"
+
+layout(push_constant, scalar) uniform Push { mat4 clip_from_world[2]; };
+layout(location = 0) flat out vec4 surface;  // normal, material
+
+void main() {
+  const Box box = boxes[gl_InstanceIndex];
+  const uint vertex = uint(gl_VertexIndex);
+  surface = vec4(box_normal(vertex), float(box.material));
+  gl_Position = clip_from_world[gl_ViewIndex] * vec4(box_position(box, vertex), 1.0);
+}

@@ -1,0 +1,181 @@
+// Two eyes of a headset: both are drawn at once, by multiview, into layers of one image; each is culled with the depth
+// of its layer, and shaded by a compute shader. A Culler is for one view, so each eye has its own.
+// SPDX-License-Identifier: Apache-2.0
+#include <lamplight/vulkan.h>  // lamplight
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <stdexcept>
+
+#include "gpu.h"
+#include "scene.h"
+
+namespace {
+
+constexpr std::uint32_t BOXES[] = {
+#include "boxes.vert.inc"
+};
+constexpr std::uint32_t SURFACE[] = {
+#include "surface.frag.inc"
+};
+constexpr std::uint32_t SHADE[] = {
+#include "shade.comp.inc"
+};
+constexpr std::uint32_t BRUTE_FORCE[] = {
+#include "brute_force.comp.inc"
+};
+
+constexpr VkExtent2D SIZE{200, 180};  // of an eye
+constexpr std::uint32_t LIGHTS = 500;
+constexpr std::uint32_t EYES = 2;
+constexpr std::uint32_t BOTH_EYES = 0b11;
+constexpr VkFormat COLOR = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat DEPTH = VK_FORMAT_D32_SFLOAT;
+
+/// Push constants, as in eye.glsl.
+struct ShadePush {
+  glm::mat4 world_from_clip;
+  glm::uvec2 size_px;
+  std::uint32_t light_count;
+};
+
+struct Eye {
+  glm::dmat4 clip_from_eye, eye_from_world;
+  Buffer culled, brute_force;  ///< pictures
+  Pipeline shade, shade_all;
+};
+
+/// An eye sees more on its outer side. `side`: -1 the left, 1 the right one.
+Eye make_eye(double side) {
+  return {.clip_from_eye = reversed_projection(-0.6 + 0.1 * side, 0.6 + 0.1 * side, -0.55, 0.5),
+          .eye_from_world = glm::translate(glm::dmat4(1.0), {-0.032 * side, 0, 0}) * view_from_world()};
+}
+
+// lamplight {
+template <class T>
+T value_of(lamp::Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().text());
+  return std::move(result.value());
+}
+// }
+
+void shade(VkCommandBuffer commands, const Pipeline& pipeline, const Eye& eye) {
+  const glm::mat4 world_from_clip = glm::inverse(eye.clip_from_eye * eye.eye_from_world);
+  bind(commands, pipeline, ShadePush{world_from_clip, {SIZE.width, SIZE.height}, LIGHTS});
+  vkCmdDispatch(commands, (SIZE.width + 7) / 8, (SIZE.height + 7) / 8, 1);
+}
+
+bool run(const Options& options) {
+  Gpu gpu(options.validate);
+  // lamplight {
+  const auto instance = value_of(lamp::vulkan::load_instance(vkGetInstanceProcAddr, gpu.instance, VK_API_VERSION_1_3));
+  if (const auto lack = lamp::vulkan::check_device(instance, gpu.physical)) throw std::runtime_error(lack->text());
+  lamp::vulkan::RequiredFeatures features;
+  // }
+  VkPhysicalDeviceMultiviewFeatures multiview{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES,
+                                              .pNext = features.base.pNext,
+                                              .multiview = VK_TRUE};
+  features.base.pNext = &multiview;
+  gpu.make_device(features.base);
+
+  // Mesa 22.3 on the processor draws what comes first of the second view into the first one: a box without size.
+  std::vector<Box> boxes = make_boxes();
+  boxes.insert(boxes.begin(), Box{});
+  const Buffer box_buffer = gpu.make_buffer(boxes.size() * sizeof(Box));
+  std::ranges::copy(boxes, box_buffer.as<Box>().begin());
+  const Buffer light_buffer = gpu.make_buffer(LIGHTS * sizeof(HostLight));
+  const Image surfaces = gpu.make_image(
+      {SIZE, COLOR, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, VK_SAMPLE_COUNT_1_BIT, EYES});
+  const Image depths =
+      gpu.make_image({SIZE, DEPTH, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                      VK_SAMPLE_COUNT_1_BIT, EYES});
+  const Pipeline draw =
+      gpu.make_pipeline({.shaders = {{VK_SHADER_STAGE_VERTEX_BIT, BOXES}, {VK_SHADER_STAGE_FRAGMENT_BIT, SURFACE}},
+                         .descriptors = {{.binding = 0, .buffer = box_buffer.handle}},
+                         .colors = {COLOR},
+                         .depth = DEPTH,
+                         .view_mask = BOTH_EYES});
+
+  // lamplight {
+  auto device = value_of(lamp::vulkan::make_device(instance, gpu.physical, gpu.device));
+  lamp::vulkan::PipelineStore store;
+  device.pipelines = &store;
+  const lamp::vulkan::CullerInfo culler_info{
+      .width = SIZE.width,
+      .height = SIZE.height,
+      .light_capacity = LIGHTS,
+      .method = "tight",
+      .light_layout = {.form = lamp::LightForm::spots,
+                       .lights = {.offset = 0, .stride = sizeof(HostLight)},
+                       .cones = {.offset = offsetof(HostLight, direction), .stride = sizeof(HostLight)}}};
+  std::vector<lamp::View> views;
+  std::vector<lamp::vulkan::Culler> cullers;
+  // }
+  std::array eyes{make_eye(-1), make_eye(1)};
+  for (std::uint32_t i = 0; i < EYES; ++i) {
+    Eye& eye = eyes[i];
+    eye.culled = gpu.make_buffer(sizeof(glm::vec4) * SIZE.width * SIZE.height);
+    eye.brute_force = gpu.make_buffer(eye.culled.bytes.size());
+    PipelineInfo info{.shaders = {{VK_SHADER_STAGE_COMPUTE_BIT, BRUTE_FORCE}},
+                      .descriptors = {{.binding = 0, .views = {surfaces.layer_views[i]}},
+                                      {.binding = 1, .views = {depths.layer_views[i]}},
+                                      {.binding = 2, .buffer = light_buffer.handle},
+                                      {.binding = 3, .buffer = eye.brute_force.handle}}};
+    eye.shade_all = gpu.make_pipeline(info);
+    info.shaders = {{VK_SHADER_STAGE_COMPUTE_BIT, SHADE}};
+    info.descriptors[3].buffer = eye.culled.handle;
+    // lamplight {
+    views.push_back(value_of(lamp::View::create(SIZE.width, SIZE.height, eye.clip_from_eye, eye.eye_from_world)));
+    cullers.push_back(value_of(lamp::vulkan::Culler::create(device, culler_info)));
+    const lamp::vulkan::BoundLookUp lookup = cullers[i].lookup();
+    for (const auto& bound : lookup.resources) info.descriptors.push_back({bound.binding, bound.resource.buffer});
+    for (const auto& constant : lookup.constants) info.constants.push_back({constant.id, constant.value});
+    // }
+    eye.shade = gpu.make_pipeline(info);
+  }
+  const std::array<glm::mat4, EYES> clip_from_world{eyes[0].clip_from_eye * eyes[0].eye_from_world,
+                                                    eyes[1].clip_from_eye * eyes[1].eye_from_world};
+
+  bool same = true;
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    std::ranges::copy(make_lights(LIGHTS, frame), light_buffer.as<HostLight>().begin());
+    gpu.submit(gpu.graphics, [&](VkCommandBuffer commands) {
+      for (const Image& image : {surfaces, depths})
+        transition(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL);
+      begin_rendering(commands, {.colors = {surfaces}, .depth = depths, .view_mask = BOTH_EYES});
+      bind(commands, draw, clip_from_world);
+      vkCmdDraw(commands, 36, static_cast<std::uint32_t>(boxes.size()), 0, 0);
+      vkCmdEndRendering(commands);
+      for (const Image& image : {surfaces, depths})
+        transition(commands, image, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+      // lamplight {
+      for (std::uint32_t i = 0; i < EYES; ++i)
+        value_of(cullers[i].record(commands, {.view = &views[i],
+                                              .lights = light_buffer.handle,
+                                              .cones = light_buffer.handle,
+                                              .light_count = LIGHTS,
+                                              .depth_image = depths.handle,
+                                              .depth_view = depths.layer_views[i]}));
+      // }
+      for (const Eye& eye : eyes) {
+        shade(commands, eye.shade, eye);
+        shade(commands, eye.shade_all, eye);
+      }
+    });
+    gpu.wait();
+    for (const Eye& eye : eyes)
+      same = compare(eye.culled.as<glm::vec4>(), eye.brute_force.as<glm::vec4>(), 1e-4F) && same;
+  }
+  std::vector<glm::vec4> both;  // one above the other
+  for (const Eye& eye : eyes)
+    both.insert(both.end(), eye.culled.as<glm::vec4>().begin(), eye.culled.as<glm::vec4>().end());
+  write_picture(options, SIZE.width, both);
+  return same && gpu.quiet();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_example(argc, argv, run); }
