@@ -102,7 +102,9 @@ void Gpu::make_device(const VkPhysicalDeviceFeatures2& features, std::span<const
                                 .pQueueCreateInfos = queues.data(),
                                 .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                 .ppEnabledExtensionNames = extensions.data()};
-  check(vkCreateDevice(physical, &info, nullptr, &device), "creating a device");
+  const VkResult result = vkCreateDevice(physical, &info, nullptr, &device);
+  if (result == VK_ERROR_FEATURE_NOT_PRESENT) throw LacksFeature("the device lacks a feature that this example shows");
+  check(result, "creating a device");
   graphics = compute = make_queue(device, drawing);
   if (computing < count) compute = make_queue(device, computing);
 }

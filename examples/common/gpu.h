@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,10 @@ struct Queue {
   VkQueue handle = VK_NULL_HANDLE;
   std::uint32_t family = 0;
   VkCommandPool pool = VK_NULL_HANDLE;
+};
+
+struct LacksFeature : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Owns the device and all that was made with it. Throws std::runtime_error.

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "gpu.h"
+
 std::vector<Box> make_boxes() {
   std::vector<Box> boxes{{{0, -0.5F, 0}, 0, {14, 0.5F, 14}, 0}};
   for (int z = 0; z < 8; ++z)
@@ -99,6 +101,9 @@ int run_example(int argc, char** argv, bool (*run)(const Options& options)) {
         throw std::runtime_error("usage: [--validate] [--ppm FILE], got " + std::string(argument));
     }
     return run(options) ? 0 : 1;
+  } catch (const LacksFeature& error) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+    return 77;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
     return 1;

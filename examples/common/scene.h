@@ -48,5 +48,5 @@ struct Options {
 /// Encodes to sRGB and writes the file that the options name, if they do.
 void write_picture(const Options& options, std::uint32_t width, Pixels pixels);
 
-/// Reads the options, calls `run`, prints what it throws. Exit code 0: it returned true.
+/// Reads the options, calls `run`, prints what it throws. Exit code 0: it returned true; 77: LacksFeature.
 int run_example(int argc, char** argv, bool (*run)(const Options& options));

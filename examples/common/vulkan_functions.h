@@ -12,7 +12,7 @@
 #define FOR_DEVICE_FUNCTIONS(F) \
   F(vkAllocateCommandBuffers) F(vkAllocateDescriptorSets) F(vkAllocateMemory) F(vkBeginCommandBuffer) \
   F(vkBindBufferMemory) F(vkBindImageMemory) F(vkCmdBeginRendering) F(vkCmdBindDescriptorSets) F(vkCmdBindPipeline) \
-  F(vkCmdCopyImageToBuffer) F(vkCmdDispatch) F(vkCmdDraw) F(vkCmdEndRendering) F(vkCmdFillBuffer) \
+  F(vkCmdCopyBufferToImage) F(vkCmdCopyImageToBuffer) F(vkCmdDispatch) F(vkCmdDraw) F(vkCmdEndRendering) F(vkCmdFillBuffer) \
   F(vkCmdPipelineBarrier2) F(vkCmdPushConstants) F(vkCmdSetScissor) F(vkCmdSetViewport) F(vkCreateBuffer) \
   F(vkCreateCommandPool) F(vkCreateComputePipelines) F(vkCreateDescriptorPool) F(vkCreateDescriptorSetLayout) \
   F(vkCreateGraphicsPipelines) F(vkCreateImage) F(vkCreateImageView) F(vkCreatePipelineLayout) F(vkCreateSemaphore) \
