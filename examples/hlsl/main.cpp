@@ -1,10 +1,7 @@
 // Forward shading in HLSL, with Lamplight's 64-byte light records and a method that needs no depth: the least that an
 // engine with HLSL shaders has to do. Three frames of moving lights, each compared with a picture from all lights.
 // SPDX-License-Identifier: Apache-2.0
-// lamplight {
-#include <lamplight/light.h>
-#include <lamplight/vulkan.h>
-// }
+#include <lamplight/vulkan.h>  // lamplight
 
 #include <algorithm>
 #include <cstdio>

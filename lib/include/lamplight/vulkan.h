@@ -1,7 +1,10 @@
-// Lamplight for Vulkan 1.3: device requirements, the Culler, and below it plan runner, recorder, pipelines, buffers.
+// Lamplight for Vulkan 1.3: lights and views, device requirements, the Culler, and below it plan runner, recorder,
+// pipelines, buffers.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lamplight/light.h"                       // IWYU pragma: export
+#include "lamplight/view.h"                        // IWYU pragma: export
 #include "lamplight/vulkan/buffer.h"               // IWYU pragma: export
 #include "lamplight/vulkan/culler.h"               // IWYU pragma: export
 #include "lamplight/vulkan/descriptor_sets.h"      // IWYU pragma: export
