@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <charconv>
-#include <numeric>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "lamplight/shader_code.h"
 #include "render/shader_library.h"
@@ -35,6 +34,10 @@ constexpr glm::uvec2 FEWER_SIZES[] = {{1, 1}, {65, 63}, {1920, 1080}, {16384, 16
 constexpr std::uint32_t CAPACITIES[] = {0, 1, 31, 32, 33, 512, 513, 4096, 65536, 1000000, 1 << 21, 1 << 22, 1 << 24};
 
 Options defaults_of(const Method& method) { return lamp::resolve_options(method, {}).value(); }
+
+Problem ordinary_problem(Options options, const DeviceTraits& traits = LARGE_DEVICE) {
+  return {.width = 640, .height = 360, .light_capacity = 100, .options = std::move(options), .traits = traits};
+}
 
 /// The defaults, and each option alone at each of its values.
 std::vector<std::vector<std::string>> settings_of(const Method& method) {
@@ -121,8 +124,7 @@ TEST_P(EveryMethod, PlansWithItsDefaultsAsItsRowSays) {
   const bool scalar = has_walks && defaults.word("walk") != "plain";
   for (const DeviceTraits& traits : {LARGE_DEVICE, LARGE_PLAIN_DEVICE}) {
     if (needs_subgroups(method) && traits.compute_subgroups == SubgroupOperations{}) continue;
-    const auto made = lamp::make_plan(
-        method, {.width = 640, .height = 360, .light_capacity = 100, .options = defaults, .traits = traits});
+    const auto made = lamp::make_plan(method, ordinary_problem(defaults, traits));
     ASSERT_TRUE(made) << made.error().text();
     EXPECT_EQ(made.value().lookup.name,
               std::string(method.result) + (scalar && traits.compute_subgroups.arithmetic ? "_scalar" : ""));
@@ -134,11 +136,7 @@ TEST_P(EveryMethod, PlansWithItsDefaultsAsItsRowSays) {
 
 TEST_P(EveryMethod, ReadsDepthExactlyIfItsRowSaysSo) {
   const Method& method = *GetParam();
-  const Plan plan =
-      lamp::make_plan(
-          method,
-          {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE})
-          .value();
+  const Plan plan = lamp::make_plan(method, ordinary_problem(defaults_of(method))).value();
   EXPECT_EQ(plan.binds(lamp::INPUT_DEPTH), method.needs_depth);
   EXPECT_EQ(std::ranges::find(plan.lookup.bindings, lamp::INPUT_DEPTH, &lamp::Binding::resource),
             plan.lookup.bindings.end())
@@ -148,8 +146,7 @@ TEST_P(EveryMethod, ReadsDepthExactlyIfItsRowSaysSo) {
 // A host that keeps no spheres gets a plan that makes them, in front of everything that reads them.
 TEST_P(EveryMethod, MakesSpheresOfItsOwnExactlyIfItReadsAny) {
   const Method& method = *GetParam();
-  Problem problem{
-      .width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE};
+  Problem problem = ordinary_problem(defaults_of(method));
   const Plan brought = lamp::make_plan(method, problem).value();
   problem.own_spheres = true;
   const Plan own = lamp::make_plan(method, problem).value();
@@ -166,8 +163,7 @@ TEST_P(EveryMethod, MakesSpheresOfItsOwnExactlyIfItReadsAny) {
 // A host that keeps no records of 64 bytes gets a plan that makes them, and none where only spheres are read.
 TEST_P(EveryMethod, MakesRecordsOfItsOwnExactlyIfItReadsAny) {
   const Method& method = *GetParam();
-  Problem problem{
-      .width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE};
+  Problem problem = ordinary_problem(defaults_of(method));
   const Plan standard = lamp::make_plan(method, problem).value();
   const bool reads = standard.binds(lamp::INPUT_LIGHTS);
   for (const lamp::LightForm form : {lamp::LightForm::record, lamp::LightForm::points, lamp::LightForm::spots}) {
@@ -188,11 +184,7 @@ TEST_P(EveryMethod, MakesRecordsOfItsOwnExactlyIfItReadsAny) {
 // No look-up reads a light: an engine's shader needs nothing of them but its own.
 TEST_P(EveryMethod, LooksLightsUpWithoutReadingThem) {
   const Method& method = *GetParam();
-  const Plan plan =
-      lamp::make_plan(
-          method,
-          {.width = 640, .height = 360, .light_capacity = 100, .options = defaults_of(method), .traits = LARGE_DEVICE})
-          .value();
+  const Plan plan = lamp::make_plan(method, ordinary_problem(defaults_of(method))).value();
   for (const lamp::ResourceId input : {lamp::INPUT_LIGHTS, lamp::INPUT_CONES, lamp::INPUT_SPHERES})
     EXPECT_EQ(std::ranges::find(plan.lookup.bindings, input, &lamp::Binding::resource), plan.lookup.bindings.end());
 }
@@ -324,9 +316,7 @@ TEST(Methods, CombinationsThatMakeNoSenseAreRefusedWithTheReason) {
   for (const auto& [settings, source, reason] : refusals) {
     const auto options = lamp::resolve_options(tiled, settings);
     ASSERT_TRUE(options);
-    const auto plan = lamp::make_plan(
-        tiled,
-        {.width = 640, .height = 360, .light_capacity = 100, .options = options.value(), .traits = LARGE_DEVICE});
+    const auto plan = lamp::make_plan(tiled, ordinary_problem(options.value()));
     ASSERT_FALSE(plan) << settings.front() << " " << settings.back();
     EXPECT_NE(plan.error().text().find(source), std::string::npos) << plan.error().text();
     EXPECT_NE(plan.error().text().find(reason), std::string::npos) << plan.error().text();
@@ -354,33 +344,6 @@ TEST(Methods, AnUnknownNameBringsTheNearest) {
   EXPECT_FALSE(lamp::find_method("Tiled")) << "names are exact";
 }
 
-TEST(Options, HoldDefaultsAndWhatWasSet) {
-  const Method& tiled = *lamp::find_method("tiled").value();
-  EXPECT_EQ(lamp::resolve_options(tiled, {}).value().integer("tile"), 16U);
-  const auto set = lamp::resolve_options(tiled, {"tile=8", "tile=32"});
-  ASSERT_TRUE(set);
-  EXPECT_EQ(set.value().integer("tile"), 32U) << "the last setting counts";
-  EXPECT_EQ(set.value().word("tile"), "32");
-}
-
-TEST(Options, AnUnknownKeyBringsTheKnownOnes) {
-  const auto options = lamp::resolve_options(*lamp::find_method("tiled").value(), {"tle=8"});
-  ASSERT_FALSE(options);
-  EXPECT_EQ(options.error().source, "option 'tle'");
-  EXPECT_TRUE(options.error().message.starts_with("method tiled has the options tile, ")) << options.error().message;
-  const auto none = lamp::resolve_options(*lamp::find_method("all").value(), {"tile=8"});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().text(), "option 'tile': method all has no options");
-}
-
-TEST(Options, AKeyWithoutAValueIsAnError) {
-  for (const char* setting : {"tile", "", "tile:8"}) {
-    const auto options = lamp::resolve_options(*lamp::find_method("tiled").value(), {setting});
-    ASSERT_FALSE(options) << setting;
-    EXPECT_EQ(options.error().text(), "option '" + std::string(setting) + "': expected KEY=VALUE");
-  }
-}
-
 TEST(MakePlan, RefusesSizesAndCapacitiesThatNoDeviceHas) {
   const Method& all = *lamp::find_method("all").value();
   const auto text = [&](std::uint32_t width, std::uint32_t height, std::uint32_t lights, const DeviceTraits& traits) {
@@ -400,19 +363,6 @@ TEST(MakePlan, RefusesSizesAndCapacitiesThatNoDeviceHas) {
   EXPECT_EQ(text(1, 1, lamp::MAX_LIGHTS + 1, LARGE_DEVICE), "light capacity: expected at most 16777216, got 16777217");
   EXPECT_EQ(text(1, 1, lamp::MAX_LIGHTS, LEAST_DEVICE),
             "method all: light buffer: needs 1073741824 bytes, the device's storage buffers hold at most 134217728");
-}
-
-TEST(NearestNames, AreOrderedByEditsThenByName) {
-  constexpr std::string_view NAMES[] = {"clustered", "tiled-bits", "tiled", "all"};
-  using Names = std::vector<std::string>;
-  EXPECT_EQ(lamp::nearest_names("tiled", NAMES), (Names{"tiled", "all", "tiled-bits"}));
-  EXPECT_EQ(lamp::nearest_names("clusterd", NAMES, 1), Names{"clustered"});
-  EXPECT_EQ(lamp::nearest_names("", NAMES, 2), (Names{"all", "tiled"})) << "every letter is an edit";
-  EXPECT_EQ(lamp::nearest_names("bbb", std::span(NAMES).first(0)), Names{});
-  EXPECT_EQ(lamp::nearest_names("x", NAMES, 0), Names{});
-  EXPECT_EQ(lamp::nearest_names("x", NAMES, 9).size(), 4U);
-  constexpr std::string_view TIES[] = {"b", "c", "a"};
-  EXPECT_EQ(lamp::nearest_names("x", TIES), (Names{"a", "b", "c"}));
 }
 
 }  // namespace
