@@ -124,9 +124,10 @@ VkDeviceMemory Gpu::allocate(const VkMemoryRequirements& needs, VkMemoryProperty
   VkPhysicalDeviceMemoryProperties memory{};
   vkGetPhysicalDeviceMemoryProperties(physical, &memory);
   std::uint32_t type = 0;
-  while (type + 1 < memory.memoryTypeCount && ((needs.memoryTypeBits >> type & 1U) == 0 ||
-                                               (memory.memoryTypes[type].propertyFlags & properties) != properties))
+  while (type < memory.memoryTypeCount && ((needs.memoryTypeBits >> type & 1U) == 0 ||
+                                           (memory.memoryTypes[type].propertyFlags & properties) != properties))
     ++type;
+  if (type == memory.memoryTypeCount) throw std::runtime_error("the device has no such memory");
   const VkMemoryAllocateInfo info{
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type};
   VkDeviceMemory allocated = VK_NULL_HANDLE;
