@@ -144,7 +144,7 @@ struct Context::Messages {
     const std::string_view text(data->pMessage);
     const std::string_view id(data->pMessageIdName == nullptr ? "" : data->pMessageIdName);
     // Layers since 1.4 leave the name out of the text.
-    messages.lines.push_back(text.find(id) != text.npos ? std::string(text) : fmt::format("[{}] {}", id, text));
+    messages.lines.push_back(text.find(id) != std::string_view::npos ? std::string(text) : fmt::format("[{}] {}", id, text));
     return VK_FALSE;
   }
 };

@@ -26,9 +26,9 @@ std::uint64_t key_of(const Resource& resource) {
 template <class Function>
 void for_each_writes(std::span<const Bound> resources, VkDescriptorSet set, Function function) {
   constexpr std::size_t MOST = 16;
-  std::array<VkDescriptorBufferInfo, MOST> buffers;
-  std::array<VkDescriptorImageInfo, MOST> images;
-  std::array<VkWriteDescriptorSet, MOST> writes;
+  std::array<VkDescriptorBufferInfo, MOST> buffers{};
+  std::array<VkDescriptorImageInfo, MOST> images{};
+  std::array<VkWriteDescriptorSet, MOST> writes{};
   while (!resources.empty()) {
     const std::size_t count = std::min(resources.size(), MOST);
     for (std::size_t i = 0; i < count; ++i) {
