@@ -13,6 +13,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/stats.h"
+#include "commands/view_state.h"
 #include "files/read_json.h"
 #include "image/write_file.h"
 #include "render/antialias.h"
@@ -22,14 +23,12 @@ namespace lamp::app {
 namespace {
 
 struct RenderOptions {
-  Request request;
+  ViewState state{.samples = 0};  ///< samples: 0: as many as the scene allows and are worth the time
   std::string out = "lamp.png";
   std::string heatmap;
   std::string overlay;
   std::string stats;
-  std::string exposure = "auto";
   std::uint32_t frames = 0;
-  std::uint32_t samples = 0;  ///< 0: as many as the scene allows and are worth the time
   bool json = false;
 };
 
@@ -89,22 +88,23 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
 
 /// Samples a pixel. A captured frame has what its depth buffer has, one.
 std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
-  if (!scene.captured) return o.samples == 0 ? 4 : o.samples;
-  if (o.samples > 1)
-    throw Error(fmt::format("--samples: got {}, but a captured frame has one sample a pixel", o.samples));
+  if (!scene.captured) return o.state.samples == 0 ? 4 : o.state.samples;
+  if (o.state.samples > 1)
+    throw Error(fmt::format("--samples: got {}, but a captured frame has one sample a pixel", o.state.samples));
   return 1;
 }
 
 Exit render(const RenderOptions& o) {
   check_outputs(o);
-  const ShadingPath path = parse_path(o.request.path);
-  check_request(o.request, o.request.method);
-  const std::optional<float> exposure = parse_exposure(o.exposure);
-  const Setup setup = make_setup(o.request);
+  const ShadingPath path = parse_path(o.state.request.path);
+  check_request(o.state.request, o.state.request.method);
+  const std::optional<float> exposure = parse_exposure(o.state.exposure);
+  const Setup setup = make_setup(o.state);
   const std::uint32_t samples = sample_count(o, setup.scene);
   for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
-  Session session(o.request, setup);
-  const MethodChoice chosen = chosen_methods(session, setup, o.request, {&o.request.method, 1}, o.json).front();
+  Session session(o.state.request, setup);
+  const MethodChoice chosen =
+      chosen_methods(session, setup, o.state.request, {&o.state.request.method, 1}, o.json).front();
   Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
   const bool software = session.context().software();
   const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
@@ -118,7 +118,7 @@ Exit render(const RenderOptions& o) {
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
-  Stats stats = make_stats(o.request, session, lighting, setup, std::move(rendered), frames);
+  Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), frames);
   set_walked(stats, visits);
   const std::vector<std::uint32_t> counts = walked_lights(visits);
   const std::string title = fmt::format("{}, {} lights", chosen.method->name, stats.lights);
@@ -143,18 +143,9 @@ Exit render(const RenderOptions& o) {
 Run add_render(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render a picture, a heat map, and the times of a frame");
   auto o = std::make_shared<RenderOptions>();
-  add_common_options(*command, o->request);
-  command
-      ->add_option("--method", o->request.method,
-                   "culling method (lamp list methods), or auto: the one expected to be fastest")
-      ->type_name("NAME")
-      ->group("Method")
-      ->capture_default_str();
-  add_option_option(*command, o->request);
-  add_path_option(*command, o->request);
-  add_grow_option(*command, o->request);
-  add_auto_options(*command, o->request);
-  add_decal_option(*command, o->request);
+  add_state_option(*command, o->state);
+  add_common_options(*command, o->state.request);
+  add_picture_options(*command, o->state.request);
   add_out_option(*command, o->out, "write the picture to this file, .png or .exr");
   const auto add_output = [&](const char* name, std::string& file, const char* help) {
     command->add_option(name, file, help)->type_name("FILE")->group("Output");
@@ -163,12 +154,9 @@ Run add_render(CLI::App& app) {
   add_output("--overlay", o->overlay, "write the heat map blended over the picture, .png");
   add_output("--stats", o->stats, "write the numbers, .json");
   add_json_flag(*command, o->json, "print the numbers as JSON");
-  command->add_option("--exposure", o->exposure, "factor of the picture's brightness, or auto: from its surfaces")
-      ->type_name("FACTOR")
-      ->group("View")
-      ->capture_default_str();
+  add_exposure_option(*command, o->state.exposure);
   command
-      ->add_option("--samples", o->samples,
+      ->add_option("--samples", o->state.samples,
                    "samples of each pixel in the picture; numbers and heat maps show the first; default: 4, for a "
                    "capture 1")
       ->check(whole_number(1, 1024))

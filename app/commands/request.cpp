@@ -39,13 +39,6 @@ std::string range_note(std::span<const Light> lights) {
   return fmt::format(" (range {:.2f} to {:.2f} m)", low.range, high.range);
 }
 
-void check_scene_lights(const Request& request, const Scene& scene) {
-  if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
-  if (scene.lights.size() + request.lights > MAX_LIGHTS)
-    throw Error(fmt::format("--lights {}: with the {} of the scene {}, expected at most {} together", request.lights,
-                            scene.lights.size(), scene.name, MAX_LIGHTS));
-}
-
 /// A capture is one view. What asks for another is an error.
 View captured_view(const Request& request, const Scene& scene) {
   const View& view = scene.captured->view;
@@ -58,14 +51,8 @@ View captured_view(const Request& request, const Scene& scene) {
                             request.projection, request.scene));
   static_cast<void>(find_camera(scene, request.camera));
   if (request.frame >= 0) throw Error(fmt::format("--frame: the capture {} is one frame", request.scene));
+  if (request.free_camera) throw Error(fmt::format("camera: the capture {} has its own, expected none", request.scene));
   return view;
-}
-
-View requested_view(const Request& request, const Scene& scene) {
-  if (scene.captured) return captured_view(request, scene);
-  const glm::uvec2 size = parse_size(request.size);
-  if (request.frame < 0) return view_of(find_camera(scene, request.camera), size.x, size.y, request.projection);
-  return view_of(frame_camera(scene, request.frame), size.x, size.y, request.projection);
 }
 
 /// A capture holds no surfaces to lie on but those that its pixels show, with the decals that were there.
@@ -81,7 +68,41 @@ void add_decals(const Request& request, Setup& setup) {
   setup.decals_note = fmt::format("{} of the scene + {} generated", own, decals.size() - own);
 }
 
+PlaceLights light_placement(const Request& request, const Scene& scene) {
+  const auto [min_range, max_range] = parse_range(request.range);
+  const int frame = request.light_frame >= 0 ? request.light_frame : std::max(0, request.frame);
+  return {.count = scene.captured && !request.lights_given ? 0 : request.lights,
+          .spots = request.spots,
+          .min_range = min_range,
+          .max_range = max_range,
+          .seed = request.seed,
+          .frame = static_cast<std::uint32_t>(frame),
+          .frames = scene.flight ? scene.flight->frames : 300};
+}
+
 }  // namespace
+
+void check_scene_lights(const Request& request, const Scene& scene) {
+  if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
+  if (scene.lights.size() + request.lights > MAX_LIGHTS)
+    throw Error(fmt::format("--lights {}: with the {} of the scene {}, expected at most {} together", request.lights,
+                            scene.lights.size(), scene.name, MAX_LIGHTS));
+}
+
+View requested_view(const Request& request, const Scene& scene) {
+  if (scene.captured) return captured_view(request, scene);
+  const glm::uvec2 size = parse_size(request.size);
+  if (request.free_camera && request.frame >= 0)
+    throw Error(fmt::format("--frame {}: the camera is a free one, expected no frame of the flight", request.frame));
+  const Camera camera = request.free_camera  ? camera_of(*request.free_camera)
+                        : request.frame >= 0 ? frame_camera(scene, request.frame)
+                                             : find_camera(scene, request.camera);
+  return view_of(camera, size.x, size.y, request.projection);
+}
+
+std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air) {
+  return place_lights(air, light_placement(request, scene));
+}
 
 glm::uvec2 parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
@@ -182,20 +203,12 @@ Scene load_scene(const std::string& name) {
 }
 
 Setup make_setup(const Request& request) {
-  const auto [min_range, max_range] = parse_range(request.range);
+  static_cast<void>(parse_range(request.range));
   Setup setup;
   setup.scene = load_scene(request.scene);
   check_scene_lights(request, setup.scene);
   setup.view = requested_view(request, setup.scene);
-
-  setup.generated =
-      place_lights(setup.scene, {.count = setup.scene.captured && !request.lights_given ? 0 : request.lights,
-                                 .spots = request.spots,
-                                 .min_range = min_range,
-                                 .max_range = max_range,
-                                 .seed = request.seed,
-                                 .frame = static_cast<std::uint32_t>(std::max(0, request.frame)),
-                                 .frames = setup.scene.flight ? setup.scene.flight->frames : 300});
+  setup.generated = place_lights(setup.scene, light_placement(request, setup.scene));
   setup.lights = pack(setup.scene.lights);
   const std::vector<shared::Light> packed = pack(setup.generated);
   setup.lights.insert(setup.lights.end(), packed.begin(), packed.end());

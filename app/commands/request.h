@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "error.h"
 #include "render/renderer.h"
 #include "render/verification.h"
+#include "scene/free_camera.h"
+#include "scene/open_air.h"
 #include "scene/scene.h"
 
 namespace CLI {
@@ -35,7 +38,9 @@ struct Request {
   std::string path = "deferred";
   std::string brdf = "ggx";
   std::string camera;
-  int frame = -1;  ///< of the flight; -1: the camera
+  int frame = -1;                         ///< of the flight; -1: the camera
+  int light_frame = -1;                   ///< of the generated lights' paths; -1: as the flight's
+  std::optional<FreeCamera> free_camera;  ///< in place of the camera; not with a frame of the flight
   std::string projection = "camera";
   std::string device;
   std::string shader_dir;
@@ -49,6 +54,9 @@ struct Request {
 void add_common_options(CLI::App& command, Request& request);
 /// Adds `--method` for several methods; `help` says what is done with them.
 void add_method_option(CLI::App& command, std::vector<std::string>& methods, const std::string& help);
+/// Adds `--method` for one method or auto, and what goes with it: `--option`, `--path`, `--grow`, `--explain`,
+/// `--calibration`, `--decals`.
+void add_picture_options(CLI::App& command, Request& request);
 /// Adds `--option`.
 void add_option_option(CLI::App& command, Request& request);
 /// Adds `--path`.
@@ -82,6 +90,13 @@ struct Setup {
   std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
 };
 [[nodiscard]] Setup make_setup(const Request& request);
+
+/// The parts of a Setup, for who keeps a scene from frame to frame. Throw Error for what the scene does not have.
+[[nodiscard]] View requested_view(const Request& request, const Scene& scene);
+/// The generated lights. `air`: the scene's.
+[[nodiscard]] std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air);
+/// The scene's lights and the generated ones are few enough, and as lights must be.
+void check_scene_lights(const Request& request, const Scene& scene);
 
 /// The scene of a name, a file or a capture's folder. Throws Error with the nearest names.
 [[nodiscard]] Scene load_scene(const std::string& name);

@@ -102,6 +102,19 @@ void add_method_option(CLI::App& command, std::vector<std::string>& methods, con
       ->group("Method");
 }
 
+void add_picture_options(CLI::App& command, Request& r) {
+  command
+      .add_option("--method", r.method, "culling method (lamp list methods), or auto: the one expected to be fastest")
+      ->type_name("NAME")
+      ->group("Method")
+      ->capture_default_str();
+  add_option_option(command, r);
+  add_path_option(command, r);
+  add_grow_option(command, r);
+  add_auto_options(command, r);
+  add_decal_option(command, r);
+}
+
 void add_option_option(CLI::App& command, Request& r) {
   command
       .add_option("--option", r.options,

@@ -1,0 +1,90 @@
+// What a viewer shows, as one plain value: the command line, files, scripts and widgets all read and write this.
+// Promise: a state that was written and read again is equal, and what the two show is the same bit for bit.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/request.h"
+
+namespace lamp::app {
+
+/// What is laid over the picture.
+enum class Overlay : std::uint8_t {
+  none,
+  heat,         ///< lights that each pixel walks
+  cells,        ///< a colour for each cell
+  depth_range,  ///< how deep the surfaces of a cell's pixels reach from front to back
+  overflow,     ///< cells that did not fit, in a signal colour
+};
+/// "none", "heat", "cells", "depth-range", "overflow", in the order of Overlay.
+[[nodiscard]] std::span<const std::string_view> overlay_names();
+
+/// Colours of the heat map.
+enum class Palette : std::uint8_t { rainbow, blue_yellow, grey };
+/// "rainbow", "blue-yellow", "grey", in the order of Palette.
+[[nodiscard]] std::span<const std::string_view> palette_names();
+
+/// Which lights are drawn where they are.
+enum class LightMarks : std::uint8_t { none, cell, all };
+/// "none", "cell", "all", in the order of LightMarks.
+[[nodiscard]] std::span<const std::string_view> light_mark_names();
+
+/// A light of the frame (the scene's, then the generated ones) that is another than the request makes it.
+struct LightEdit {
+  std::uint32_t light = 0;
+  Light value;
+};
+
+/// A second method beside the first, right of a line through the picture.
+struct Against {
+  std::string method = "all";
+  std::vector<std::string> options;  ///< KEY=VALUE
+  float divider = 0.5F;              ///< where the line is, of the width
+
+  friend bool operator==(const Against&, const Against&) = default;
+};
+
+struct ViewState {
+  Request request;                ///< scene, camera, lights, method, shading: what `lamp render` takes
+  std::string exposure = "auto";  ///< or a factor
+  std::uint32_t samples = 1;      ///< of a pixel, in pictures that are saved
+  std::vector<LightEdit> edits;
+  float resolution = 0.0F;  ///< of what is shown, over the size asked for; 0: what the device can do in time
+  bool paused = false;
+  float speed = 1.0F;  ///< frames of the flight per frame at 30 a second
+  Overlay overlay = Overlay::none;
+  Palette palette = Palette::rainbow;
+  LightMarks light_marks = LightMarks::none;
+  std::optional<glm::uvec2> picked;  ///< pixel that is looked into, of the size asked for
+  std::optional<Against> against;
+  bool panels = true;
+  bool help = false;
+};
+
+/// Adds `--state FILE`, whose state is read into `state`; options that are added behind it change that.
+void add_state_option(CLI::App& command, ViewState& state);
+/// Adds `--exposure`.
+void add_exposure_option(CLI::App& command, std::string& exposure);
+
+/// Throws Error for whatever is wrong without a look at the scene: as `check_request`, and the rest.
+void check_state(const ViewState& state);
+
+[[nodiscard]] nlohmann::json to_json(const ViewState& state);
+/// Sets what the object has; the rest stays as it was. Throws Error: `name` (of the file), the element, what was
+/// expected; then the state is as it was.
+void read_state(ViewState& state, const nlohmann::json& json, const std::string& name);
+[[nodiscard]] ViewState load_state(const std::filesystem::path& file);
+void save_state(const std::filesystem::path& file, const ViewState& state);
+
+/// As `make_setup` of the request, with the lights that were changed.
+[[nodiscard]] Setup make_setup(const ViewState& state);
+/// Puts the changed lights into those of a frame. Throws Error for a light that there is not, or that no light can be.
+void apply_edits(const ViewState& state, std::span<shared::Light> lights);
+
+}  // namespace lamp::app

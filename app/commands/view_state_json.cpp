@@ -1,0 +1,332 @@
+// A viewer's state as a JSON object. One list of its members serves reading, writing and the check of keys.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "commands/command_line.h"
+#include "commands/view_state.h"
+#include "files/json_values.h"
+#include "files/read_file.h"
+#include "files/read_json.h"
+#include "image/image.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t VERSION = 1;
+constexpr float LARGEST = std::numeric_limits<float>::max();
+constexpr std::string_view POINT = "point";
+constexpr std::string_view SPOT = "spot";
+
+/// Every member by its key, with what it may be. What `Fields` does with it: read, write, or note the key.
+template <class Fields, class State>
+void for_each_field(Fields&& at, State& s) {
+  auto& r = s.request;
+  at.text("scene", r.scene);
+  at.text_if("size", r.size, r.size_given);
+  at.whole_if("lights", r.lights, MAX_LIGHTS, r.lights_given);
+  at.real("spots", r.spots, 0.0F, 1.0F);
+  at.text("range", r.range);
+  at.whole("decals", r.decals, 0, 65536);
+  at.seed("seed", r.seed);
+  at.text("method", r.method);
+  at.settings("options", r.options);
+  at.text("path", r.path);
+  at.text("brdf", r.brdf);
+  at.text("camera", r.camera);
+  at.moment("frame", r.frame);
+  at.moment("light_frame", r.light_frame);
+  at.camera("free_camera", r.free_camera);
+  at.text("projection", r.projection);
+  at.flag("grow", r.grow);
+  at.text("exposure", s.exposure);
+  at.whole("samples", s.samples, 1, 1024);
+  at.edits("edits", s.edits);
+  at.real("resolution", s.resolution, 0.0F, 1.0F);
+  at.flag("paused", s.paused);
+  at.real("speed", s.speed, -100.0F, 100.0F);
+  at.word("overlay", s.overlay, overlay_names());
+  at.word("palette", s.palette, palette_names());
+  at.word("light_marks", s.light_marks, light_mark_names());
+  at.pixel("picked", s.picked);
+  at.against("against", s.against);
+  at.flag("panels", s.panels);
+  at.flag("help", s.help);
+}
+
+/// Notes all keys.
+struct Keys {
+  std::vector<std::string_view> keys{"version"};
+
+  void text(std::string_view key, const auto&) { keys.push_back(key); }
+  void text_if(std::string_view key, const auto&, const auto&) { keys.push_back(key); }
+  void whole(std::string_view key, const auto&, std::uint32_t, std::uint32_t) { keys.push_back(key); }
+  void whole_if(std::string_view key, const auto&, std::uint32_t, const auto&) { keys.push_back(key); }
+  void real(std::string_view key, const auto&, float, float) { keys.push_back(key); }
+  void word(std::string_view key, const auto&, const auto&) { keys.push_back(key); }
+  void seed(std::string_view key, const auto& v) { text(key, v); }
+  void settings(std::string_view key, const auto& v) { text(key, v); }
+  void moment(std::string_view key, const auto& v) { text(key, v); }
+  void camera(std::string_view key, const auto& v) { text(key, v); }
+  void flag(std::string_view key, const auto& v) { text(key, v); }
+  void edits(std::string_view key, const auto& v) { text(key, v); }
+  void pixel(std::string_view key, const auto& v) { text(key, v); }
+  void against(std::string_view key, const auto& v) { text(key, v); }
+};
+
+nlohmann::json settings_json(const std::vector<std::string>& settings) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    json[setting.substr(0, equals)] = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  }
+  return json;
+}
+
+nlohmann::json vector_json(const auto& v) { return {v.x, v.y, v.z}; }
+
+nlohmann::json light_json(const LightEdit& edit) {
+  const Light& l = edit.value;
+  nlohmann::json json{{"light", edit.light},
+                      {"type", l.type == LightType::spot ? SPOT : POINT},
+                      {"position", vector_json(l.position)},
+                      {"color", vector_json(l.color)},
+                      {"intensity", l.intensity}};
+  if (std::isfinite(l.range)) json["range"] = l.range;
+  if (l.type == LightType::spot)
+    json.update(
+        {{"direction", vector_json(l.direction)}, {"inner_angle", l.inner_angle}, {"outer_angle", l.outer_angle}});
+  return json;
+}
+
+struct Writer {
+  nlohmann::json json{{"version", VERSION}};
+
+  void text(std::string_view key, const auto& value) { json[key] = value; }
+  void text_if(std::string_view key, const auto& value, bool given) {
+    if (given) json[key] = value;
+  }
+  void whole(std::string_view key, const auto& value, std::uint32_t, std::uint32_t) { json[key] = value; }
+  void whole_if(std::string_view key, const auto& value, std::uint32_t, bool given) {
+    if (given || value != Request().lights) json[key] = value;
+  }
+  void real(std::string_view key, float value, float, float) { json[key] = value; }
+  void word(std::string_view key, const auto& value, std::span<const std::string_view> names) {
+    json[key] = names[static_cast<std::size_t>(value)];
+  }
+  void seed(std::string_view key, std::uint64_t value) { json[key] = value; }
+  void flag(std::string_view key, bool value) { json[key] = value; }
+  void settings(std::string_view key, const std::vector<std::string>& value) { json[key] = settings_json(value); }
+  void moment(std::string_view key, int value) { json[key] = value < 0 ? nlohmann::json() : nlohmann::json(value); }
+  void camera(std::string_view key, const std::optional<FreeCamera>& c) {
+    json[key] = nullptr;
+    if (!c) return;
+    json[key] = {
+        {"eye", vector_json(c->eye)}, {"yaw", c->yaw}, {"pitch", c->pitch}, {"near", c->near_m}, {"far", c->far_m}};
+    if (c->orthographic)
+      json[key]["half_height"] = c->half_height;
+    else
+      json[key]["fov_y"] = c->fov_y;
+  }
+  void edits(std::string_view key, const std::vector<LightEdit>& value) {
+    json[key] = nlohmann::json::array();
+    for (const LightEdit& edit : value) json[key].push_back(light_json(edit));
+  }
+  void pixel(std::string_view key, const std::optional<glm::uvec2>& value) {
+    json[key] = value ? nlohmann::json{value->x, value->y} : nlohmann::json();
+  }
+  void against(std::string_view key, const std::optional<Against>& value) {
+    json[key] = nullptr;
+    if (value)
+      json[key] = {{"method", value->method}, {"options", settings_json(value->options)}, {"divider", value->divider}};
+  }
+};
+
+/// Reads the members that are there.
+class Reader {
+ public:
+  explicit Reader(const JsonObject& object) : o_(object) {}
+
+  void text(std::string_view key, std::string& value) {
+    if (o_.has(key)) value = o_.text(key, "a text");
+  }
+  void text_if(std::string_view key, std::string& value, bool& given) {
+    if (!o_.has(key)) return;
+    text(key, value);
+    given = true;
+  }
+  void whole(std::string_view key, std::uint32_t& value, std::uint32_t min, std::uint32_t max) {
+    if (o_.has(key)) value = o_.whole(key, min, max);
+  }
+  void whole_if(std::string_view key, std::uint32_t& value, std::uint32_t max, bool& given) {
+    if (!o_.has(key)) return;
+    whole(key, value, 0, max);
+    given = true;
+  }
+  void real(std::string_view key, float& value, float min, float max) {
+    if (!o_.has(key)) return;
+    const double number = o_.number(key);
+    if (number < min || number > max) o_.fail(fmt::format("{} is {}, expected {} .. {}", key, number, min, max));
+    value = static_cast<float>(number);
+  }
+  template <class Word>
+  void word(std::string_view key, Word& value, std::span<const std::string_view> names) {
+    if (!o_.has(key)) return;
+    const std::string name = o_.text(key, fmt::format("one of {}", fmt::join(names, ", ")));
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      o_.fail(fmt::format("{} is {}, expected one of {}", key, shown(o_.json[key]), fmt::join(names, ", ")));
+    value = static_cast<Word>(found - names.begin());
+  }
+  void seed(std::string_view key, std::uint64_t& value) {
+    if (!o_.has(key)) return;
+    const nlohmann::json& json = o_.json[key];
+    if (!json.is_number_unsigned()) o_.fail(fmt::format("{} is {}, expected a whole number >= 0", key, shown(json)));
+    value = json.get<std::uint64_t>();
+  }
+  void flag(std::string_view key, bool& value) {
+    if (!o_.has(key)) return;
+    const nlohmann::json& json = o_.json[key];
+    if (!json.is_boolean()) o_.fail(fmt::format("{} is {}, expected true or false", key, shown(json)));
+    value = json.get<bool>();
+  }
+  void moment(std::string_view key, int& value) {
+    if (!o_.has(key)) return;
+    constexpr std::uint32_t MOST = std::numeric_limits<int>::max();
+    value = o_.json[key].is_null() ? -1 : static_cast<int>(o_.whole(key, 0, MOST));
+  }
+  void settings(std::string_view key, std::vector<std::string>& value) {
+    if (!o_.has(key)) return;
+    const nlohmann::json& json = o_.json[key];
+    if (!json.is_object()) o_.fail(fmt::format("{} is {}, expected an object of texts", key, shown(json)));
+    value.clear();
+    for (const auto& [name, setting] : json.items()) {
+      if (!setting.is_string()) o_.fail(fmt::format("{}: {} is {}, expected a text", key, name, shown(setting)));
+      value.push_back(name + "=" + setting.get<std::string>());
+    }
+  }
+  void camera(std::string_view key, std::optional<FreeCamera>& value) {
+    if (!present(key, value)) return;
+    const JsonObject c = object(key);
+    c.check_keys(std::to_array<std::string_view>({"eye", "yaw", "pitch", "near", "far", "half_height", "fov_y"}));
+    FreeCamera camera;
+    const std::vector<double> eye = c.numbers("eye", 3);
+    camera.eye = {eye[0], eye[1], eye[2]};
+    camera.yaw = c.number("yaw");
+    camera.pitch = c.number("pitch");
+    if (std::abs(camera.pitch) > std::numbers::pi / 2.0) c.fail("pitch must lie within a right angle, in radians");
+    camera.near_m = c.real("near");
+    camera.far_m = c.real("far");
+    camera.orthographic = c.has("half_height");
+    if (camera.orthographic)
+      camera.half_height = c.real("half_height");
+    else
+      camera.fov_y = c.real("fov_y");
+    value = camera;
+  }
+  void pixel(std::string_view key, std::optional<glm::uvec2>& value) {
+    if (!present(key, value)) return;
+    const std::vector<double> xy = o_.numbers(key, 2);
+    for (const double number : xy)
+      if (number < 0.0 || number >= MAX_IMAGE_SIZE || number != std::floor(number))
+        o_.fail(
+            fmt::format("{} is {}, expected two whole numbers 0 .. {}", key, shown(o_.json[key]), MAX_IMAGE_SIZE - 1));
+    value = glm::uvec2(xy[0], xy[1]);
+  }
+  void against(std::string_view key, std::optional<Against>& value) {
+    if (!present(key, value)) return;
+    const JsonObject a = object(key);
+    a.check_keys(std::to_array<std::string_view>({"method", "options", "divider"}));
+    Against against = value.value_or(Against());
+    Reader reader(a);
+    reader.text("method", against.method);
+    reader.settings("options", against.options);
+    reader.real("divider", against.divider, 0.0F, 1.0F);
+    value = std::move(against);
+  }
+  void edits(std::string_view key, std::vector<LightEdit>& value) {
+    if (!o_.has(key)) return;
+    const nlohmann::json& json = o_.json[key];
+    if (!json.is_array()) o_.fail(fmt::format("{} is {}, expected an array of lights", key, shown(json)));
+    value.clear();
+    for (std::size_t i = 0; i < json.size(); ++i)
+      value.push_back(edit({.json = json[i], .file = o_.file, .element = fmt::format("{} {}", key, i)}));
+  }
+
+ private:
+  /// Whether there is a value; null takes the state's away.
+  template <class Value>
+  bool present(std::string_view key, std::optional<Value>& value) const {
+    if (!o_.has(key)) return false;
+    if (o_.json[key].is_null()) value.reset();
+    return !o_.json[key].is_null();
+  }
+  [[nodiscard]] JsonObject object(std::string_view key) const {
+    return {.json = o_.json[key], .file = o_.file, .element = std::string(key)};
+  }
+  static LightEdit edit(const JsonObject& l) {
+    l.check_keys(std::to_array<std::string_view>(
+        {"light", "type", "position", "range", "color", "intensity", "direction", "inner_angle", "outer_angle"}));
+    LightEdit edit{.light = l.whole("light", 0, MAX_LIGHTS - 1)};
+    const std::string type = l.text("type", "point or spot");
+    if (type != POINT && type != SPOT) l.fail(fmt::format("type is {}, expected point or spot", shown(l.json["type"])));
+    edit.value.type = type == SPOT ? LightType::spot : LightType::point;
+    edit.value.position = l.vector("position");
+    if (l.has("range")) edit.value.range = l.real("range");
+    edit.value.color = l.vector("color");
+    edit.value.intensity = l.real("intensity");
+    if (type == POINT) return edit;
+    edit.value.direction = l.vector("direction");
+    edit.value.inner_angle = l.real("inner_angle");
+    edit.value.outer_angle = l.real("outer_angle");
+    return edit;
+  }
+
+  const JsonObject& o_;
+};
+
+}  // namespace
+
+nlohmann::json to_json(const ViewState& state) {
+  Writer writer;
+  for_each_field(writer, state);
+  return std::move(writer.json);
+}
+
+void read_state(ViewState& state, const nlohmann::json& json, const std::string& name) {
+  const JsonObject object{.json = json, .file = name, .element = ""};
+  ViewState read = state;
+  Keys known;
+  for_each_field(known, read);
+  object.check_keys(known.keys);
+  if (object.has("version")) static_cast<void>(object.whole("version", VERSION, VERSION));
+  for_each_field(Reader(object), read);
+  try {
+    check_state(read);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", name, error.what()), error.exit());
+  }
+  state = std::move(read);
+}
+
+ViewState load_state(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const std::vector<std::byte> bytes =
+      read_file(file, {.expected = "a state that lamp-view saved", .most_bytes = std::uint64_t{1} << 26});
+  const nlohmann::json json = parse_json(text_of(bytes), name);
+  const JsonObject object{.json = json, .file = name, .element = ""};
+  if (!json.is_object()) object.fail(fmt::format("is {}, expected an object", shown(json)));
+  static_cast<void>(object.whole("version", VERSION, VERSION));
+  ViewState state;
+  read_state(state, json, name);
+  return state;
+}
+
+void save_state(const std::filesystem::path& file, const ViewState& state) {
+  write_text(file, json_text(to_json(state), 2) + "\n");
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,86 @@
+// lamp render --state: a file holds what options say, options change what the file says, and what is wrong is named.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli_test.h"
+
+namespace lamp::cli {
+namespace {
+
+using StateTest = CliTest;
+
+constexpr const char* STATE = R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "seed": 3,
+  "method": "tiled", "options": {"tile": "32"}, "exposure": "0.5"})";
+const Arguments OPTIONS{"render",   "plane", "--size",   "48x27",   "--lights",   "40",  "--seed",    "3",
+                        "--method", "tiled", "--option", "tile=32", "--exposure", "0.5", "--samples", "1"};
+
+Arguments with(Arguments arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST_F(StateTest, MakesThePictureOfTheSameOptions) {
+  write("state.json", STATE);
+  static_cast<void>(output_of({"render", "--state", "state.json", "-o", "state.exr"}));
+  static_cast<void>(output_of(with(OPTIONS, {"-o", "options.exr"})));
+  EXPECT_EQ(read("state.exr"), read("options.exr"));
+}
+
+TEST_F(StateTest, IsChangedByOptions) {
+  write("state.json", STATE);
+  const nlohmann::json json = json_of({"render", "--seed", "4", "--lights", "7", "--state", "state.json", "--json"});
+  EXPECT_EQ(json.at("lights"), 7 + 1);
+  EXPECT_EQ(json.at("method"), "tiled");
+  EXPECT_EQ(json.at("options").at("tile"), "32");
+  EXPECT_EQ(json.at("width"), 48);
+}
+
+TEST_F(StateTest, PutsCameraAndLightsWhereItSays) {
+  write("still.json", STATE);
+  write("moved.json", R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "seed": 3, "method": "tiled",
+    "options": {"tile": "32"}, "exposure": "0.5", "light_frame": 30})");
+  write("edited.json", R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "seed": 3, "method": "tiled",
+    "options": {"tile": "32"}, "exposure": "0.5", "edits": [{"light": 39, "type": "point", "position": [0, 2, 0],
+    "color": [1, 0, 0], "intensity": 1e4}]})");
+  write("free.json", R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "seed": 3, "method": "tiled",
+    "options": {"tile": "32"}, "exposure": "0.5", "free_camera": {"eye": [0, 3, 0], "yaw": 1.5, "pitch": -0.25,
+    "near": 0.05, "far": 0, "fov_y": 1}})");
+  std::vector<std::string> pictures;
+  for (const std::string name : {"still", "moved", "edited", "free"}) {
+    static_cast<void>(output_of({"render", "--state", name + ".json", "-o", name + ".exr"}));
+    pictures.push_back(read(name + ".exr"));
+  }
+  for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_NE(pictures[0], pictures[i]);
+}
+
+TEST_F(StateTest, SaysWhatIsWrong) {
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"[]", "is [], expected an object"},
+      {"{}", "version is missing, expected a whole number 1 .. 1"},
+      {R"({"version": 2})", "version is 2, expected a whole number 1 .. 1"},
+      {R"({"version": 1, "sise": "4x4"})", "\"sise\" is not a key of the format; the nearest are size"},
+      {R"({"version": 1, "overlay": "het"})", "overlay is \"het\", expected one of none, heat"},
+      {R"({"version": 1, "method": "tild"})", "method"},
+      {R"({"version": 1, "options": {"tile": 8}})", "options: tile is 8, expected a text"},
+      {R"({"version": 1, "lights": -1})", "lights is -1, expected a whole number"},
+      {R"({"version": 1, "spots": 2})", "spots is 2, expected 0 .. 1"},
+      {R"({"version": 1, "frame": "x"})", "frame is \"x\", expected a whole number"},
+      {R"({"version": 1, "projection": "round"})", "projection"},
+      {R"({"version": 1, "picked": [1.5, 2]})", "picked is [1.5,2], expected two whole numbers"},
+      {R"({"version": 1, "free_camera": {"eye": [0, 0]}})", "free_camera: eye has 2 elements"},
+      {R"({"version": 1, "edits": [{"light": 0, "type": "sun"}]})", "edits 0: type is \"sun\", expected point or spot"},
+      {R"({"version": 1, "against": {"method": "nil"}})", "method"},
+  };
+  for (const auto& [text, says] : faults) {
+    write("bad.json", text);
+    expect_error(BAD_INPUT, {"render", "--state", "bad.json"}, {"bad.json: ", says});
+  }
+  expect_error(BAD_INPUT, {"render", "--state", "missing.json"}, {"missing.json"});
+}
+
+TEST_F(StateTest, NamesALightThatIsNotThere) {
+  write("state.json", R"({"version": 1, "lights": 4, "size": "16x9", "method": "all", "edits": [{"light": 4,
+    "type": "point", "position": [0, 0, 0], "color": [1, 1, 1], "intensity": 1}]})");
+  expect_error(BAD_INPUT, {"render", "--state", "state.json"}, {"edits: light 4", "expected one of the 4"});
+}
+
+}  // namespace
+}  // namespace lamp::cli
