@@ -1,6 +1,7 @@
 # GLSL to SPIR-V by glslc, embedded as a table of words. A shader that includes "lookup.glsl" is compiled once for
 # every file in lib/shaders/lookup (compute shaders: in lookup/fused too) and is then named "folder/shader@look-up". So is
-# a shader in HLSL (NAME.STAGE.hlsl, here "NAME.hlsl") that includes "lookup.hlsl".
+# a shader in HLSL (NAME.STAGE.hlsl, here "NAME.hlsl") that includes "lookup.hlsl". A shader that itself includes
+# "common/depth_image.glsl" is compiled a second time, with MULTISAMPLED, as "folder/shader@multisampled".
 # Nothing is compiled, and no glslc is needed, where LAMPLIGHT_SPIRV_FROM or a folder `spirv` beside the sources has it.
 include_guard()
 
@@ -9,7 +10,7 @@ sources, which is brought up to date first, or the folder `spirv` of a source re
 set(LAMPLIGHT_SHADER_INCLUDES ${PROJECT_SOURCE_DIR}/lib/shaders ${PROJECT_SOURCE_DIR}/lib/include)
 include(${CMAKE_CURRENT_LIST_DIR}/LamplightShaderHash.cmake)
 
-# The look-ups that a shader is compiled with, one after the other; "-" for a shader that includes none.
+# What a shader is compiled with, one after the other: look-ups; "-", for nothing; MULTISAMPLED.
 function(lamplight_shader_variants out source)
   file(STRINGS ${source} uses_lookup REGEX "^#include \"lookup\\.(glsl|hlsl)\"")
   set(variants "-")
@@ -20,6 +21,10 @@ function(lamplight_shader_variants out source)
       file(GLOB fused CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/shaders/lookup/fused/*.glsl)
       list(APPEND variants ${fused})
     endif()
+  endif()
+  file(STRINGS ${source} reads_depth REGEX "^#include \"common/depth_image\\.glsl\"")
+  if(reads_depth)
+    list(APPEND variants MULTISAMPLED)
   endif()
   set(${out} ${variants} PARENT_SCOPE)
 endfunction()
@@ -55,15 +60,17 @@ function(lamplight_spirv_folder out function root)
   set(${out}_kind ${kind} PARENT_SCOPE)
 endfunction()
 
-# Compiles a shader into `file`, with the look-up `variant` ("-": without one).
+# Compiles a shader into `file`, with `variant`: "-", MULTISAMPLED, or a look-up.
 function(lamplight_compile_shader file source root variant)
-  set(lookup_include "")
-  if(NOT variant STREQUAL "-")
+  set(variant_options "")
+  if(variant STREQUAL "MULTISAMPLED")
+    set(variant_options -DMULTISAMPLED)
+  elseif(NOT variant STREQUAL "-")
     get_filename_component(lookup ${variant} NAME_WE)
     get_filename_component(extension ${variant} EXT)
     file(RELATIVE_PATH include ${PROJECT_SOURCE_DIR}/lib/shaders ${variant})
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lookup/${lookup}/lookup${extension} CONTENT "#include \"${include}\"\n")
-    set(lookup_include "-I${PROJECT_BINARY_DIR}/lookup/${lookup}")
+    set(variant_options "-I${PROJECT_BINARY_DIR}/lookup/${lookup}")
   endif()
   set(language --target-env=vulkan1.3)
   if(source MATCHES "\\.(comp|vert|frag)\\.hlsl$")
@@ -76,7 +83,7 @@ function(lamplight_compile_shader file source root variant)
     OUTPUT ${file}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
     COMMAND ${LAMPLIGHT_GLSLC} ${language} -O -Werror -mfmt=num -MD -MF ${file}.d
-            "-I$<JOIN:${LAMPLIGHT_SHADER_INCLUDES};${root},;-I>" ${lookup_include} ${source} -o ${file}
+            "-I$<JOIN:${LAMPLIGHT_SHADER_INCLUDES};${root},;-I>" ${variant_options} ${source} -o ${file}
     DEPENDS ${source}
     DEPFILE ${file}.d
     COMMENT "Shader ${name}"
@@ -114,7 +121,11 @@ function(lamplight_shaders target function root)
     foreach(variant IN LISTS variants)
       set(variant_name ${name})
       set(lookup "")
-      if(NOT variant STREQUAL "-")
+      set(multisampled false)
+      if(variant STREQUAL "MULTISAMPLED")
+        set(multisampled true)
+        set(variant_name "${name}@multisampled")
+      elseif(NOT variant STREQUAL "-")
         get_filename_component(lookup ${variant} NAME_WE)
         set(variant_name "${name}@${lookup}")
       endif()
@@ -124,7 +135,7 @@ function(lamplight_shaders target function root)
       endif()
       list(APPEND spirv ${file})
       string(APPEND declarations "const std::uint32_t CODE_${number}[] = {\n#include \"${variant_name}.inc\"\n};\n")
-      string(APPEND rows "    {\"${variant_name}\", CODE_${number}, \"${source_name}\", \"${lookup}\"},\n")
+      string(APPEND rows "    {\"${variant_name}\", CODE_${number}, \"${source_name}\", \"${lookup}\", ${multisampled}},\n")
       math(EXPR number "${number} + 1")
     endforeach()
   endforeach()

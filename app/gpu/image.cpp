@@ -19,8 +19,8 @@ GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : inf
                                  .format = info.format,
                                  .extent = {info.width, info.height, 1},
                                  .mipLevels = info.mips,
-                                 .arrayLayers = 1,
-                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .arrayLayers = info.layers,
+                                 .samples = info.samples,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
                                  .usage = info.usage};
   const std::string what = "image " + info.name;
@@ -45,26 +45,43 @@ GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : inf
       .image = image,
       .viewType = VK_IMAGE_VIEW_TYPE_2D,
       .format = info.format,
-      .subresourceRange = {aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+      .subresourceRange = {aspect(), 0, VK_REMAINING_MIP_LEVELS, info.layers - 1, 1}};
   VkImageView view = VK_NULL_HANDLE;
   check(vkCreateImageView(device.handle, &view_create, nullptr, &view), what.c_str());
   view_ = vulkan::OwnedImageView(device.handle, view, vkDestroyImageView);
 }
 
 VkImageAspectFlags GpuImage::aspect() const {
-  return info_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+  switch (info_.format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D32_SFLOAT:
+      return VK_IMAGE_ASPECT_DEPTH_BIT;
+    default:
+      return has_stencil() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+  }
+}
+
+bool GpuImage::has_stencil() const {
+  return info_.format == VK_FORMAT_D16_UNORM_S8_UINT || info_.format == VK_FORMAT_D24_UNORM_S8_UINT ||
+         info_.format == VK_FORMAT_D32_SFLOAT_S8_UINT;
 }
 
 VkBufferImageCopy GpuImage::whole() const {
-  return {.imageSubresource = {aspect(), 0, 0, 1}, .imageExtent = {info_.width, info_.height, 1}};
+  return {.imageSubresource = {aspect(), 0, info_.layers - 1, 1}, .imageExtent = {info_.width, info_.height, 1}};
 }
 
 vulkan::Resource GpuImage::as(VkDescriptorType type, VkImageLayout layout) const {
-  return {.type = type, .image = handle(), .view = view(), .aspect = aspect(), .layout = layout};
+  return {.type = type,
+          .image = handle(),
+          .view = view(),
+          .aspect = has_stencil() ? aspect() | VK_IMAGE_ASPECT_STENCIL_BIT : aspect(),
+          .layout = layout};
 }
 
 vulkan::Resource GpuImage::sampled() const {
-  return as(VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, aspect() == VK_IMAGE_ASPECT_DEPTH_BIT
+  return as(VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, has_stencil() ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
+                                              : aspect() == VK_IMAGE_ASPECT_DEPTH_BIT
                                                   ? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
                                                   : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
@@ -79,7 +96,8 @@ vulkan::Resource GpuImage::combined(VkSampler sampler) const {
 vulkan::Resource GpuImage::storage() const { return as(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_IMAGE_LAYOUT_GENERAL); }
 
 vulkan::Resource GpuImage::attachment() const {
-  return as(VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, aspect() == VK_IMAGE_ASPECT_DEPTH_BIT
+  return as(VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, has_stencil() ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                                                 : aspect() == VK_IMAGE_ASPECT_DEPTH_BIT
                                                      ? VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL
                                                      : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }

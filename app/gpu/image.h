@@ -13,6 +13,8 @@ struct GpuImageInfo {
   std::uint32_t width = 1;
   std::uint32_t height = 1;
   std::uint32_t mips = 1;
+  std::uint32_t layers = 1;  ///< of which the last one is used
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
   VkImageUsageFlags usage = 0;
 };
@@ -26,7 +28,9 @@ class GpuImage {
   [[nodiscard]] const GpuImageInfo& info() const { return info_; }
   [[nodiscard]] VkImage handle() const { return image_.get(); }
   [[nodiscard]] VkImageView view() const { return view_.get(); }
+  /// What its view shows: of formats with stencil the depth alone.
   [[nodiscard]] VkImageAspectFlags aspect() const;
+  [[nodiscard]] bool has_stencil() const;
   /// Its first level, to or from the beginning of a buffer, row by row.
   [[nodiscard]] VkBufferImageCopy whole() const;
 

@@ -40,9 +40,18 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
     write_file(folder.path() / "lookup.glsl", fmt::format("#include \"{}\"\n", lookup.string()));
   }
   const auto from = [](const fs::path& included) { return "-I" + included.string(); };
-  const ProgramResult compiled = run_program({"glslc", "--target-env=vulkan1.3", "-O", from(folder.path()),
-                                              from(source_tree_ / "lib/shaders"), from(source_tree_ / "lib/include"),
-                                              from(source_tree_ / "app/render/shaders"), source.string(), "-o", "-"});
+  std::vector<std::string> command{"glslc",
+                                   "--target-env=vulkan1.3",
+                                   "-O",
+                                   from(folder.path()),
+                                   from(source_tree_ / "lib/shaders"),
+                                   from(source_tree_ / "lib/include"),
+                                   from(source_tree_ / "app/render/shaders"),
+                                   source.string(),
+                                   "-o",
+                                   "-"};
+  if (code.multisampled) command.emplace_back("-DMULTISAMPLED");
+  const ProgramResult compiled = run_program(command);
   std::vector<std::uint32_t> words(compiled.out.size() / sizeof(std::uint32_t));
   std::memcpy(words.data(), compiled.out.data(), words.size() * sizeof(std::uint32_t));
   if (compiled.succeeded && !words.empty() && words.front() == SPIRV_MAGIC) return words;

@@ -39,14 +39,7 @@ std::vector<double> array_of(const glm::dmat4& matrix) {
   return numbers;
 }
 
-/// clip.z becomes clip.w - clip.z: depth that grows with distance from 0 to 1 is turned around.
-glm::dmat4 turned_around(glm::dmat4 clip_from_view) {
-  for (int column = 0; column < 4; ++column)
-    clip_from_view[column][2] = clip_from_view[column][3] - clip_from_view[column][2];
-  return clip_from_view;
-}
-
-/// Positive where depth falls with distance, as View wants it.
+/// Positive where depth falls with distance.
 double depth_slope(const glm::dmat4& p) { return p[2][2] * p[3][3] - p[3][2] * p[2][3]; }
 
 View view_of(const JsonObject& frame, DepthKind kind) {
@@ -55,7 +48,9 @@ View view_of(const JsonObject& frame, DepthKind kind) {
   if (kind == DepthKind::standard && slope > 0.0)
     frame.fail(
         "clip_from_view has reversed depth (near 1, far 0), expected near 0, far 1, as depth_kind says standard");
-  if (kind != DepthKind::reversed && slope < 0.0) clip_from_view = turned_around(clip_from_view);
+  if (kind == DepthKind::reversed && slope < 0.0)
+    frame.fail("clip_from_view has depth that grows with distance, expected reversed depth (near 1, far 0)");
+  if (slope < 0.0) clip_from_view = flip_depth(clip_from_view);
   const std::uint32_t width = frame.whole("width", 1, LARGEST_SIDE);
   const std::uint32_t height = frame.whole("height", 1, LARGEST_SIDE);
   if (std::uint64_t{width} * height > MOST_PIXELS)

@@ -1,6 +1,7 @@
 // The table of methods: one row each, in the order of the docs. A new method is one more row here.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <iterator>
 
 #include "lamplight/method.h"
@@ -59,6 +60,16 @@ std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
   return std::nullopt;
 }
 
+constexpr std::uint32_t MAX_SAMPLES = 64;  // of VkSampleCountFlagBits
+
+/// Shaders that read depth are those for several samples. A fused look-up shades one sample a pixel: there is none.
+void read_many_samples(Plan& plan) {
+  for (Pass& pass : plan.passes)
+    if (std::ranges::find(pass.bindings, INPUT_DEPTH, &Binding::resource) != pass.bindings.end())
+      pass.shader += "@multisampled";
+  plan.fused.reset();
+}
+
 }  // namespace
 
 Result<Plan> make_plan(const Method& method, const Problem& problem) {
@@ -69,6 +80,8 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   if (problem.light_capacity > MAX_LIGHTS)
     return Error{"light capacity",
                  "expected at most " + std::to_string(MAX_LIGHTS) + ", got " + std::to_string(problem.light_capacity)};
+  if (!std::has_single_bit(problem.depth_samples) || problem.depth_samples > MAX_SAMPLES)
+    return Error{"depth samples", "expected 1, 2, 4, 8, 16, 32 or 64, got " + std::to_string(problem.depth_samples)};
   if (problem.frames_in_flight == 0 || problem.frames_in_flight > MAX_FRAMES_IN_FLIGHT)
     return Error{"frames in flight", "expected 1 to " + std::to_string(MAX_FRAMES_IN_FLIGHT) + ", got " +
                                          std::to_string(problem.frames_in_flight)};
@@ -81,6 +94,8 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   plan.light_capacity = problem.light_capacity;
   plan.frames_in_flight = problem.frames_in_flight;
   plan.light_layout = problem.light_layout;
+  plan.depth_samples = problem.depth_samples;
+  if (problem.depth_samples > 1) read_many_samples(plan);
   make_own_inputs(plan, problem);
   std::optional<Error> error = plan_check(plan, problem.traits);
   if (!error) error = check_walks(problem, plan);

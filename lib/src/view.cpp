@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -43,6 +44,9 @@ std::optional<Error> round_to_float(std::string_view name, glm::dmat4& matrix) {
   return std::nullopt;
 }
 
+// clip.z = a z + b and clip.w = c z + d, so device depth grows towards the eye if and only if a d - b c > 0.
+double depth_slope(const glm::dmat4& p) { return p[2][2] * p[3][3] - p[3][2] * p[2][3]; }
+
 std::optional<Error> check_projection(const glm::dmat4& p) {
   constexpr std::array<std::array<int, 2>, 6> ZEROS{{{0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}}};
   for (const auto [column, row] : ZEROS) {
@@ -52,13 +56,8 @@ std::optional<Error> check_projection(const glm::dmat4& p) {
       return Error{"view", text.str()};
     }
   }
-  // clip.z = a z + b and clip.w = c z + d, so device depth grows towards the eye if and only if a d - b c > 0.
-  const double depth_slope = p[2][2] * p[3][3] - p[3][2] * p[2][3];
-  if (p[0][0] == 0.0 || p[1][1] == 0.0 || depth_slope == 0.0) {
+  if (p[0][0] == 0.0 || p[1][1] == 0.0 || depth_slope(p) == 0.0) {
     return Error{"view", "clip_from_view must be invertible, got a singular matrix"};
-  }
-  if (depth_slope < 0.0) {
-    return Error{"view", "clip_from_view must have reversed depth (near 1, far 0), got depth that grows with distance"};
   }
   if (p[2][3] > 0.0 || (p[2][3] == 0.0 && p[3][3] < 0.0)) {
     return Error{"view", "clip_from_view must look down -Z (clip.w > 0 ahead of the eye), got the opposite"};
@@ -117,6 +116,7 @@ Result<View> View::create(std::uint32_t width, std::uint32_t height, const glm::
   if (auto error = check_projection(view.clip_from_view_)) return *error;
   if (auto error = check_rigid(view.view_from_world_)) return *error;
   view.world_from_view_ = glm::inverse(view.view_from_world_);
+  view.reversed_depth_ = depth_slope(view.clip_from_view_) > 0.0;
   view.stretch_ = stretch_of(glm::dmat3(view.view_from_world_));
   return view;
 }
@@ -150,6 +150,7 @@ shared::Frame View::frame(std::uint32_t light_count, std::uint32_t light_capacit
   frame.light_capacity = light_capacity;
   frame.size_px = {width_, height_};
   frame.stretch = static_cast<float>(stretch_);
+  frame.sky_bits = std::bit_cast<std::uint32_t>(sky_depth());
   return frame;
 }
 
@@ -182,6 +183,12 @@ glm::dmat4 orthographic(const Window& window, double near_m, double far_m) {
   p[3][1] = (window.top + window.bottom) / height;
   p[3][2] = far_m / (far_m - near_m);
   p[3][3] = 1.0;
+  return p;
+}
+
+glm::dmat4 flip_depth(const glm::dmat4& clip_from_view) {
+  glm::dmat4 p = clip_from_view;
+  for (int column = 0; column < 4; ++column) p[column][2] = p[column][3] - p[column][2];  // depth becomes 1 - depth
   return p;
 }
 

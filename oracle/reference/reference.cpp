@@ -89,7 +89,7 @@ Truth brute_force_truth(const TruthQuery& query) {
   for (std::uint32_t y = query.first_row; y < query.first_row + query.rows; ++y) {
     for (std::uint32_t x = 0; x < view.width(); ++x) {
       const double depth = query.depth[std::size_t{y} * view.width() + x];
-      if (depth > 0.0) append_pixel(query, view.world_position(x, y, depth), truth);
+      if (depth != view.sky_depth()) append_pixel(query, view.world_position(x, y, depth), truth);
       truth.offsets.push_back(static_cast<std::uint32_t>(truth.lights.size()));
     }
   }

@@ -56,8 +56,7 @@ class BlockTruth {
     positions_.resize(ROOT_SIDE * ROOT_SIDE);
     for (std::uint32_t y = root_.y0; y < root_.y1; ++y) {
       for (std::uint32_t x = root_.x0; x < root_.x1; ++x) {
-        const double depth = depth_at(x, y);
-        if (depth > 0.0) positions_[local(x, y)] = query_.view.world_position(x, y, depth);
+        if (!is_sky(x, y)) positions_[local(x, y)] = query_.view.world_position(x, y, depth_at(x, y));
       }
     }
     descend(root_, 0, lights);
@@ -83,11 +82,15 @@ class BlockTruth {
     return query_.depth[std::size_t{y} * query_.view.width() + x];
   }
 
+  [[nodiscard]] bool is_sky(std::uint32_t x, std::uint32_t y) const {
+    return depth_at(x, y) == query_.view.sky_depth();
+  }
+
   [[nodiscard]] Bounds bounds_of(const Block& block) const {
     Bounds bounds;
     for (std::uint32_t y = block.y0; y < block.y1; ++y) {
       for (std::uint32_t x = block.x0; x < block.x1; ++x) {
-        if (!(depth_at(x, y) > 0.0)) continue;
+        if (is_sky(x, y)) continue;
         bounds.min = glm::min(bounds.min, positions_[local(x, y)]);
         bounds.max = glm::max(bounds.max, positions_[local(x, y)]);
       }
@@ -114,7 +117,7 @@ class BlockTruth {
   void answer(const Block& block, const std::vector<std::uint32_t>& candidates) {
     for (std::uint32_t y = block.y0; y < block.y1; ++y) {
       for (std::uint32_t x = block.x0; x < block.x1; ++x) {
-        if (!(depth_at(x, y) > 0.0)) continue;
+        if (is_sky(x, y)) continue;
         const std::size_t first = lights_.size();
         for (const std::uint32_t light : candidates) {
           const Reach answer = reach_of(light, positions_[local(x, y)]);

@@ -17,18 +17,20 @@ vulkan::Buffer host_buffer(const std::string& name, std::uint64_t bytes) {
   return buffer;
 }
 
-GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth) {
+GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth,
+                     const DepthImageKind& kind) {
   GpuImage image(test_context().device(), {.name = "test depth",
                                            .width = width,
                                            .height = height,
-                                           .format = VK_FORMAT_D32_SFLOAT,
+                                           .layers = kind.layers,
+                                           .format = kind.format,
                                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
   const vulkan::Buffer staging = host_buffer_of("depth staging", depth);
   test_context().submit([&](VkCommandBuffer commands) {
     vulkan::AccessTracker tracker;
     vulkan::Recorder recorder(test_context().device(), commands, tracker);
     recorder.barrier({copies_to(image.transfer_target())});
-    const VkBufferImageCopy whole{.imageSubresource = {image.aspect(), 0, 0, 1}, .imageExtent = {width, height, 1}};
+    const VkBufferImageCopy whole = image.whole();
     vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
     recorder.barrier({reads(image.sampled(), VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
   });

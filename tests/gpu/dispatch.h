@@ -27,8 +27,14 @@ template <class T>
   return values;
 }
 
+struct DepthImageKind {
+  VkFormat format = VK_FORMAT_D32_SFLOAT;  ///< of 32-bit floats
+  std::uint32_t layers = 1;                ///< the last one is it
+};
+
 /// A depth image with these device depths, row by row, ready to be sampled.
-[[nodiscard]] GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth);
+[[nodiscard]] GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth,
+                                   const DepthImageKind& kind = {});
 
 /// A test shader with specialization constants 0, 1, 2, ... and bindings 0, 1, 2, ...
 struct Dispatch {

@@ -28,6 +28,8 @@ struct EngineFrameInfo {
   std::string_view projection = "infinite";
   std::uint32_t lights = ENGINE_LIGHTS;
   std::uint32_t seed = 1;
+  glm::dvec2 at{0.5, 0.5};  ///< where in a pixel the view has its centre; lights are the same
+  bool reversed_depth = true;
 };
 
 /// The corridor as one projection shows it.

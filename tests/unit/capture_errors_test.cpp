@@ -35,7 +35,7 @@ const std::vector<Fault>& faults() {
       {"/clip_from_view", "[0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]", "clip_from_view must be invertible, got a singular"},
       {"/clip_from_view/0", "0", "clip_from_view must be invertible, got a singular matrix"},
       {"/clip_from_view/1", "0.5", "clip_from_view[0][1] must be 0 (no shear), got 0.5"},
-      {"/clip_from_view/14", "-0.5", "clip_from_view must have reversed depth (near 1, far 0)"},
+      {"/clip_from_view/14", "-0.5", "clip_from_view has depth that grows with distance, expected reversed depth (near 1, far 0)"},
       {"/view_from_world", "[0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1]", "view_from_world must be rigid"},
       {"/view_from_world/0", "2", "view_from_world must be rigid"},
       {"/view_from_world/12", "1e38",

@@ -3,6 +3,7 @@
 #include "lamplight/view.h"
 
 #include <gtest/gtest.h>
+#include <bit>
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -228,11 +229,26 @@ TEST(View, RefusesSingularMatrices) {
   EXPECT_NE(refusal(projection, pose()).find("singular"), std::string::npos);
 }
 
-TEST(View, RefusesForwardDepthAndLookingAlongPlusZ) {
+TEST(View, DepthMayRunEitherWay) {
+  for (const glm::dmat4& reversed :
+       {lamp::perspective(OFF_CENTRE, NEAR, FAR), lamp::perspective(OFF_CENTRE, NEAR, lamp::INFINITE_FAR),
+        lamp::orthographic(OFF_CENTRE, NEAR, FAR)}) {
+    const lamp::View one = lamp::View::create(64, 36, reversed, pose()).value();
+    const lamp::View other = lamp::View::create(64, 36, lamp::flip_depth(reversed), pose()).value();
+    EXPECT_TRUE(one.reversed_depth());
+    EXPECT_EQ(one.sky_depth(), 0.0F);
+    EXPECT_FALSE(other.reversed_depth());
+    EXPECT_EQ(other.sky_depth(), 1.0F);
+    EXPECT_EQ(std::bit_cast<float>(other.frame(0, 1).sky_bits), 1.0F);
+    for (const double depth : {0.99, 0.5, 0.1}) EXPECT_NEAR(other.z_view(1.0 - depth) / one.z_view(depth), 1.0, 1e-5);
+  }
   glm::dmat4 forward = lamp::perspective(OFF_CENTRE, NEAR, FAR);
   forward[2][2] = -FAR / (FAR - NEAR);
   forward[3][2] = -NEAR * FAR / (FAR - NEAR);
-  EXPECT_NE(refusal(forward, pose()).find("reversed"), std::string::npos);
+  EXPECT_NEAR(lamp::View::create(64, 36, forward, pose()).value().z_view(0.0), NEAR, 1e-6);
+}
+
+TEST(View, RefusesLookingAlongPlusZ) {
   EXPECT_NE(refusal(-lamp::perspective(OFF_CENTRE, NEAR, FAR), pose()).find("-Z"), std::string::npos);
   EXPECT_NE(refusal(-lamp::orthographic(OFF_CENTRE, NEAR, FAR), pose()).find("-Z"), std::string::npos);
 }

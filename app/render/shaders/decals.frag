@@ -18,7 +18,7 @@ layout(location = 1) out uvec2 out_surface;
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float depth = texelFetch(depth_image, pixel, 0).x;
-  if (depth <= 0.0) discard;
+  if (is_sky(frame, depth)) discard;
   const float z_view = z_view_of(frame, depth);
   Surface s = read_surface(pixel, z_view);
   if (!apply_decals(s, uvec2(pixel), z_view)) discard;

@@ -22,7 +22,7 @@ layout(location = 0) out vec4 out_color;
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float depth = texelFetch(depth_image, pixel, 0).x;
-  if (depth <= 0.0) discard;
+  if (is_sky(frame, depth)) discard;
   const float z_view = z_view_of(frame, depth);
   const Surface s = read_surface(pixel, z_view);
   const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;

@@ -24,7 +24,7 @@ void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, origin_row);
   if (any(greaterThanEqual(pixel, frame.size_px)) || pixel.y < first_row || pixel.y >= first_row + rows) return;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  if (depth <= 0.0) return;
+  if (is_sky(frame, depth)) return;
   const float z_view = z_view_of(frame, depth);
   const dvec3 position = exact_world_position(pixel, depth);
   uint place = first_places[(pixel.y - buffer_row) * frame.size_px.x + pixel.x];

@@ -48,7 +48,7 @@ void main() {
   const uvec2 pixel = uvec2(gl_GlobalInvocationID.x, first_row + gl_GlobalInvocationID.y);
   const bool inside = pixel.x < frame.size_px.x && gl_GlobalInvocationID.y < rows;
   const float depth = inside ? texelFetch(depth_image, ivec2(pixel), 0).x : 0.0;
-  const bool covered = depth > 0.0;
+  const bool covered = inside && !is_sky(frame, depth);
   dvec3 position = dvec3(0.0lf);
   if (covered) position = exact_world_position(pixel, depth);
   low[gl_LocalInvocationIndex] = covered ? position : dvec3(FAR);

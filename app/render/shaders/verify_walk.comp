@@ -29,7 +29,7 @@ void main() {
   if (any(greaterThanEqual(pixel, frame.size_px)) || pixel.y < first_row || pixel.y >= first_row + rows) return;
   const uint index = (pixel.y - buffer_row) * frame.size_px.x + pixel.x;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  if (depth <= 0.0) {
+  if (is_sky(frame, depth)) {
     surveys[index] = Survey(0u, SKY_CELL, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     return;
   }

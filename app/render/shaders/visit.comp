@@ -34,7 +34,7 @@ void main() {
   if (any(greaterThanEqual(pixel, frame.size_px)) || number < first_pixel || number >= end_pixel) return;
   const uint index = number - first_pixel;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  if (depth <= 0.0) {
+  if (is_sky(frame, depth)) {
     met[index] = Met(0u, SKY_CELL, 0u, 0u, 0u, 0u);
     return;
   }

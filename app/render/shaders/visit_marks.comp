@@ -28,7 +28,7 @@ void main() {
   const uint number = pixel.x + frame.size_px.x * pixel.y;
   if (any(greaterThanEqual(pixel, frame.size_px)) || number < first_pixel || number >= end_pixel) return;
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  if (depth <= 0.0) return;
+  if (is_sky(frame, depth)) return;
   const float z_view = z_view_of(frame, depth);
   const uint base = (number - first_pixel) * ((end_mark - first_id + 31u) / 32u);
   uint light;

@@ -57,6 +57,8 @@ struct Problem {
   LightLayout light_layout;
   /// The host keeps no spheres: the plan makes INPUT_SPHERES from the lights, if it reads any.
   bool own_spheres = false;
+  /// Of the depth image, a pixel: 1, 2, 4, 8, 16, 32 or 64. A light that reaches any of them is listed.
+  std::uint32_t depth_samples = 1;
   /// Frames that may be recorded and not done yet, 1 .. MAX_FRAMES_IN_FLIGHT: what the host writes has as many slots.
   std::uint32_t frames_in_flight = 1;
 };

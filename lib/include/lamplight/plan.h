@@ -25,7 +25,7 @@ using ResourceId = std::uint32_t;
 
 inline constexpr ResourceId INPUT_FRAME = 0;    ///< one shared::Frame: a uniform buffer in compute passes, else storage
 inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, what Plan::light_layout says of each light
-inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth, one sample a pixel; may be larger
+inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth; may be larger than the picture
 inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]
 inline constexpr ResourceId INPUT_CONES = 4;    ///< storage buffer, likewise, where the layout has cones
 inline constexpr ResourceId PLAN_BUFFER = 5;    ///< the first buffer of the plan
@@ -156,6 +156,7 @@ struct LAMPLIGHT_API Plan {
   std::uint32_t height = 0;            ///< likewise
   std::uint32_t light_capacity = 0;    ///< likewise
   LightLayout light_layout;            ///< likewise
+  std::uint32_t depth_samples = 1;     ///< likewise
   std::uint32_t frames_in_flight = 1;  ///< likewise
   ResourceId counters = NO_RESOURCE;   ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
   std::vector<Capacity> capacities;    ///< everything that can overflow

@@ -11,12 +11,14 @@
 
 namespace lamp {
 
-/// One compiled shader. A name is the path below the shader root without its extension, and "@look-up" for a variant.
+/// One compiled shader. A name is the path below the shader root without its extension, and "@look-up" or
+/// "@multisampled" for a variant.
 struct ShaderCode {
   std::string_view name;
   std::span<const std::uint32_t> spirv;
   std::string_view source;  ///< file it was built from, below the shader root, for live recompilation
   std::string_view lookup;  ///< look-up it was built with, or empty
+  bool multisampled;        ///< reads a depth image of several samples (compiled with -DMULTISAMPLED)
 };
 
 /// The shaders of the library.

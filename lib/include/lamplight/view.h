@@ -1,6 +1,7 @@
 // The camera: projection, pose and size, and the way from a depth sample back to a position.
 // Conventions: world right-handed, +Y up; view space looks down -Z, `z_view` is the positive distance ahead;
-// Vulkan clip space with reversed depth (near 1, far 0, infinite far allowed; 0 is sky). Pixel (0,0) is top left.
+// Vulkan clip space. Depth is reversed (near 1, far 0; 0 is sky) or standard (near 0, far 1; 1 is sky), infinite far
+// allowed. Pixel (0,0) is top left.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,8 +20,8 @@ class LAMPLIGHT_API View {
  public:
   /// `clip_from_view` may be any perspective or orthographic projection, off-centre too, whose x and y do not mix:
   /// only the entries [0][0], [1][1], the z column, the w column's x, y, z and [3][3] may differ from 0.
-  /// Errors: a size of 0, a number that is not finite in 32 bits, shear, a singular matrix, depth that is not reversed,
-  /// a projection that looks along +Z, a `view_from_world` that is not rigid within 1e-4 (mirrors are allowed).
+  /// Errors: a size of 0, a number that is not finite in 32 bits, shear, a singular matrix, a projection that looks
+  /// along +Z, a `view_from_world` that is not rigid within 1e-4 (mirrors are allowed).
   [[nodiscard]] static Result<View> create(std::uint32_t width, std::uint32_t height, const glm::dmat4& clip_from_view,
                                            const glm::dmat4& view_from_world);
 
@@ -29,12 +30,16 @@ class LAMPLIGHT_API View {
   [[nodiscard]] const glm::dmat4& clip_from_view() const { return clip_from_view_; }
   [[nodiscard]] const glm::dmat4& view_from_world() const { return view_from_world_; }
   [[nodiscard]] const glm::dmat4& world_from_view() const { return world_from_view_; }
+  /// Whether device depth falls with distance: near 1, sky 0. Else it grows, and the sky has 1.
+  [[nodiscard]] bool reversed_depth() const { return reversed_depth_; }
+  /// Device depth where nothing is.
+  [[nodiscard]] float sky_depth() const { return reversed_depth_ ? 0.0F : 1.0F; }
   [[nodiscard]] bool orthographic() const { return clip_from_view_[2][3] == 0.0; }
   /// The largest share by which `view_from_world` may change a length: 0 if it is rigid, else some 1e-7 from the
   /// rounding of its numbers, up to 1.6e-4. Every bound of a light in view space is wider by it.
   [[nodiscard]] double stretch() const { return stretch_; }
 
-  /// Metres ahead of the eye of a device depth in (0, 1].
+  /// Metres ahead of the eye of a device depth in 0..1 that is not the sky's.
   [[nodiscard]] double z_view(double device_depth) const;
 
   /// View-space position of the point at `pixel` (continuous; centres at +0.5) that lies `z_view` metres ahead.
@@ -55,6 +60,7 @@ class LAMPLIGHT_API View {
   glm::dmat4 view_from_world_{1.0};
   glm::dmat4 world_from_view_{1.0};
   double stretch_ = 0.0;
+  bool reversed_depth_ = true;
 };
 
 /// Edges of a projection's window at 1 m ahead (perspective) or in metres (orthographic): left < right, bottom < top.
@@ -69,6 +75,10 @@ inline constexpr double INFINITE_FAR = std::numeric_limits<double>::infinity();
 
 /// Reversed-depth orthographic projection, `near_m` < `far_m`, both finite.
 [[nodiscard]] LAMPLIGHT_API glm::dmat4 orthographic(const Window& window, double near_m, double far_m);
+
+/// The same projection with depth that runs the other way: a reversed one made standard, or back. Exact but for the
+/// rounding of one sum.
+[[nodiscard]] LAMPLIGHT_API glm::dmat4 flip_depth(const glm::dmat4& clip_from_view);
 
 /// The symmetric window of a vertical field of view (radians) and an aspect ratio (width over height).
 [[nodiscard]] LAMPLIGHT_API Window symmetric_window(double fov_y, double aspect);

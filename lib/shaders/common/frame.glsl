@@ -10,7 +10,9 @@
 // Lights of the frame. Whatever was counted, there are no more than there is room for: nothing is indexed beyond.
 uint light_count_of(Frame frame) { return min(frame.light_count, frame.light_capacity); }
 
-// Metres ahead of the eye of a device depth in (0, 1]: clip.z = A z + B and clip.w = C z + D, solved for -z.
+bool is_sky(Frame frame, float device_depth) { return device_depth == (frame.sky_bits == 0u ? 0.0 : 1.0); }
+
+// Metres ahead of the eye of a device depth that is not the sky's: clip.z = A z + B and clip.w = C z + D, solved for -z.
 float z_view_of(Frame frame, float device_depth) {
   const mat4 m = frame.clip_from_view;
   precise const float z = (m[3][3] * device_depth - m[3][2]) / (m[2][2] - m[2][3] * device_depth);

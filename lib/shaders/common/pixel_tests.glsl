@@ -13,21 +13,30 @@ const float ROUND_COSINE = 5e-7;
 struct PrunePixel {
   vec3 position;  // world space
   float z_view;
-  bool covered;  // false: sky, or beyond the picture
+  float spread_m;  // how far from there the sample may be: one of several lies anywhere in its pixel
+  bool covered;    // false: sky, or beyond the picture
 };
 
-// The tile's i-th pixel.
-PrunePixel prune_pixel(Frame frame, texture2D depth_image, uvec2 tile, uint i) {
-  const float depth = tile_pixel_depth(frame, depth_image, tile, i);
-  if (depth <= 0.0) return PrunePixel(vec3(0.0), 0.0, false);
-  const uvec2 pixel = tile * TILE_PX + uvec2(i % TILE_PX, i / TILE_PX);
-  const float z_view = z_view_of(frame, depth);
-  return PrunePixel(world_position(frame, vec2(pixel) + 0.5, z_view), z_view, true);
+// Half a pixel's diagonal at a depth.
+float half_diagonal(Frame frame, float z_view) {
+  const mat4 m = frame.clip_from_view;
+  const vec2 side = 2.0 * abs(m[3][3] - m[2][3] * z_view) / (vec2(frame.size_px) * abs(vec2(m[0][0], m[1][1])));
+  return 0.5 * length(side);
+}
+
+// The pixel of the tile's i-th sample.
+PrunePixel prune_pixel(Frame frame, DepthImage depth_image, uvec2 tile, uint i) {
+  const uint key = tile_sample_key(frame, depth_image, tile, i);
+  if (key == SKY_KEY) return PrunePixel(vec3(0.0), 0.0, 0.0, false);
+  const vec2 center = vec2(tile_pixel(depth_image, tile, i)) + 0.5;
+  const float z_view = z_view_of_key(frame, key);
+  const float spread_m = samples_of(depth_image) > 1u ? half_diagonal(frame, z_view) : 0.0;
+  return PrunePixel(world_position(frame, center, z_view), z_view, spread_m, true);
 }
 
 bool reaches_pixel(Frame frame, Light light, PrunePixel pixel) {
   const vec3 offset = pixel.position - light.position;
-  const float slack = ROUND_RADIUS * min(light.range, INFINITE_RADIUS) +
+  const float slack = pixel.spread_m + ROUND_RADIUS * min(light.range, INFINITE_RADIUS) +
                       ROUND_POSITION * (length(light.position) + length(pixel.position) + length(frame.eye_world));
   const float reach = light.range + slack;
   const float distance2 = dot(offset, offset);

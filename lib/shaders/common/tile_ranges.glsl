@@ -42,7 +42,7 @@ uint bits_in_a_row(uint bits) { return bits == ~0u ? 32u : uint(findLSB(~bits));
 uint bits_from(uint first) { return first >= 32u ? 0u : ~0u << first; }
 
 // Halves tightened to the pixels in them; and the mask. A second look at the tile's pixels, for all threads together.
-TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float z_near, float z_far) {
+TileRanges refined_ranges(Frame frame, DepthImage depth_image, uvec2 tile, float z_near, float z_far) {
   TileRanges ranges = half_ranges(z_near, z_far);
   const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
   if (gl_LocalInvocationIndex == 0u) {
@@ -51,13 +51,13 @@ TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float 
     s_depth_mask = 0u;
   }
   barrier();  // initial values before the first reduction
-  for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += threads) {
-    const float depth = tile_pixel_depth(frame, depth_image, tile, i);
-    const float z = z_view_of(frame, depth);
+  for (uint i = gl_LocalInvocationIndex; i < tile_samples(depth_image); i += threads) {
+    const uint key = tile_sample_key(frame, depth_image, tile, i);
+    const float z = z_view_of_key(frame, key);
     if (BOUNDS == BOUNDS_MASK)
-      reduce_mask(depth > 0.0 ? 1u << mask_part(z, z_near, mask_scale(z_near, z_far)) : 0u);
-    else  // device depths reversed: the half's farthest pixel has its least depth, so both extremes are kept as 1 - bits
-      reduce_halves(depth > 0.0, z <= ranges.split, ~floatBitsToUint(depth));
+      reduce_mask(key != SKY_KEY ? 1u << mask_part(z, z_near, mask_scale(z_near, z_far)) : 0u);
+    else  // a half's farthest sample has its least key, so both extremes are kept inverted
+      reduce_halves(key != SKY_KEY, z <= ranges.split, ~key);
   }
   barrier();  // every reduction before the results are read
   if (BOUNDS == BOUNDS_MASK) {
@@ -65,19 +65,19 @@ TileRanges refined_ranges(Frame frame, texture2D depth_image, uvec2 tile, float 
     ranges.mask = s_depth_mask;
     return ranges;
   }
-  ranges.z_far[0] = z_view_of(frame, uintBitsToFloat(~s_near_half_max));
-  ranges.z_near[1] = s_far_half_min == ~0u ? EMPTY_NEAR : z_view_of(frame, uintBitsToFloat(~s_far_half_min));
+  ranges.z_far[0] = z_view_of_key(frame, ~s_near_half_max);
+  ranges.z_near[1] = s_far_half_min == ~0u ? EMPTY_NEAR : z_view_of_key(frame, ~s_far_half_min);
   ranges.z_far[1] = s_far_half_min == ~0u ? EMPTY_FAR : z_far;
   return ranges;
 }
 
 // For all threads of the group together.
-TileRanges tile_ranges(Frame frame, texture2D depth_image, uvec2 tile) {
+TileRanges tile_ranges(Frame frame, DepthImage depth_image, uvec2 tile) {
   if (BOUNDS == BOUNDS_NONE) return one_range(-ANY_DEPTH, ANY_DEPTH);  // the depth buffer is not looked at
   const TileDepth depth = tile_depth(frame, depth_image, tile);
   if (is_empty(depth)) return empty_ranges();
-  const float z_near = z_view_of(frame, depth.nearest);
-  const float z_far = z_view_of(frame, depth.farthest);
+  const float z_near = z_view_of_key(frame, depth.nearest);
+  const float z_far = z_view_of_key(frame, depth.farthest);
   if (BOUNDS == BOUNDS_MINMAX) return one_range(z_near, z_far);
   if (BOUNDS == BOUNDS_HALF) return half_ranges(z_near, z_far);
   return refined_ranges(frame, depth_image, tile, z_near, z_far);

@@ -2,4 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/depth_image.glsl"
 #include "methods/lamplight_at_once_main.glsl"

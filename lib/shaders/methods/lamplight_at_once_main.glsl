@@ -14,12 +14,12 @@ layout(constant_id = 8) const bool BITS = false;     // the container: bits, or 
 const bool LIGHTS_MISS = false;                      // a work group has all rows of its cell
 #include "methods/lamplight_exact.glsl"
 
-layout(set = 0, binding = 3) uniform sampler2D depth_squares;
+layout(set = 0, binding = 3) uniform DepthSquares depth_squares;
 layout(set = 0, binding = 4, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };    // LightSpan, or PIECE_WORDS words
 layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[]; };  // of rows, or with BITS of cells
 #ifdef PRUNED
-layout(set = 0, binding = 7) uniform texture2D depth_image;
+layout(set = 0, binding = 7) uniform DepthImage depth_image;
 #endif
 
 shared uint s_lights[PIECE];

@@ -3,5 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/depth_image.glsl"
 #define CELL_BITS
 #include "methods/lamplight_depth_main.glsl"

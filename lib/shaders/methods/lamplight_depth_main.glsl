@@ -11,7 +11,7 @@ layout(constant_id = 4) const uint BLOCK = 256;  // lights
 #include "lamplight/shared/lamplight.h"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
-layout(set = 0, binding = 1) uniform sampler2D depth_squares;
+layout(set = 0, binding = 1) uniform DepthSquares depth_squares;
 layout(set = 0, binding = 2, scalar) writeonly buffer TileBuffer { TileDepths tile_depths[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer CountBuffer { uint counts[]; };  // blocks times cells, or bits

@@ -47,7 +47,7 @@ layout(set = 0, binding = 9, scalar) readonly buffer PlaceBuffer { uint places[]
 layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
 #endif
 #ifdef PRUNED
-layout(set = 0, binding = DEPTH_BINDING + 1) uniform texture2D depth_image;
+layout(set = 0, binding = DEPTH_BINDING + 1) uniform DepthImage depth_image;
 #endif
 
 #include "methods/lamplight_marks.glsl"

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_samplerless_texture_functions : require
+#include "common/depth_image.glsl"
 #define PRUNED
 #define CELL_BITS
 #include "methods/lamplight_lists_main.glsl"

@@ -18,7 +18,7 @@ bool keeps_pair(Cell cell, Pair own, bool reached) {
     const Light light = lights[s_lights[subgroupShuffle(own.entry, owner)]];
     const uvec2 tile = tile_of_row(cell, subgroupShuffle(own.row, owner));
     bool any_pixel = false;
-    for (uint first = 0u; first < TILE_PX * TILE_PX && !any_pixel; first += gl_SubgroupSize) {
+    for (uint first = 0u; first < tile_samples(depth_image) && !any_pixel; first += gl_SubgroupSize) {
       const PrunePixel pixel = prune_pixel(frame, depth_image, tile, first + gl_SubgroupInvocationID);
       any_pixel = subgroupAny(pixel.covered && reaches_pixel(frame, light, pixel));
     }

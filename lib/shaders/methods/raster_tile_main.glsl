@@ -4,11 +4,11 @@
 // passes, eye outside: front faces set a stencil bit, then back faces behind the surface set the tile's where it is set.
 // Needs: set_bit(word, bit).
 // SPDX-License-Identifier: Apache-2.0
-#extension GL_EXT_samplerless_texture_functions : require
+#include "common/depth_image.glsl"
 #include "lamplight/shared/tile.h"
 #include "methods/raster_face.glsl"
 
-layout(set = 0, binding = 4) uniform texture2D depth_image;
+layout(set = 0, binding = 4) uniform DepthImage depth_image;
 layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
 
 layout(set = 0, binding = 7, scalar) readonly buffer StencilBuffer { uint stencil[]; };  // read by back faces of two
@@ -21,8 +21,8 @@ const float ROUND_DEPTH = 1e-5;  // of a depth: interpolation in 32 bits
 // Depths of the surfaces that count: the pixel's, or all of the tile. x > y: none.
 vec2 surface_depths(uvec2 pixel, uint tile) {
   if (!EXACT_PIXEL) return vec2(ranges[tile].z_near[0], ranges[tile].z_far[0]);
-  const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
-  return depth > 0.0 ? vec2(z_view_of(frame, depth)) : vec2(1.0, -1.0);
+  const uint key = depth_key_at(frame, depth_image, pixel, 0u);
+  return key != SKY_KEY ? vec2(z_view_of_key(frame, key)) : vec2(1.0, -1.0);
 }
 
 void main() {

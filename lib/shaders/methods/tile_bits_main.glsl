@@ -29,7 +29,7 @@ void flag_reached(PrunePixel pixel, uint range, uint first) {
 }
 
 void prune_batch(uvec2 tile, TileRanges ranges, uint first) {
-  for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += gl_WorkGroupSize.x) {
+  for (uint i = gl_LocalInvocationIndex; i < tile_samples(cull_depth); i += gl_WorkGroupSize.x) {
     const PrunePixel pixel = prune_pixel(cull_frame, cull_depth, tile, i);
     if (pixel.covered) flag_reached(pixel, range_of_depth(pixel.z_view, ranges), first);
   }

@@ -69,7 +69,7 @@ void compact_kept(uint range) {
 void prune_lights(uvec2 tile, TileRanges ranges) {
   for (uint word = gl_LocalInvocationIndex; word < (LIST_ENTRIES + 31u) / 32u; word += group_threads()) s_kept[word] = 0u;
   barrier();  // cleared before flags are set
-  for (uint i = gl_LocalInvocationIndex; i < TILE_PX * TILE_PX; i += group_threads()) {
+  for (uint i = gl_LocalInvocationIndex; i < tile_samples(cull_depth); i += group_threads()) {
     const PrunePixel pixel = prune_pixel(cull_frame, cull_depth, tile, i);
     flag_reached(pixel, range_of_depth(pixel.z_view, ranges));
   }

@@ -4,8 +4,7 @@
 #ifndef LAMP_METHODS_TILE_INPUTS
 #define LAMP_METHODS_TILE_INPUTS
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_samplerless_texture_functions : require
-#include "lamplight/shared/frame.h"
+#include "common/depth_image.glsl"
 #include "lamplight/shared/light.h"
 #include "lamplight/shared/tile.h"
 
@@ -23,7 +22,7 @@ layout(constant_id = TILE_CONSTANT + 10) const uint LIST_ENTRIES = 512;    // CA
 layout(constant_id = TILE_CONSTANT + 11) const uint RANGES = 1;            // depth ranges a tile: 2 for the halves
 
 layout(set = 0, binding = TILE_BINDING + 0, scalar) TILE_FRAME CullFrame { Frame cull_frame; };
-layout(set = 0, binding = TILE_BINDING + 1) uniform texture2D cull_depth;
+layout(set = 0, binding = TILE_BINDING + 1) uniform DepthImage cull_depth;
 layout(set = 0, binding = TILE_BINDING + 2, scalar) readonly buffer CullLights { Light cull_lights[]; };
 layout(set = 0, binding = TILE_BINDING + 3, scalar) readonly buffer CullBounds { LightBounds cull_bounds[]; };
 layout(set = 0, binding = TILE_BINDING + 4, scalar) readonly buffer CullFrusta { vec4 cull_frusta[]; };

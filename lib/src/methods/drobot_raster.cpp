@@ -16,11 +16,13 @@ namespace {
 
 /// How tiles are sampled.
 struct Raster {
-  std::uint32_t pixel = 1;    ///< pixels the side of a raster pixel
-  std::uint32_t samples = 1;  ///< of a raster pixel
-  double reach_px = 0.0;      ///< the nearest sample of the raster pixel is at most that far from a pixel's centre
-  bool conservative = false;  ///< the device finds every raster pixel that a triangle touches
-  [[nodiscard]] bool exact() const { return pixel == 1 && samples == 1; }  ///< samples are pixels' centres
+  std::uint32_t pixel = 1;       ///< pixels the side of a raster pixel
+  std::uint32_t samples = 1;     ///< of a raster pixel
+  bool depth_at_centres = true;  ///< the depth image has one sample a pixel
+  double reach_px = 0.0;         ///< the nearest sample of the raster pixel is at most that far from a pixel's centre
+  bool conservative = false;     ///< the device finds every raster pixel that a triangle touches
+  /// Every sample is the centre of a pixel, and the depth image knows no other place.
+  [[nodiscard]] bool exact() const { return pixel == 1 && samples == 1 && depth_at_centres; }
 };
 
 /// How far a mesh's edges are off, in raster pixels. Devices snap corners to a grid, by up to a step along each side,
@@ -46,7 +48,9 @@ Raster raster_of(Plan& plan, const Problem& problem) {
   }
   if (word == "half-msaa") return {.pixel = 2, .samples = 4, .reach_px = (0.4 + snap) * 2};
   if (word == "quarter-msaa") return {.pixel = 4, .samples = 4, .reach_px = (0.4 + snap) * 4};
-  return {.pixel = 1, .samples = 1, .reach_px = snap};
+  // Samples of a depth image that has several lie anywhere in their pixel: at most half a diagonal from its centre.
+  const bool several = problem.depth_samples > 1;
+  return {.pixel = 1, .samples = 1, .depth_at_centres = !several, .reach_px = several ? 0.71 + snap : snap};
 }
 
 struct Buffers {

@@ -47,6 +47,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                      .traits = device.traits,
                      .light_layout = info.light_layout,
                      .own_spheres = !info.brings_spheres,
+                     .depth_samples = info.depth_samples,
                      .frames_in_flight = info.frames_in_flight};
   Result<Plan> plan = make_plan(*method.value(), culler.problem_);
   if (!plan) return plan.error();
@@ -80,7 +81,11 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
     if (auto error = check_gpu_count(frame, runner_.plan())) return *error;
   // Of lights that the GPU counts, passes are dispatched for as many as there is room for; shaders stop at the count.
   const std::uint32_t capacity = problem_.light_capacity;
-  const shared::Frame record = frame.view->frame(gpu_counts ? capacity : frame.light_count, capacity);
+  shared::Frame record = frame.view->frame(gpu_counts ? capacity : frame.light_count, capacity);
+  if (frame.depth_offset.x < 0 || frame.depth_offset.y < 0)
+    return Error{"depth offset", "expected where the picture begins in the depth image, got " +
+                                     std::to_string(frame.depth_offset.x) + ", " + std::to_string(frame.depth_offset.y)};
+  record.depth_offset_px = {frame.depth_offset.x, frame.depth_offset.y};
   PlanInputs inputs{.frame = frame_.handle(),
                     .lights = frame.lights,
                     .cones = frame.cones,

@@ -87,6 +87,7 @@ struct GraphicsCreate {
   VkPipelineViewportStateCreateInfo viewport{};
   VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
   VkPipelineRasterizationStateCreateInfo raster{};
+  std::array<VkSampleMask, 2> sample_mask;
   VkPipelineMultisampleStateCreateInfo multisample{};
   VkPipelineDepthStencilStateCreateInfo depth{};
   std::vector<VkPipelineColorBlendAttachmentState> blends;
@@ -96,7 +97,7 @@ struct GraphicsCreate {
   VkPipelineRenderingCreateInfo rendering{};
   VkGraphicsPipelineCreateInfo info{};
 
-  explicit GraphicsCreate(const GraphicsState& state) {
+  explicit GraphicsCreate(const GraphicsState& state) : sample_mask{state.sample_mask, ~0U} {
     vertex_binding = {.stride = state.vertex_bytes};
     vertex = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
               .vertexBindingDescriptionCount = state.attributes.empty() ? 0U : 1U,
@@ -116,7 +117,8 @@ struct GraphicsCreate {
               .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
               .lineWidth = 1.0F};
     multisample = {.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-                   .rasterizationSamples = state.samples};
+                   .rasterizationSamples = state.samples,
+                   .pSampleMask = sample_mask.data()};
     depth = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
              .depthTestEnable = state.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE,
              .depthWriteEnable = state.depth_write ? VK_TRUE : VK_FALSE,

@@ -66,9 +66,9 @@ Description& Description::operator<<(const GraphicsState& state) {
   for (const VkFormat format : state.colors) add(format);
   for (const std::uint64_t value :
        {std::uint64_t{state.vertex_bytes}, std::uint64_t{state.cull}, std::uint64_t{state.dynamic_cull},
-        std::uint64_t{state.samples}, std::uint64_t{state.depth}, std::uint64_t{state.depth_write},
-        std::uint64_t{state.depth_clamp}, std::uint64_t{state.conservative}, std::uint64_t{state.depth_compare},
-        static_cast<std::uint64_t>(state.blend)})
+        std::uint64_t{state.samples}, std::uint64_t{state.sample_mask}, std::uint64_t{state.depth},
+        std::uint64_t{state.depth_write}, std::uint64_t{state.depth_clamp}, std::uint64_t{state.conservative},
+        std::uint64_t{state.depth_compare}, static_cast<std::uint64_t>(state.blend)})
     add(value);
   return *this;
 }

@@ -20,7 +20,7 @@ void main() {
   const float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
   uvec2 mask = uvec2(0u);
   uint light;
-  if (depth > 0.0)
+  if (!is_sky(frame, depth))
     for (Walk walk = walk_begin(pixel, z_view_of(frame, depth)); walk_next(walk, light);)
       mask[light / 32u] |= 1u << (light % 32u);
   masks[pixel.x + frame.size_px.x * pixel.y] = mask;

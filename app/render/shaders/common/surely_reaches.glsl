@@ -6,7 +6,7 @@
 #define LAMP_COMMON_SURELY_REACHES
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "lamplight/shared/frame.h"
+#include "common/frame.glsl"
 #include "lamplight/shared/light.h"
 #include "reach_data.h"
 

@@ -11,7 +11,7 @@ namespace lamp::shared {
 #endif
 
 struct Frame {
-  mat4 clip_from_view;   // reversed depth, Vulkan clip space (y down); no shear (see view.h)
+  mat4 clip_from_view;   // Vulkan clip space (y down); no shear (see view.h)
   mat4 view_from_world;  // rigid, but for `stretch`
   mat4 world_from_view;
   vec3 eye_world;       // m, world_from_view * (0,0,0)
@@ -20,9 +20,8 @@ struct Frame {
   uint box_count;       // how many of them, the last ones, are boxes
   uint light_capacity;  // what there is room for, at most the plan's; shaders take no more (light_count_of)
   float stretch;        // the largest share by which view_from_world may change a length; 0: it is rigid
-  uint reserved0;
-  uint reserved1;
-  uint reserved2;
+  uint sky_bits;           // device depth of the sky, as bits: 0.0 where depth is reversed, else 1.0
+  uvec2 depth_offset_px;   // where the picture begins in the depth image
 };
 
 #ifdef __cplusplus

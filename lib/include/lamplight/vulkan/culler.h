@@ -20,6 +20,7 @@ struct CullerInfo {
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
   LightLayout light_layout;          ///< what frames bring of each light, and where it lies
+  std::uint32_t depth_samples = 1;   ///< of the depth image, a pixel: a power of two up to 64
   bool brings_spheres = false;  ///< frames bring the lights' spheres; else a method that reads them makes them itself
   /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
   VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -42,9 +43,11 @@ struct CullerFrame {
   VkBuffer light_count_buffer = VK_NULL_HANDLE;
   VkDeviceSize light_count_offset = 0;         ///< bytes, a multiple of 4
   std::span<const shared::Light> host_lights;  ///< only for options that work on the CPU: the same lights
-  VkImage depth_image = VK_NULL_HANDLE;        ///< only for methods that need depth: one sample, device depth
-  VkImageView depth_view = VK_NULL_HANDLE;     ///< of its depth aspect
+  VkImage depth_image = VK_NULL_HANDLE;        ///< only for methods that need depth: device depth, reversed or not as
+                                               ///< the view says; may be larger than the picture
+  VkImageView depth_view = VK_NULL_HANDLE;     ///< 2D, of its depth aspect alone and of one layer
   VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  VkOffset2D depth_offset = {0, 0};  ///< where the picture begins in the depth image, pixels, not negative
 };
 
 /// What `Culler::finish` changed.

@@ -46,6 +46,7 @@ struct GraphicsState {
   VkCullModeFlags cull = VK_CULL_MODE_NONE;  ///< front faces are counter-clockwise
   bool dynamic_cull = false;                 ///< cull mode set while recording
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  VkSampleMask sample_mask = ~0U;  ///< of the first 32: which of them are written
   std::vector<VkFormat> colors;
   VkFormat depth = VK_FORMAT_UNDEFINED;
   bool depth_write = false;
