@@ -36,7 +36,9 @@ void main() {
   const uint triangle = uint(gl_VertexIndex) / 3u;
   uint corner = uint(gl_VertexIndex) % 3u;
   out_light = light;
-  if (lights[light].range > EVERYWHERE_M) {  // one triangle over the screen, a back face
+  // One triangle over the screen, a back face. Also where a device that snaps corners coarsely would draw back faces
+  // around the eye: nothing asks how deep they lie, and of a large light it loses faces that it cuts at the picture's edge.
+  if (lights[light].range > EVERYWHERE_M || (INSIDE == PROXIES_INSIDE && !FACE_DEPTHS)) {
     const vec2 at = vec2(corner == 1u ? 3.0 : -1.0, corner == 2u ? 3.0 : -1.0);
     gl_Position = triangle == 0u ? vec4(at, 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     out_z_view = INFINITE_RADIUS;
