@@ -1,0 +1,86 @@
+// Collects triangles, and reads the alpha of masked ones.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/scene_occluders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lamp::app {
+namespace {
+
+/// Where a triangle comes from.
+struct Origin {
+  std::uint32_t first_index = 0;  ///< of the scene's
+  std::uint32_t vertex_offset = 0;
+  std::uint32_t material = 0;
+};
+
+std::uint32_t wrapped(std::int64_t at, std::uint32_t size, Wrap wrap) {
+  const auto n = static_cast<std::int64_t>(size);
+  if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(at, 0, n - 1));
+  const std::int64_t period = wrap == Wrap::repeat ? n : 2 * n;
+  const std::int64_t in_period = (at % period + period) % period;
+  return static_cast<std::uint32_t>(in_period < n ? in_period : period - 1 - in_period);
+}
+
+/// Between the four texels around a place, as the sampler does at the finest level.
+double alpha_at(const Image& image, const Texture& texture, const glm::dvec2& uv) {
+  const double c = std::cos(texture.rotation);
+  const double s = std::sin(texture.rotation);
+  const glm::dvec2 scaled = glm::dvec2(texture.scale) * uv;
+  const glm::dvec2 turned(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y);
+  const glm::dvec2 place = (turned + glm::dvec2(texture.offset)) * glm::dvec2(image.width, image.height) - 0.5;
+  const glm::dvec2 corner = glm::floor(place);
+  const auto texel = [&](int dx, int dy) {
+    const std::uint32_t x = wrapped(static_cast<std::int64_t>(corner.x) + dx, image.width, texture.wrap_u);
+    const std::uint32_t y = wrapped(static_cast<std::int64_t>(corner.y) + dy, image.height, texture.wrap_v);
+    return image.rgba[(std::size_t{y} * image.width + x) * 4 + 3] / 255.0;
+  };
+  const glm::dvec2 between = place - corner;
+  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), between.x), glm::mix(texel(0, 1), texel(1, 1), between.x),
+                  between.y);
+}
+
+bool is_there(const Scene& scene, const Origin& origin, double u, double v) {
+  const Material& material = scene.materials[origin.material];
+  if (material.alpha_mode != AlphaMode::mask) return true;
+  glm::dvec2 uv(0.0);
+  double alpha = 0.0;
+  const double weights[] = {1.0 - u - v, u, v};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const Vertex& vertex = scene.vertices[scene.indices[origin.first_index + i] + origin.vertex_offset];
+    uv += weights[i] * glm::dvec2(vertex.uv[material.base_color_texture.uv]);
+    alpha += weights[i] * vertex.color.a / 255.0;
+  }
+  alpha *= material.base_color.a;
+  if (const Texture& texture = material.base_color_texture; texture.image >= 0)
+    alpha *= alpha_at(scene.images[static_cast<std::size_t>(texture.image)], texture, uv);
+  return alpha >= material.alpha_cutoff;
+}
+
+}  // namespace
+
+Occluders scene_occluders(const Scene& scene) {
+  std::vector<Triangle> triangles;
+  std::vector<Origin> origins;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
+    for (std::uint32_t at = 0; at + 2 < mesh.index_count; at += 3) {
+      Triangle triangle{};
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const glm::vec3& p = scene.vertices[scene.indices[mesh.first_index + at + i] + mesh.vertex_offset].position;
+        triangle.corners[i] = glm::dmat4(instance.world_from_object) * glm::dvec4(glm::dvec3(p), 1.0);
+      }
+      triangles.push_back(triangle);
+      origins.push_back({mesh.first_index + at, mesh.vertex_offset, mesh.material});
+    }
+  }
+  return Occluders(std::move(triangles),
+                   [&scene, origins = std::move(origins)](std::uint32_t triangle, double u, double v) {
+                     return is_there(scene, origins[triangle], u, v);
+                   });
+}
+
+}  // namespace lamp::app
