@@ -1,0 +1,76 @@
+// Shadow maps of a scene's lights: the atlas's image, what is drawn into it each frame, and what shading reads.
+// Promise: the library's atlas decides, the GPU finds which casters each square shows; a batch of views is one indirect
+// draw for all opaque casters and one for each masked material.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lamplight/shadow_atlas.h"
+#include "render/pass_uses.h"
+#include "render/shader_library.h"
+#include "render/shadow_casters.h"
+
+namespace lamp::app {
+
+struct ShadowSettings {
+  ShadowFilter filter = ShadowFilter::pcf;
+  PointShadows points = PointShadows::faces;
+  std::uint32_t atlas_size = 4096;           ///< texels
+  std::uint32_t lights = ~0U;                ///< so many of the first have shadows, at most
+  std::uint64_t budget_texels = ALL_TEXELS;  ///< drawn in a frame
+};
+
+class Shadows {
+ public:
+  /// Throws Error for an atlas that the device cannot have, and for a device that cannot draw it.
+  Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowSettings& settings,
+          std::uint32_t light_capacity);
+
+  /// Of the next frame.
+  void schedule(const View& view, std::span<const shared::Light> lights);
+  /// Draws and uploads what the last `schedule` asked for; nothing if that is done.
+  void record(vulkan::Recorder& recorder);
+
+  [[nodiscard]] const ShadowSettings& settings() const { return settings_; }
+  [[nodiscard]] const ShadowCounts& counts() const { return counts_; }
+  [[nodiscard]] std::span<const shared::ShadowMap> maps() const { return maps_; }
+  [[nodiscard]] const GpuImage& atlas() const { return atlas_; }
+  [[nodiscard]] vulkan::Resource map_buffer() const { return vulkan::Resource::storage(map_buffer_.handle()); }
+
+ private:
+  void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
+  void record_uploads(vulkan::Recorder& recorder);
+  void record_clears(vulkan::Recorder& recorder) const;
+  void record_batch(vulkan::Recorder& recorder, std::uint32_t first_view, std::uint32_t count);
+  void record_draws(vulkan::Recorder& recorder) const;
+  void begin_atlas(VkCommandBuffer commands) const;
+
+  ShadowSettings settings_;
+  const GpuScene& scene_;
+  ShadowCasters casters_;
+  std::uint32_t views_a_batch_ = 1;
+  ShadowAtlas schedule_;
+  GpuImage atlas_;
+  bool cleared_ = false;  ///< all of the image, once
+  vulkan::Buffer caster_buffer_;
+  vulkan::Buffer draw_template_;
+  vulkan::Buffer draws_;
+  vulkan::Buffer pairs_;
+  vulkan::Buffer views_;
+  vulkan::Buffer map_buffer_;
+  vulkan::Buffer staging_;  ///< maps, then views
+  vulkan::Pipeline cull_;
+  vulkan::Pipeline opaque_;
+  vulkan::Pipeline masked_;
+
+  bool changed_ = false;  ///< since the last `record`
+  ShadowCounts counts_;
+  std::vector<shared::ShadowMap> maps_;
+  std::vector<VkClearRect> clears_;
+  std::uint32_t view_count_ = 0;
+};
+
+}  // namespace lamp::app
