@@ -15,7 +15,17 @@ bool binds_any(const std::vector<Pass>& passes, ResourceId id) {
   return std::ranges::any_of(passes, [id](const Pass& pass) { return binds_any(pass.bindings, id); });
 }
 
+std::uint64_t divide_up(std::uint64_t value, std::uint64_t by) { return (value + by - 1) / by; }
+
 }  // namespace
+
+std::array<std::uint64_t, 3> Extent::counts(std::uint32_t width, std::uint32_t height, std::uint32_t lights) const {
+  // Of a draw, the lights are its instances.
+  if (lights_per_group != 0) return {divide_up(lights, lights_per_group), y, z};
+  if (cells_per_group != 0) return {divide_up(cells.count(width, height), cells_per_group) + x, y, z};
+  if (cells.px != 0) return {cells.across(width), cells.across(height), z};
+  return {x, y, z};
+}
 
 ResourceId Plan::add(BufferDesc buffer) {
   buffers.push_back(std::move(buffer));

@@ -34,13 +34,17 @@ std::optional<Error> check_bytes(const std::string& source, std::uint64_t bytes,
                            std::to_string(traits.max_storage_buffer_bytes)};
 }
 
-std::optional<Error> check_buffer(const BufferDesc& buffer, const DeviceTraits& traits) {
+std::optional<Error> check_buffer(const Plan& plan, const BufferDesc& buffer, const DeviceTraits& traits) {
   const std::string source = "buffer " + buffer.name;
   if (buffer.bytes == 0 || buffer.bytes % 4 != 0)
     return Error{source, "size must be a positive multiple of 4 bytes, got " + std::to_string(buffer.bytes)};
   // Zeros are written on the device, after host passes have run: they would erase what those wrote.
   if (buffer.memory == BufferMemory::upload && buffer.begins_at_zero())
     return Error{source, "an upload buffer cannot be zeroed; its host pass writes all of it"};
+  const CellGrid& cells = buffer.zeroed_cells;
+  if (cells.px != 0 &&
+      (buffer.cell_bytes % 4 != 0 || cells.count(plan.width, plan.height) * buffer.cell_bytes != buffer.bytes))
+    return Error{source, "the cells that are zeroed must be all of it, in the largest picture"};
   return check_bytes(source, buffer.bytes, traits);
 }
 
@@ -89,11 +93,16 @@ std::optional<Error> check_full_subgroups(const std::string& source, std::uint32
                            std::to_string(traits.max_group_invocations) + " threads"};
 }
 
-std::optional<Error> check_raster(const std::string& source, const RasterState& raster, const DeviceTraits& traits) {
+std::optional<Error> check_raster(const std::string& source, const Plan& plan, const RasterState& raster,
+                                  const DeviceTraits& traits) {
   const std::uint32_t limit = traits.max_image_size;
-  if (raster.width == 0 || raster.height == 0 || raster.width > limit || raster.height > limit)
+  const CellGrid grid{.px = std::max(1U, raster.pixel)};
+  const std::uint32_t width = grid.across(plan.width);
+  const std::uint32_t height = grid.across(plan.height);
+  if (raster.pixel == 0) return Error{source, "a pixel of its viewport must be at least one pixel of the picture"};
+  if (width == 0 || height == 0 || width > limit || height > limit)
     return Error{source, "viewport must be 1 to " + std::to_string(limit) + " pixels a side, got " +
-                             std::to_string(raster.width) + "x" + std::to_string(raster.height)};
+                             std::to_string(width) + "x" + std::to_string(height)};
   if (raster.conservative && !traits.conservative_raster)
     return Error{source, "needs conservative rasterization, which the device lacks"};
   if (raster.samples != 1 && raster.samples != 4)
@@ -101,12 +110,11 @@ std::optional<Error> check_raster(const std::string& source, const RasterState& 
   return std::nullopt;
 }
 
-std::optional<Error> check_groups(const std::string& source, const Extent& extent, std::uint32_t light_capacity,
+/// In the largest frame; smaller ones take no more.
+std::optional<Error> check_groups(const std::string& source, const Plan& plan, const Extent& extent,
                                   const DeviceTraits& traits) {
-  const std::uint64_t per_group = extent.lights_per_group;
-  const std::uint64_t for_lights = per_group == 0 ? 0 : (light_capacity + per_group - 1) / per_group;
-  const std::uint64_t x = per_group == 0 ? extent.x : std::max<std::uint64_t>(1, for_lights);
-  const std::array<std::uint64_t, 3> counts{x, extent.y, extent.z};
+  if (extent.cells_per_group != 0 && extent.cells.px == 0) return Error{source, "has groups for cells, and no cells"};
+  const auto counts = extent.counts(plan.width, plan.height, std::max(1U, plan.light_capacity));
   for (std::size_t axis = 0; axis < counts.size(); ++axis)
     if (counts[axis] == 0 || counts[axis] > traits.max_groups[axis])
       return Error{source, "needs " + std::to_string(counts[axis]) + " work groups along axis " + std::to_string(axis) +
@@ -191,7 +199,7 @@ class PassChecker {
                                std::to_string(traits_.shared_memory_bytes)};
     if (auto error = check_full_subgroups(source, pass.full_subgroups, traits_)) return error;
     if (!raster) return check_shader(source, pass.shader, ".comp", traits_.compute_subgroups);
-    if (auto error = check_raster(source, pass.raster, traits_)) return error;
+    if (auto error = check_raster(source, plan_, pass.raster, traits_)) return error;
     if (auto error = check_shader(source, pass.raster.vertex_shader, ".vert", {})) return error;
     return check_shader(source, pass.shader, ".frag", traits_.fragment_subgroups);
   }
@@ -199,7 +207,7 @@ class PassChecker {
   [[nodiscard]] std::optional<Error> check_extent(const std::string& source, const Pass& pass) const {
     if (pass.extent.indirect != NO_RESOURCE) return check_indirect(source, pass);
     if (pass.kind == PassKind::raster) return std::nullopt;
-    return check_groups(source, pass.extent, plan_.light_capacity, traits_);
+    return check_groups(source, plan_, pass.extent, traits_);
   }
 
   [[nodiscard]] std::optional<Error> check_indirect(const std::string& source, const Pass& pass) const {
@@ -270,7 +278,7 @@ std::optional<Error> check_kept(const std::vector<Pass>& passes, const std::vect
 
 std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
   for (const BufferDesc& buffer : plan.buffers)
-    if (auto error = check_buffer(buffer, traits)) return error;
+    if (auto error = check_buffer(plan, buffer, traits)) return error;
   const LightLayout& layout = plan.light_layout;
   if (auto error = check_bytes("light buffer", layout.light_bytes(plan.light_capacity), traits)) return error;
   if (auto error = check_bytes("cone buffer", layout.cone_bytes(plan.light_capacity), traits)) return error;

@@ -109,9 +109,10 @@ class StrictDevice {
     require(pass.shared_bytes <= traits_.shared_memory_bytes);
     require(find_shader(library_shaders(), pass.shader)->source.ends_with(".comp"));
     if (pass.extent.indirect != NO_RESOURCE) return read_arguments(pass.extent, 3);
-    require(pass.extent.y >= 1 && pass.extent.y <= traits_.max_groups[1]);
-    require(pass.extent.z >= 1 && pass.extent.z <= traits_.max_groups[2]);
-    if (pass.extent.lights_per_group == 0) return require(pass.extent.x >= 1 && pass.extent.x <= traits_.max_groups[0]);
+    const auto counts = pass.extent.counts(plan_.width, plan_.height, std::max(1U, plan_.light_capacity));
+    for (std::size_t axis = 0; axis < counts.size(); ++axis)
+      require(counts[axis] >= 1 && counts[axis] <= traits_.max_groups[axis]);
+    if (pass.extent.lights_per_group == 0) return;
     // All lights find a thread: groups * lights_per_group >= lights.
     const std::uint64_t lights = plan_.light_capacity;
     require(std::uint64_t{traits_.max_groups[0]} * pass.extent.lights_per_group >= lights);
@@ -120,7 +121,10 @@ class StrictDevice {
   void draw(const Pass& pass) const {
     require(find_shader(library_shaders(), pass.shader)->source.ends_with(".frag"));
     require(find_shader(library_shaders(), pass.raster.vertex_shader)->source.ends_with(".vert"));
-    require(pass.raster.width - 1 < traits_.max_image_size && pass.raster.height - 1 < traits_.max_image_size);
+    require(pass.raster.pixel != 0);
+    const CellGrid viewport{.px = pass.raster.pixel};
+    require(viewport.across(plan_.width) - 1 < traits_.max_image_size);
+    require(viewport.across(plan_.height) - 1 < traits_.max_image_size);
     require(pass.raster.samples == 1 || pass.raster.samples == 4);
     if (pass.extent.indirect != NO_RESOURCE) read_arguments(pass.extent, 4);
   }
@@ -244,14 +248,16 @@ std::vector<Pass> read_passes(Reader& in) {
                      .z = in.number<std::uint32_t>(),
                      .lights_per_group = in.number<std::uint32_t>()};
     if (in.flag()) {
+      pass.extent.cells = {.px = in.number<std::uint8_t>(), .layers = in.number<std::uint8_t>()};
+      pass.extent.cells_per_group = in.number<std::uint8_t>();
+    }
+    if (in.flag()) {
       pass.extent.indirect = read_resource(in);
       pass.extent.indirect_offset = in.flag() ? in.number<std::uint64_t>() : in.number<std::uint8_t>();
     }
     if (pass.kind == PassKind::raster)
-      pass.raster = {.vertex_shader = read_shader(in),
-                     .width = in.number<std::uint32_t>(),
-                     .height = in.number<std::uint32_t>(),
-                     .samples = in.number<std::uint32_t>()};
+      pass.raster = {
+          .vertex_shader = read_shader(in), .pixel = in.number<std::uint8_t>(), .samples = in.number<std::uint32_t>()};
   }
   return passes;
 }

@@ -82,9 +82,9 @@ TEST_F(CullerErrors, OfFramesNameTheElementAndRecordNothing) {
     return refusal(culler, bad);
   };
   EXPECT_EQ(with([](auto& f) { f.view = nullptr; }), "view: expected the frame's camera, got none");
-  const View smaller = View::create(84, 51, frame.view.clip_from_view(), frame.view.view_from_world()).value();
-  EXPECT_EQ(with([&](auto& f) { f.view = &smaller; }),
-            "size 84x51: expected 85x51 pixels, which the plan was made for");
+  const View larger = View::create(86, 51, frame.view.clip_from_view(), frame.view.view_from_world()).value();
+  EXPECT_EQ(with([&](auto& f) { f.view = &larger; }),
+            "size 86x51: expected 1x1 to 85x51 pixels, which the plan was made for");
   EXPECT_EQ(with([](auto& f) { f.light_count = 65; }),
             "light count: expected at most 64, the capacity that the plan was made for, got 65");
   EXPECT_EQ(with([](auto& f) { f.lights = VK_NULL_HANDLE; }),

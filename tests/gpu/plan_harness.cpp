@@ -30,6 +30,8 @@ PlanHarness::PlanHarness(Plan plan, const std::vector<Light>& lights, const vulk
       timestamps_(take(vulkan::Timestamps::create(device, 32))),
       frame_(host_buffer_of("frame", std::vector{shared::Frame{}})) {
   if (plan.light_capacity == 0) plan.light_capacity = 1U << 16;
+  plan.width = std::max(1U, plan.width);
+  plan.height = std::max(1U, plan.height);
   runner_ = take(vulkan::PlanRunner::create(device, std::move(plan), shaders));
   set_lights(lights);
 }
@@ -60,6 +62,7 @@ std::vector<std::vector<std::uint32_t>> PlanHarness::run() {
   const auto light_count = static_cast<std::uint32_t>(lights_.size());
   shared::Frame frame{};
   frame.light_count = frame.light_capacity = light_count;
+  frame.size_px = {runner_.plan().width, runner_.plan().height};
   if (view_) frame = view_->frame(light_count, light_count);
   std::memcpy(frame_.mapped().data(), &frame, sizeof(frame));
   std::vector<vulkan::Buffer> copies;

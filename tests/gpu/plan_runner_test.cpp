@@ -155,6 +155,8 @@ TEST_P(PlanRaster, FragmentsWriteToBuffers) {
   constexpr std::uint32_t INSTANCES = 3;
   const auto [samples, is_indirect] = GetParam();
   Plan plan;
+  plan.width = WIDTH;
+  plan.height = HEIGHT;
   const ResourceId covered = plan.add({.name = "covered", .bytes = WIDTH * HEIGHT * 4, .zeroed = true});
   const ResourceId indirect = plan.add({.name = "indirect", .bytes = 32, .indirect = true});
   Pass draw{.name = "draw",
@@ -163,7 +165,7 @@ TEST_P(PlanRaster, FragmentsWriteToBuffers) {
             .constants = {WIDTH},
             .bindings = {{covered, Access::read_write}},
             .extent = {.x = 3, .y = INSTANCES},
-            .raster = {.vertex_shader = "plan_triangle", .width = WIDTH, .height = HEIGHT, .samples = samples}};
+            .raster = {.vertex_shader = "plan_triangle", .samples = samples}};
   if (is_indirect) draw.extent = {.indirect = indirect, .indirect_offset = 16};
   plan.passes = {{.name = "counts",
                   .shader = "plan_words",
@@ -191,6 +193,7 @@ TEST_F(PlanRunnerTest, FrontFacesAreCounterClockwise) {
   using Cull = RasterState::Cull;
   for (const auto& [cull, drawn] : {std::pair(Cull::none, true), {Cull::front, false}, {Cull::back, true}}) {
     Plan plan;
+    plan.width = plan.height = 2;
     const ResourceId covered = plan.add({.name = "covered", .bytes = 16, .zeroed = true});
     plan.passes = {{.name = "draw",
                     .kind = PassKind::raster,
@@ -198,7 +201,7 @@ TEST_F(PlanRunnerTest, FrontFacesAreCounterClockwise) {
                     .constants = {2},
                     .bindings = {{covered, Access::read_write}},
                     .extent = {.x = 3},
-                    .raster = {.vertex_shader = "plan_triangle", .width = 2, .height = 2, .cull = cull}}};
+                    .raster = {.vertex_shader = "plan_triangle", .cull = cull}}};
     EXPECT_EQ(PlanHarness(plan).run()[0][0], drawn ? 1 : 0);
   }
 }

@@ -41,6 +41,7 @@ void sort_lights(const lamp::HostContext&) {}
 /// One plan with all that a plan can have: host, direct and indirect passes, counters, a fused look-up.
 Plan sound_plan() {
   Plan plan;
+  plan.width = plan.height = 64;
   plan.light_capacity = 1000;
   plan.cells = 4;
   (void)plan.add({.name = "sorted", .bytes = 4000, .memory = BufferMemory::upload});
@@ -201,6 +202,13 @@ const Rule EXTENT_RULES[] = {
      "needs 65536 work groups along axis 2, the device takes 1 to 65535"},
     {"ManyLightGroups", [](Plan& p) { p.passes[COUNT].extent = {.lights_per_group = 1}, p.light_capacity = 65536; },
      "pass count", "needs 65536 work groups along axis 0"},
+    {"ManyTiles", [](Plan& p) { p.passes[COUNT].extent = {.cells = {.px = 1}}, p.width = 65536; }, "pass count",
+     "needs 65536 work groups along axis 0"},
+    {"ManyCells",
+     [](Plan& p) { p.passes[COUNT].extent = {.x = 0, .cells = {.px = 1, .layers = 17}, .cells_per_group = 1}; },
+     "pass count", "needs 69632 work groups along axis 0"},
+    {"GroupsForNoCells", [](Plan& p) { p.passes[COUNT].extent = {.cells_per_group = 1}; }, "pass count",
+     "has groups for cells, and no cells"},
     {"IndirectInput", [](Plan& p) { p.passes[FILL].extent.indirect = INPUT_LIGHTS; }, "pass fill", "marked indirect"},
     {"IndirectUnmarked", [](Plan& p) { p.passes[FILL].extent.indirect = LISTS; }, "pass fill", "marked indirect"},
     {"IndirectOdd", [](Plan& p) { p.passes[FILL].extent.indirect_offset = 10; }, "pass fill", "indirect offset 10"},
@@ -213,17 +221,16 @@ const Rule EXTENT_RULES[] = {
 };
 
 Pass raster_pass() {
-  return {.name = "draw",
-          .kind = PassKind::raster,
-          .shader = COMPUTE,
-          .raster = {.vertex_shader = COMPUTE, .width = 64, .height = 64}};
+  return {.name = "draw", .kind = PassKind::raster, .shader = COMPUTE, .raster = {.vertex_shader = COMPUTE}};
 }
 
 const Rule RASTER_RULES[] = {
-    {"NoViewport", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.height = 0; }, "pass draw",
+    {"NoPicture", [](Plan& p) { p.passes[FILL] = raster_pass(), p.height = 0; }, "pass draw",
      "viewport must be 1 to 4096 pixels a side, got 64x0"},
-    {"LargeViewport", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.width = 4097; }, "pass draw",
-     "viewport must be 1 to 4096 pixels a side, got 4097x64"},
+    {"LargeViewport", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.pixel = 2, p.width = 8193; }, "pass draw",
+     "viewport must be 1 to 4096 pixels a side, got 4097x32"},
+    {"NoViewportPixel", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.pixel = 0; }, "pass draw",
+     "at least one pixel of the picture"},
     {"ThreeSamples", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.samples = 3; }, "pass draw",
      "samples must be 1 or 4, got 3"},
     {"WrongStage", [](Plan& p) { p.passes[FILL] = raster_pass(); }, "pass draw",

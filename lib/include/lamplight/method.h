@@ -44,8 +44,8 @@ inline constexpr std::uint32_t MAX_LIGHTS = 1U << 24;
 inline constexpr std::uint32_t MAX_FRAMES_IN_FLIGHT = 4;
 inline constexpr std::uint32_t MAX_IMAGE_SIZE = 1U << 16;  ///< pixels a side, whatever a device says
 
-/// What a method plans for. Sizes in pixels, 1 .. traits.max_image_size and MAX_IMAGE_SIZE; light_capacity up to
-/// MAX_LIGHTS.
+/// What a method plans for: frames of up to a size, in pixels, 1 .. traits.max_image_size and MAX_IMAGE_SIZE;
+/// light_capacity up to MAX_LIGHTS.
 struct Problem {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -44,25 +44,44 @@ enum class BufferMemory : std::uint8_t {
   upload,  ///< likewise, filled from what host passes write: mapped memory besides, for each frame in flight
 };
 
+/// Cells of a frame's picture: squares, of the tiles' kind, in layers. px 0: none.
+struct CellGrid {
+  std::uint32_t px = 0;  ///< of a square's side; partial squares at the right and bottom count
+  std::uint32_t layers = 1;
+
+  [[nodiscard]] std::uint32_t across(std::uint32_t width) const { return width / px + (width % px == 0 ? 0 : 1); }
+  [[nodiscard]] std::uint64_t count(std::uint32_t width, std::uint32_t height) const {
+    return std::uint64_t{across(width)} * across(height) * layers;
+  }
+};
+
 struct BufferDesc {
   std::string name;
   std::uint64_t bytes = 0;  ///< > 0, a multiple of 4
   BufferMemory memory = BufferMemory::device;
-  bool zeroed = false;          ///< filled with zeros at the start of every frame; device memory only
-  bool zeroed_by_pass = false;  ///< likewise, but by the first pass that binds it, which only writes it
-  bool indirect = false;        ///< holds group or draw counts
+  bool zeroed = false;           ///< filled with zeros at the start of every frame; device memory only
+  CellGrid zeroed_cells;         ///< px not 0: only as far as the cells of the frame's picture reach,
+  std::uint64_t cell_bytes = 0;  ///< of as many bytes each, a multiple of 4
+  bool zeroed_by_pass = false;   ///< likewise, but by the first pass that binds it, which only writes it
+  bool indirect = false;         ///< holds group or draw counts
 
   [[nodiscard]] bool begins_at_zero() const { return zeroed || zeroed_by_pass; }
 };
 
 /// How many work groups a compute pass has, or how many vertices and instances a raster pass draws.
-struct Extent {
+struct LAMPLIGHT_API Extent {
   std::uint32_t x = 1;                 ///< groups in x; raster: vertices of an instance
   std::uint32_t y = 1;                 ///< groups in y; raster: instances
   std::uint32_t z = 1;                 ///< groups in z; raster: unused
   std::uint32_t lights_per_group = 0;  ///< not 0: x (raster: y) is ceil(light count of the frame / this)
+  CellGrid cells;                      ///< px not 0: x and y are the squares across and down the frame's picture
+  std::uint32_t cells_per_group = 0;   ///< not 0: x is ceil(all of those cells / this) and x besides, y as it is
   ResourceId indirect = NO_RESOURCE;   ///< not NO_RESOURCE: read from this buffer instead
   std::uint64_t indirect_offset = 0;   ///< bytes, a multiple of 4
+
+  /// The groups of a frame, or vertices and instances, unless they are read from a buffer.
+  [[nodiscard]] std::array<std::uint64_t, 3> counts(std::uint32_t width, std::uint32_t height,
+                                                    std::uint32_t lights) const;
 };
 
 enum class PassKind : std::uint8_t { compute, raster, host };
@@ -70,8 +89,7 @@ enum class PassKind : std::uint8_t { compute, raster, host };
 /// Raster passes have no colour attachment: fragments write to buffers.
 struct RasterState {
   std::string vertex_shader;
-  std::uint32_t width = 0;    ///< viewport, pixels
-  std::uint32_t height = 0;   ///< viewport, pixels
+  std::uint32_t pixel = 1;    ///< pixels of the picture along a side of one of the viewport, which covers it
   std::uint32_t samples = 1;  ///< 1 or 4: what every device has without attachments
   bool conservative = false;  ///< every pixel that a triangle touches; only where DeviceTraits has it
   enum class Cull : std::uint8_t { none, front, back } cull = Cull::none;  ///< front faces are counter-clockwise
@@ -152,7 +170,7 @@ struct LAMPLIGHT_API Plan {
   bool ordered = true;                 ///< lists ascend
   bool approximate = false;            ///< may miss lights, by the paper's design
   bool any_depth = false;              ///< right for any depth of a pixel, not only the depth buffer's
-  std::uint32_t width = 0;             ///< the problem's, pixels
+  std::uint32_t width = 0;             ///< the problem's, pixels: of the largest frame
   std::uint32_t height = 0;            ///< likewise
   std::uint32_t light_capacity = 0;    ///< likewise
   LightLayout light_layout;            ///< likewise

@@ -12,6 +12,13 @@ uint light_count_of(Frame frame) { return min(frame.light_count, frame.light_cap
 
 bool is_sky(Frame frame, float device_depth) { return device_depth == (frame.sky_bits == 0u ? 0.0 : 1.0); }
 
+// Squares across and down the picture, the partial ones included, and how many there are.
+uvec2 squares_across(Frame frame, uint side_px) { return (frame.size_px + side_px - 1u) / side_px; }
+uint square_count(Frame frame, uint side_px) {
+  const uvec2 across = squares_across(frame, side_px);
+  return across.x * across.y;
+}
+
 // Metres ahead of the eye of a device depth that is not the sky's: clip.z = A z + B and clip.w = C z + D, solved for -z.
 float z_view_of(Frame frame, float device_depth) {
   const mat4 m = frame.clip_from_view;

@@ -5,13 +5,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/frame.glsl"
 #include "lamplight/shared/counters.h"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint CLUSTERS = 1;
-layout(constant_id = 2) const uint ENTRIES = 1;
-layout(set = 0, binding = 0, scalar) buffer RangeBuffer { uvec2 ranges[]; };
-layout(set = 0, binding = 1, scalar) buffer CounterBuffer { Counters counters; };
+layout(constant_id = 1) const uint TILE_PX = 64;
+layout(constant_id = 2) const uint SLICES = 24;
+layout(constant_id = 3) const uint ENTRIES = 1;
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1, scalar) buffer RangeBuffer { uvec2 ranges[]; };
+layout(set = 0, binding = 2, scalar) buffer CounterBuffer { Counters counters; };
 
 shared uint s_sums[256];
 shared uint s_total;
@@ -22,10 +25,11 @@ uint add(uint a, uint b) { return a + b < a ? ~0u : a + b; }
 void main() {
   const uint thread = gl_LocalInvocationIndex;
   const uint threads = gl_WorkGroupSize.x;
+  const uint clusters = square_count(frame, TILE_PX) * SLICES;
   if (thread == 0u) s_total = 0u;
-  for (uint first = 0u; first < CLUSTERS; first += threads) {
+  for (uint first = 0u; first < clusters; first += threads) {
     const uint cluster = first + thread;
-    const uint count = cluster < CLUSTERS ? ranges[cluster].y : 0u;
+    const uint count = cluster < clusters ? ranges[cluster].y : 0u;
     s_sums[thread] = count;
     barrier();  // counts before the first addition
     for (uint step = 1u; step < threads; step *= 2u) {
@@ -35,7 +39,7 @@ void main() {
       barrier();  // all writes of a round before the next
     }
     const uint begin = add(s_total, thread == 0u ? 0u : s_sums[thread - 1u]);
-    if (cluster < CLUSTERS) {
+    if (cluster < clusters) {
       ranges[cluster] = uvec2(begin, count);
       if (begin > ENTRIES || count > ENTRIES - begin) atomicAdd(counters.overflowed_cells, 1u);
     }

@@ -4,7 +4,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
-layout(constant_id = 3) const uint CELLS = 1;
+layout(constant_id = 3) const uint LAYERS = 1;  // of cells
 #ifdef SLICED
 layout(constant_id = 5) const uint CELL_SLICES = 4;
 #define SLICE_CONSTANT 6
@@ -21,6 +21,7 @@ const uint CELL_ROWS = CELL_TILES * CELL_TILES;
 #include "lamplight/shared/lamplight.h"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
+uint cell_count() { return square_count(frame, TILE_PX * CELL_TILES) * LAYERS; }
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 #ifdef CELL_BITS

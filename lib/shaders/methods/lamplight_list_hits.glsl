@@ -1,7 +1,7 @@
 // Hits as a list, where lights are many: pairs of light and cell are counted in a matrix, blocks of lights by cells,
 // where each learns its rank, and are kept for scattering. They wait in the subgroup's part of shared memory until
 // there are enough to write.
-// Needs: CELLS. Gives group_share, lights_to_find, light_to_find; keep_hit, keep_last_hits.
+// Needs: cell_count. Gives group_share, lights_to_find, light_to_find; keep_hit, keep_last_hits.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_LIST_HITS
 #define LAMP_METHODS_LAMPLIGHT_LIST_HITS
@@ -45,7 +45,7 @@ void write_hits(uint begin, uint count) {
   subgroupBarrier();  // hits are there before they are read
   for (uint i = gl_SubgroupInvocationID; i < count; i += gl_SubgroupSize) {
     const LightHit hit = s_hits[first_hit() + i];
-    const uint rank = atomicAdd(counts[hit.light / BLOCK * CELLS + hit.place], 1u);
+    const uint rank = atomicAdd(counts[hit.light / BLOCK * cell_count() + hit.place], 1u);
     if (begin + i < HITS) hits[begin + i] = LightHit(hit.light, hit.place | rank << HIT_CELL_BITS);
   }
   subgroupBarrier();  // and read before others take their place

@@ -8,7 +8,9 @@
 
 layout(constant_id = 9) const uint RUN_WORDS = 8;  // bits of a block
 layout(constant_id = 10) const uint BLOCK = 256;    // lights
-layout(constant_id = 11) const uint CELLS = 1;
+layout(constant_id = 11) const uint LAYERS = 1;     // of cells
+
+uint cell_count() { return square_count(frame, TILE_PX * CELL_TILES) * LAYERS; }
 
 const uint LONG_RUN = 32u;
 const uint MARGIN = LONG_RUN;  // a run that is not long and reaches into the piece begins and ends within it
@@ -52,8 +54,8 @@ void place_light(Window window, uint at) {
 // By all threads of the group together.
 void place_long_run(Window window, LightPiece piece, uint block) {
   const uint blocks = (light_count_of(frame) + BLOCK - 1u) / BLOCK;
-  const uint begin = places[block * CELLS + piece.cell];
-  const uint end = block + 1u < blocks ? places[(block + 1u) * CELLS + piece.cell] : piece.end;
+  const uint begin = places[block * cell_count() + piece.cell];
+  const uint end = block + 1u < blocks ? places[(block + 1u) * cell_count() + piece.cell] : piece.end;
   for (uint i = gl_LocalInvocationIndex; i < BLOCK_WORDS; i += gl_WorkGroupSize.x) s_run_bits[i] = 0u;
   barrier();  // zeroes before the first bit
   for (uint i = begin + gl_LocalInvocationIndex; i < end; i += gl_WorkGroupSize.x) {

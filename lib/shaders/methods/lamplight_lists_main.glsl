@@ -115,7 +115,7 @@ void cull_piece(CellPiece piece) {
 
 #ifdef CELL_BITS
 void main() {
-  const uint others = gl_NumWorkGroups.x - CELLS;
+  const uint others = gl_NumWorkGroups.x - cell_count();
   const bool is_own = gl_WorkGroupID.x >= others;
   const uint cell = is_own ? gl_WorkGroupID.x - others : NO_CELL;
   const uint entries = is_own ? cells[cell].entries : 0u;

@@ -16,7 +16,7 @@ uint narrow_flag(uint light, float radius, uint cells) {
   return lights[light].type == LIGHT_SPOT && lights[light].cos_outer > NARROW_COSINE ? NARROW : 0u;
 }
 
-uvec2 cells_across() { return (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES); }
+uvec2 cells_across() { return squares_across(frame, TILE_PX * CELL_TILES); }
 
 // Metres ahead; of empty cells from infinity to minus infinity.
 vec2 depths_of_cell(uint cell) {

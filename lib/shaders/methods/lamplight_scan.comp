@@ -11,19 +11,22 @@
 const uint COLUMNS = 16u;  // 64 bytes of a row
 layout(local_size_x = 16, local_size_y_id = 0) in;
 layout(constant_id = 0) const uint STRIPS = 16;
-layout(constant_id = 1) const uint CELLS = 1;
-layout(constant_id = 2) const uint BLOCK = 256;
-layout(constant_id = 3) const uint PIECES = 1;  // capacity
-layout(constant_id = 4) const uint HITS = 1;    // capacity
-layout(constant_id = 5) const uint CELL_ROWS = 16;
-layout(constant_id = 6) const uint SCATTER_THREADS = 256;
-layout(constant_id = 7) const uint ROW_GROUPS = 1;  // work groups of the last pass for a piece
+layout(constant_id = 1) const uint CELL_PX = 64;
+layout(constant_id = 2) const uint LAYERS = 1;  // of cells
+layout(constant_id = 3) const uint BLOCK = 256;
+layout(constant_id = 4) const uint PIECES = 1;  // capacity
+layout(constant_id = 5) const uint HITS = 1;    // capacity
+layout(constant_id = 6) const uint CELL_ROWS = 16;
+layout(constant_id = 7) const uint SCATTER_THREADS = 256;
+layout(constant_id = 8) const uint ROW_GROUPS = 1;  // work groups of the last pass for a piece
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) buffer CountBuffer { uint counts[]; };  // [block][cell]; becomes first places
 layout(set = 0, binding = 2, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { LightPiece cell_pieces[]; };
 layout(set = 0, binding = 4, scalar) buffer TotalBuffer { LightTotals totals; };
+
+uint cell_count() { return square_count(frame, CELL_PX) * LAYERS; }
 
 shared uint s_strips[STRIPS][COLUMNS];
 shared uint s_total[COLUMNS];
@@ -38,7 +41,7 @@ bool has_pieces(uint first, uint entries) { return first <= PIECES && pieces_of(
 const uint HELD = 16u;
 
 void load_counts(uint cell, uint from, uint to, out uint held[HELD]) {
-  [[unroll]] for (uint k = 0u; k < HELD; ++k) held[k] = from + k < to ? counts[(from + k) * CELLS + cell] : 0u;
+  [[unroll]] for (uint k = 0u; k < HELD; ++k) held[k] = from + k < to ? counts[(from + k) * cell_count() + cell] : 0u;
 }
 
 uint pieces_before(uint column) {
@@ -77,8 +80,8 @@ void main() {
   const uint cell = gl_WorkGroupID.x * COLUMNS + column;
   const uint blocks = (light_count_of(frame) + BLOCK - 1u) / BLOCK;
   const uint height = (blocks + STRIPS - 1u) / STRIPS;
-  const uint from = cell < CELLS ? min(strip * height, blocks) : 0u;
-  const uint to = cell < CELLS ? min(from + height, blocks) : 0u;
+  const uint from = cell < cell_count() ? min(strip * height, blocks) : 0u;
+  const uint to = cell < cell_count() ? min(from + height, blocks) : 0u;
   const bool all_hits = totals.hits <= HITS;
   if (gl_WorkGroupID.x == 0u && gl_LocalInvocationIndex == 0u) write_group_counts();
 
@@ -97,7 +100,7 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) reserve_pieces(pieces_before(COLUMNS));
   barrier();  // room before it is handed out
 
-  if (cell >= CELLS) return;
+  if (cell >= cell_count()) return;
   const uint first_piece = s_base + pieces_before(column);
   const bool fits = all_hits && has_pieces(first_piece, s_total[column]);
   write_cell(cell, strip, STRIPS, first_piece, s_total[column], fits);
@@ -105,7 +108,7 @@ void main() {
     if (height > HELD) load_counts(cell, block, to, held);
     [[unroll]] for (uint k = 0u; k < HELD; ++k) {
       if (block + k >= to) continue;
-      counts[(block + k) * CELLS + cell] = fits ? first_piece * PIECE + before : NO_PLACE;
+      counts[(block + k) * cell_count() + cell] = fits ? first_piece * PIECE + before : NO_PLACE;
       before += held[k];
     }
   }

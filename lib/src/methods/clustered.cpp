@@ -20,7 +20,7 @@ struct Clusters {
   std::uint64_t count;
   std::uint32_t threads;
   std::vector<std::uint32_t> constants;  ///< of the look-up; passes have the number of threads before them
-  [[nodiscard]] Extent one_group_a_tile() const { return {.x = tiles.width, .y = tiles.height}; }
+  [[nodiscard]] Extent one_group_a_tile() const { return {.cells = {.px = constants[0]}}; }
   [[nodiscard]] std::vector<std::uint32_t> pass_constants(std::initializer_list<std::uint32_t> last) const {
     std::vector<std::uint32_t> all{threads};
     all.insert(all.end(), constants.begin(), constants.end());
@@ -91,8 +91,8 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
                          .extent = c.one_group_a_tile()});
   plan.passes.push_back({.name = "cluster scan",
                          .shader = "methods/clustered_scan",
-                         .constants = {c.threads, static_cast<std::uint32_t>(c.count), entries},
-                         .bindings = {{ranges, Access::read_write}, {counters, Access::read_write}}});
+                         .constants = {c.threads, c.constants[0], c.constants[1], entries},
+                         .bindings = {{INPUT_FRAME}, {ranges, Access::read_write}, {counters, Access::read_write}}});
   plan.passes.push_back({.name = "cluster fill",
                          .shader = "methods/clustered_fill",
                          .constants = c.pass_constants({entries, words}),

@@ -69,12 +69,12 @@ Pass proxy_pass(const Problem& problem, const Raster& raster, const Buffers& b) 
           .extent = {.lights_per_group = 64}};
 }
 
-Pass depth_pass(std::uint32_t tile_px, const parts::TileGrid& tiles, ResourceId ranges) {
+Pass depth_pass(std::uint32_t tile_px, ResourceId ranges) {
   return {.name = "tile depth",
           .shader = "methods/tile_depth_pass",
           .constants = {tile_px / 2, tile_px, shared::BOUNDS_MINMAX},
           .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {ranges, Access::write}},
-          .extent = {.x = tiles.width, .y = tiles.height}};
+          .extent = {.cells = {.px = tile_px}}};
 }
 
 /// A draw of the lights outside or inside of which the eye is. Constants: those of raster_inputs.glsl.
@@ -95,8 +95,7 @@ Pass draw_pass(const Problem& problem, const Raster& raster, const Buffers& b, c
           .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {b.proxies}, {b.drawn}},
           .extent = {.indirect = b.draws, .indirect_offset = draw.which * sizeof(shared::ProxyDraw)},
           .raster = {.vertex_shader = "methods/light_proxy",
-                     .width = parts::divide_up(problem.width, raster.pixel),
-                     .height = parts::divide_up(problem.height, raster.pixel),
+                     .pixel = raster.pixel,
                      .samples = raster.samples,
                      .conservative = raster.conservative,
                      .cull = draw.cull}};
@@ -138,7 +137,9 @@ std::vector<TileDraw> tile_draws(Plan& plan, const Problem& problem, Buffers& b)
       {"back faces around the eye", shader, shared::PROXIES_INSIDE, Cull::front}, shared::TILES_ONE_PASS, b.bits};
   const Draw front{"front faces", shader, shared::PROXIES_OUTSIDE, Cull::back};
   if (problem.options.word("depth") != "stencil") return {{front, shared::TILES_ONE_PASS, b.bits}, around};
-  b.stencil = plan.add({.name = "tile stencil", .bytes = plan.buffers[b.bits - PLAN_BUFFER].bytes, .zeroed = true});
+  BufferDesc stencil = plan.buffers[b.bits - PLAN_BUFFER];
+  stencil.name = "tile stencil";
+  b.stencil = plan.add(std::move(stencil));
   return {{front, shared::TILES_STENCIL, b.stencil},
           {{"back faces", shader, shared::PROXIES_OUTSIDE, Cull::front}, shared::TILES_BEHIND, b.bits},
           around};
@@ -152,10 +153,10 @@ Plan plan_raster_tile(const Problem& problem) {
   const Raster raster = raster_of(plan, problem);
   plan.cells = tiles.count();
   Buffers b = add_proxies(plan, problem, raster);
-  b.bits = plan.add({.name = "tile bits", .bytes = tiles.count() * words * 4, .zeroed = true});
+  b.bits = plan.add(parts::zeroed_cells("tile bits", problem, {.px = tile_px}, std::uint64_t{words} * 4));
   if (!raster.exact()) {
     b.ranges = plan.add({.name = "tile depth ranges", .bytes = tiles.count() * sizeof(shared::TileRanges)});
-    plan.passes.push_back(depth_pass(tile_px, tiles, b.ranges));
+    plan.passes.push_back(depth_pass(tile_px, b.ranges));
   }
   const std::uint32_t depth_bounds = problem.options.word("depth") == "test" ? 0 : 1;
   for (const auto& [draw, step, writes] : tile_draws(plan, problem, b)) {
@@ -187,13 +188,14 @@ Plan plan_raster_cluster(const Problem& problem) {
   const Raster raster = raster_of(plan, problem);
   plan.cells = clusters;
   Buffers b = add_proxies(plan, problem, raster);
-  b.bits = plan.add({.name = "cluster bits", .bytes = clusters * words * 4, .zeroed = true});
+  b.bits = plan.add(parts::zeroed_cells(
+      "cluster bits", problem, {.px = o.integer("tile"), .layers = o.integer("slices")}, std::uint64_t{words} * 4));
   plan.any_depth = o.word("early") == "off";
   const std::uint32_t early_px = o.word("early") == "on" ? std::min(o.integer("tile"), LARGEST_RANGE_PX) : 0;
   if (early_px != 0) {
     const parts::TileGrid squares = parts::tile_grid(problem, early_px);
     b.ranges = plan.add({.name = "tile depth ranges", .bytes = squares.count() * sizeof(shared::TileRanges)});
-    plan.passes.push_back(depth_pass(early_px, squares, b.ranges));
+    plan.passes.push_back(depth_pass(early_px, b.ranges));
   }
   const char* shader = compacts(plan, problem) ? "methods/raster_cluster_compact" : "methods/raster_cluster";
   const std::pair<Draw, std::uint32_t> draws[] = {

@@ -148,7 +148,7 @@ Plan plan_drobot_zbin(const Problem& problem) {
                          .shader = "methods/zbin_tiles",
                          .constants = {s.threads, s.tile_px, s.words},
                          .bindings = {{INPUT_FRAME}, {b.sorted}, {b.bits, Access::write}},
-                         .extent = {.x = s.tiles.width, .y = s.tiles.height}});
+                         .extent = {.cells = {.px = s.tile_px}}});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_zbins"),
                  .constants = {s.tile_px, s.words, s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U},
                  .bindings = {{INPUT_FRAME}, {b.bits}, {b.bins}, {b.order}}};

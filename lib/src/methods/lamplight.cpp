@@ -74,7 +74,7 @@ struct Buffers {
   ResourceId totals, tile_depths, cell_depths, seen, matrix, hits, cells, pieces, entries, piece_lists, rows, lists;
 };
 
-Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
+Buffers add_buffers(Plan& plan, const Problem& problem, const Sizes& s) {
   Buffers b{};
   const bool depth_clears = s.cell_bits && !s.sliced();
   b.totals = plan.add({.name = "totals",
@@ -87,11 +87,14 @@ Buffers add_buffers(Plan& plan, const Sizes& s, std::uint64_t lights) {
     b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
     b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
   }
-  if (!s.cell_bits) b.seen = plan.add({.name = "lights in view", .bytes = lights * 4});
-  const std::uint64_t matrix_bytes = std::uint64_t{s.blocks} * s.cell_count * 4;
-  b.matrix = plan.add({.name = s.cell_bits ? "cell bits" : "cell counts", .bytes = matrix_bytes, .zeroed = s.sliced()});
-  b.cells = plan.add(
-      {.name = "cells", .bytes = std::uint64_t{s.cell_count} * sizeof(shared::LightCell), .zeroed = s.sliced()});
+  if (!s.cell_bits) b.seen = plan.add({.name = "lights in view", .bytes = std::uint64_t{parts::capacity(problem)} * 4});
+  const auto of_cells = [&](const char* name, std::uint64_t cell_bytes) {
+    BufferDesc desc = parts::zeroed_cells(name, problem, s.cell_grid(), cell_bytes);
+    desc.zeroed = s.sliced();  // else the pass that looks at depths does it
+    return plan.add(std::move(desc));
+  };
+  b.matrix = of_cells(s.cell_bits ? "cell bits" : "cell counts", std::uint64_t{s.blocks} * 4);
+  b.cells = of_cells("cells", sizeof(shared::LightCell));
   if (s.cell_bits) {
     b.piece_lists = plan.add({.name = "piece lists", .bytes = std::uint64_t{s.entries} * 4});
   } else {
@@ -118,7 +121,7 @@ std::string shader_of(std::string_view name, const Sizes& s) {
 }
 
 Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  const std::uint32_t cell_px = s.tile_px * s.cell_tiles;
+  const std::uint32_t cell_px = s.cell_px();
   const std::uint32_t busy = s.cell_tiles * s.cell_tiles * problem.traits.subgroup_size;  // a tile is a subgroup's
   const std::uint32_t threads =
       lamplight::full_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
@@ -131,7 +134,7 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                          {b.cells, Access::write},
                          {b.matrix, Access::write},
                          {b.cell_depths, Access::write}},
-            .extent = {.x = s.cells.width, .y = s.cells.height},
+            .extent = {.cells = {.px = cell_px}},
             .shared_bytes = 32,
             .full_subgroups = threads};
   if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
@@ -152,7 +155,7 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
   const std::uint32_t share = s.cell_bits ? find_share(problem, threads) : few_lights(problem, threads);
   Pass pass{.name = "find cells",
             .shader = shader_of(s.sliced() ? "find_sliced" : "find", s),
-            .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.cell_count, share}, problem, s),
+            .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.cell_grid().layers, share}, problem, s),
             .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.matrix, Access::read_write}},
             .shared_bytes = QUEUE_BYTES + 8,
             .full_subgroups = threads};
@@ -173,22 +176,22 @@ Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
   const std::uint32_t threads = group_threads(problem, SCAN_THREADS);
   return {.name = "scan cells",
           .shader = "methods/lamplight_scan",
-          .constants = {threads / SCAN_COLUMNS, s.cell_count, s.block, s.pieces, s.entries, s.cell_rows,
-                        scatter_threads, s.cell_rows / s.group_rows},
+          .constants = {threads / SCAN_COLUMNS, s.cell_px(), s.cell_grid().layers, s.block, s.pieces, s.entries,
+                        s.cell_rows, scatter_threads, s.cell_rows / s.group_rows},
           .bindings = {{INPUT_FRAME},
                        {b.matrix, Access::read_write},
                        {b.cells, Access::write},
                        {b.pieces, Access::write},
                        {b.totals, Access::read_write}},
-          .extent = {.x = parts::divide_up(s.cell_count, SCAN_COLUMNS)},
+          .extent = {.x = 0, .cells = s.cell_grid(), .cells_per_group = SCAN_COLUMNS},
           .shared_bytes = threads * 4 + SCAN_COLUMNS * 4 + 4};
 }
 
 Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
   return {.name = "scatter hits",
           .shader = "methods/lamplight_scatter",
-          .constants = {threads, s.cell_count, s.block, s.entries},
-          .bindings = {{b.hits}, {b.matrix}, {b.totals}, {b.entries, Access::write}},
+          .constants = {threads, s.cell_px(), s.cell_grid().layers, s.block, s.entries},
+          .bindings = {{INPUT_FRAME}, {b.hits}, {b.matrix}, {b.totals}, {b.entries, Access::write}},
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, scatter_x)}};
 }
 
@@ -211,7 +214,8 @@ std::uint32_t sharing_groups(const Problem& problem, const Sizes& s) {
 /// groups it needs.
 Extent lists_extent(const Problem& problem, const Sizes& s, const Buffers& b) {
   if (!s.cell_bits) return {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, pieces)};
-  return {.x = s.cell_count + sharing_groups(problem, s), .y = s.cell_rows / s.group_rows};
+  return {
+      .x = sharing_groups(problem, s), .y = s.cell_rows / s.group_rows, .cells = s.cell_grid(), .cells_per_group = 1};
 }
 
 /// Subgroups of one pass may be smaller than others, but not smaller than this.
@@ -234,7 +238,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                                 s),
             .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, pairs, s.group_rows, mark_words,
                                       s.cell_rows, s.bits ? 1U : 0U, order_size, s.cell_bits ? s.pieces : s.block,
-                                      s.cell_count, has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
+                                      s.cell_grid().layers, has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
                                      problem, s),
             .bindings = {{INPUT_FRAME},
                          {INPUT_LIGHTS},
@@ -293,7 +297,7 @@ Plan plan_lamplight(const Problem& problem) {
   Plan plan;
   plan.cells = sizes.tiles.count() * sizes.slices;
   plan.any_depth = sizes.sliced();
-  const Buffers buffers = add_buffers(plan, sizes, parts::capacity(problem));
+  const Buffers buffers = add_buffers(plan, problem, sizes);
   plan.capacities = {{.option = "mean_cells",
                       .entries = sizes.entries,
                       .per_option = parts::capacity(problem),

@@ -74,7 +74,7 @@ Plan plan_at_once(const Problem& problem) {
                     {cells, Access::write},
                     {rows, Access::write},
                     {lists, Access::write}},
-       .extent = {.x = grid.cells.width, .y = grid.cells.height},
+       .extent = {.cells = {.px = grid.tile_px * grid.cell_tiles}},
        .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
        .full_subgroups = grid.threads}};
   if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});

@@ -42,6 +42,10 @@ struct Sizes {
   std::uint32_t listed;               ///< lights in lists, capacity; 0 of bits
 
   [[nodiscard]] bool sliced() const { return slices > 1; }
+  [[nodiscard]] std::uint32_t cell_px() const { return tile_px * cell_tiles; }
+  [[nodiscard]] CellGrid cell_grid() const {
+    return {.px = cell_px(), .layers = parts::divide_up(slices, cell_slices)};
+  }
   /// What a row keeps of a piece: a span of the lists, or bits.
   [[nodiscard]] std::uint64_t row_bytes() const { return lamplight::row_bytes(bits); }
 };

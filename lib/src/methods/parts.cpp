@@ -8,6 +8,14 @@
 
 namespace lamp::parts {
 
+BufferDesc zeroed_cells(std::string name, const Problem& problem, const CellGrid& cells, std::uint64_t cell_bytes) {
+  return {.name = std::move(name),
+          .bytes = cells.count(problem.width, problem.height) * cell_bytes,
+          .zeroed = true,
+          .zeroed_cells = cells,
+          .cell_bytes = cell_bytes};
+}
+
 ResourceId add_light_bounds(Plan& plan, const Problem& problem) {
   return plan.add({.name = "light bounds", .bytes = std::uint64_t{capacity(problem)} * sizeof(shared::LightBounds)});
 }

@@ -31,6 +31,10 @@ struct TileGrid {
 /// The light buffer's capacity, at least 1 so that no buffer is empty.
 [[nodiscard]] inline std::uint32_t capacity(const Problem& problem) { return std::max(1U, problem.light_capacity); }
 
+/// A buffer of `cell_bytes` for each cell of the picture, zeroed every frame as far as that frame's picture reaches.
+[[nodiscard]] BufferDesc zeroed_cells(std::string name, const Problem& problem, const CellGrid& cells,
+                                      std::uint64_t cell_bytes);
+
 /// Adds the buffer of shared::LightBounds.
 [[nodiscard]] ResourceId add_light_bounds(Plan& plan, const Problem& problem);
 /// The pass that fills it: one thread a light, view-space sphere (shaders/methods/light_bounds.comp).

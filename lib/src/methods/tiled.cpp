@@ -39,7 +39,7 @@ std::vector<Binding> tile_bindings(const TiledAxes& axes, const Buffers& b) {
 }
 
 /// What comes before the cull: light bounds, tile frusta, depth ranges, as far as the axes have them.
-std::vector<Pass> passes_before(const TiledAxes& axes, const parts::TileGrid& tiles, const Buffers& b) {
+std::vector<Pass> passes_before(const TiledAxes& axes, const Buffers& b) {
   std::vector<Pass> passes;
   if (!axes.aos) passes.push_back(parts::light_bounds_pass(b.bounds));
   if (axes.cached_frusta)
@@ -47,14 +47,14 @@ std::vector<Pass> passes_before(const TiledAxes& axes, const parts::TileGrid& ti
                       .shader = "methods/tile_frusta",
                       .constants = {axes.tile_px, axes.test},
                       .bindings = {{INPUT_FRAME}, {b.frusta, Access::write}},
-                      .extent = {.x = parts::divide_up(static_cast<std::uint32_t>(tiles.count()), 64)},
+                      .extent = {.x = 0, .cells = {.px = axes.tile_px}, .cells_per_group = 64},
                       .on_projection_change = true});
   if (axes.reduce == TiledAxes::Reduce::parallel)
     passes.push_back({.name = "tile depth",
                       .shader = "methods/tile_depth_pass",
                       .constants = {axes.tile_px / 2, axes.tile_px, axes.bounds},
                       .bindings = {{INPUT_FRAME}, {INPUT_DEPTH}, {b.ranges, Access::write}},
-                      .extent = {.x = tiles.width, .y = tiles.height}});
+                      .extent = {.cells = {.px = axes.tile_px}}});
   return passes;
 }
 
@@ -63,14 +63,14 @@ std::uint32_t shared_bytes(const TiledAxes& axes) {
   return axes.bits ? 256 : axes.ranges() * axes.capacity * 4 + 128 * 4 + 64;
 }
 
-Pass cull_pass(const Problem& problem, const TiledAxes& axes, const parts::TileGrid& tiles, const Buffers& b) {
+Pass cull_pass(const Problem& problem, const TiledAxes& axes, const Buffers& b) {
   const char* container = axes.bits ? "bits" : axes.order == shared::ORDER_TYPE ? "typed" : "lists";
   const char* reduce = axes.reduce == TiledAxes::Reduce::subgroup ? "subgroup" : "atomic";
   Pass pass{.name = "tiled cull",
             .shader = std::string("methods/tile_") + container + "_" + reduce,
             .constants = {parts::cull_threads(problem, axes.tile_px * axes.tile_px)},
             .bindings = tile_bindings(axes, b),
-            .extent = {.x = tiles.width, .y = tiles.height},
+            .extent = {.cells = {.px = axes.tile_px}},
             .shared_bytes = shared_bytes(axes)};
   const std::vector<std::uint32_t> constants = tile_constants(axes);
   pass.constants.insert(pass.constants.end(), constants.begin(), constants.end());
@@ -166,8 +166,8 @@ Plan plan_tiled(const Problem& problem) {
   if (!axes.bits) plan.capacities = {parts::own_lists(plan, "capacity", axes.capacity)};
   if (axes.order == shared::ORDER_TYPE)
     plan.capacities.push_back(parts::shared_list(plan, "mean_capacity", shared_list, plan.cells));
-  plan.passes = passes_before(axes, tiles, buffers);
-  plan.passes.push_back(cull_pass(problem, axes, tiles, buffers));
+  plan.passes = passes_before(axes, buffers);
+  plan.passes.push_back(cull_pass(problem, axes, buffers));
   // Container bits: the last constant is the words of a cell; a shared list: its length.
   if (axes.bits)
     plan.passes.back().constants.push_back(parts::divide_up(parts::capacity(problem), 32));
@@ -181,7 +181,7 @@ Plan plan_tiled(const Problem& problem) {
       FusedLookUp{.lookup = {.name = axes.reduce == TiledAxes::Reduce::subgroup ? "tile_fused_subgroup" : "tile_fused",
                              .constants = tile_constants(axes),
                              .bindings = std::move(fused_bindings)},
-                  .passes = passes_before(axes, tiles, buffers),
+                  .passes = passes_before(axes, buffers),
                   .group_width = axes.tile_px,
                   .group_height = axes.tile_px,
                   .shared_bytes = shared_bytes(axes)};

@@ -19,9 +19,10 @@ std::optional<Error> check_count(const char* element, std::uint32_t count, std::
 }
 
 std::optional<Error> check_record(const Plan& plan, const shared::Frame& frame) {
-  if (frame.size_px != glm::uvec2(plan.width, plan.height))
+  const auto fits = [](std::uint32_t side, std::uint32_t most) { return side >= 1 && side <= most; };
+  if (!fits(frame.size_px.x, plan.width) || !fits(frame.size_px.y, plan.height))
     return Error{"size " + size_text(frame.size_px.x, frame.size_px.y),
-                 "expected " + size_text(plan.width, plan.height) + " pixels, which the plan was made for"};
+                 "expected 1x1 to " + size_text(plan.width, plan.height) + " pixels, which the plan was made for"};
   const char* capacity = "the capacity that the plan was made for";
   if (auto error = check_count("light count", frame.light_count, plan.light_capacity, capacity)) return error;
   if (auto error = check_count("light capacity of the frame", frame.light_capacity, plan.light_capacity, capacity))

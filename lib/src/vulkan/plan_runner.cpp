@@ -3,6 +3,7 @@
 #include "lamplight/vulkan/plan_runner.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 
@@ -38,8 +39,16 @@ Result<OwnedSampler> depth_sampler(const Device& device) {
   return OwnedSampler(device.handle, sampler, device.vk.vkDestroySampler);
 }
 
-std::uint32_t per_light(std::uint32_t lights, std::uint32_t lights_per_group) {
-  return lights / lights_per_group + (lights % lights_per_group == 0 ? 0 : 1);
+std::array<std::uint32_t, 3> counts_of(const Extent& extent, const shared::Frame& frame) {
+  const auto counts = extent.counts(frame.size_px.x, frame.size_px.y, frame.light_count);
+  return {static_cast<std::uint32_t>(counts[0]), static_cast<std::uint32_t>(counts[1]),
+          static_cast<std::uint32_t>(counts[2])};
+}
+
+/// Of a buffer that is zeroed, what the frame's picture takes of it.
+std::uint64_t zeroed_bytes(const BufferDesc& desc, const shared::Frame& frame) {
+  if (desc.zeroed_cells.px == 0) return desc.bytes;
+  return desc.zeroed_cells.count(frame.size_px.x, frame.size_px.y) * desc.cell_bytes;
 }
 
 }  // namespace
@@ -110,7 +119,7 @@ Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& i
   if (auto error = check(inputs)) return *error;
   const std::vector<BuiltPass>& passes = which == Passes::fused ? fused_ : separate_;
   record_host_passes(recorder, passes, inputs);
-  zero_buffers(recorder);
+  zero_buffers(recorder, *inputs.host_frame);
   const bool kept = is_kept(*inputs.host_frame, ++records_);
   std::vector<BoundPass> together;
   for (const BuiltPass& built : passes) {
@@ -180,7 +189,7 @@ VkPipelineStageFlags2 PlanRunner::stages() const {
   return all;
 }
 
-void PlanRunner::zero_buffers(Recorder& recorder) const {
+void PlanRunner::zero_buffers(Recorder& recorder, const shared::Frame& frame) const {
   std::vector<Use> uses;
   for (std::size_t i = 0; i < buffers_.size(); ++i)
     if (plan_.buffers[i].zeroed)
@@ -189,8 +198,10 @@ void PlanRunner::zero_buffers(Recorder& recorder) const {
                       .access = VK_ACCESS_2_TRANSFER_WRITE_BIT});
   if (uses.empty()) return;
   recorder.begin_pass(CLEAR_PASS, uses);
-  for (const Use& use : uses)
-    recorder.device().vk.vkCmdFillBuffer(recorder.commands(), use.resource.buffer, 0, VK_WHOLE_SIZE, 0);
+  for (std::size_t i = 0; i < buffers_.size(); ++i)
+    if (plan_.buffers[i].zeroed)
+      recorder.device().vk.vkCmdFillBuffer(recorder.commands(), buffers_[i].handle(), 0,
+                                           zeroed_bytes(plan_.buffers[i], frame), 0);
   recorder.end_pass();
 }
 
@@ -286,18 +297,19 @@ void PlanRunner::dispatch(const Recorder& recorder, const Pass& pass, const Plan
   const Extent& extent = pass.extent;
   if (extent.indirect != NO_RESOURCE)
     return vk.vkCmdDispatchIndirect(commands, buffer(extent.indirect), extent.indirect_offset);
-  const std::uint32_t x =
-      extent.lights_per_group == 0 ? extent.x : per_light(inputs.host_frame->light_count, extent.lights_per_group);
-  if (x != 0) vk.vkCmdDispatch(commands, x, extent.y, extent.z);
+  const auto [x, y, z] = counts_of(extent, *inputs.host_frame);
+  if (x != 0) vk.vkCmdDispatch(commands, x, y, z);
 }
 
 void PlanRunner::draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const {
   const DeviceFunctions& vk = recorder.device().vk;
   const VkCommandBuffer commands = recorder.commands();
-  const VkRect2D area{.extent = {pass.raster.width, pass.raster.height}};
+  const CellGrid pixels{.px = pass.raster.pixel};
+  const glm::uvec2 size_px = inputs.host_frame->size_px;
+  const VkRect2D area{.extent = {pixels.across(size_px.x), pixels.across(size_px.y)}};
   const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1};
-  const VkViewport viewport{.width = static_cast<float>(pass.raster.width),
-                            .height = static_cast<float>(pass.raster.height),
+  const VkViewport viewport{.width = static_cast<float>(area.extent.width),
+                            .height = static_cast<float>(area.extent.height),
                             .maxDepth = 1.0F};
   vk.vkCmdBeginRendering(commands, &rendering);
   vk.vkCmdSetViewport(commands, 0, 1, &viewport);
@@ -306,9 +318,8 @@ void PlanRunner::draw(const Recorder& recorder, const Pass& pass, const PlanInpu
   if (extent.indirect != NO_RESOURCE) {
     vk.vkCmdDrawIndirect(commands, buffer(extent.indirect), extent.indirect_offset, 1, sizeof(VkDrawIndirectCommand));
   } else {
-    const std::uint32_t instances =
-        extent.lights_per_group == 0 ? extent.y : per_light(inputs.host_frame->light_count, extent.lights_per_group);
-    vk.vkCmdDraw(commands, extent.x, instances, 0, 0);
+    const auto counts = counts_of(extent, *inputs.host_frame);
+    vk.vkCmdDraw(commands, extent.x, extent.lights_per_group == 0 ? extent.y : counts[0], 0, 0);
   }
   vk.vkCmdEndRendering(commands);
 }

@@ -14,8 +14,8 @@
 namespace lamp::vulkan {
 
 struct CullerInfo {
-  std::uint32_t width = 0;   ///< pixels
-  std::uint32_t height = 0;  ///< pixels
+  std::uint32_t width = 0;   ///< pixels, of the largest frame
+  std::uint32_t height = 0;  ///< likewise
   std::uint32_t light_capacity = 0;
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
@@ -30,7 +30,7 @@ struct CullerInfo {
 /// What a frame brings. Lights, their count, spheres and depth must be visible to compute shaders when the recorded
 /// commands run, also for methods that draw, and may change once compute shaders have read them.
 struct CullerFrame {
-  const View* view = nullptr;  ///< of the Culler's size
+  const View* view = nullptr;  ///< of any size up to the Culler's; another one each frame, if need be
   /// Storage buffers. The part of each begins at a multiple of 16 bytes and of minStorageBufferOffsetAlignment.
   BufferPart lights;   ///< of shared::Light (`lamp::pack`), or what CullerInfo::light_layout says
   BufferPart cones;    ///< of shared::LightCone, where the layout has them
@@ -57,9 +57,9 @@ enum class Growth : std::uint8_t {
   constants,  ///< and its constants: make your pipelines anew
 };
 
-/// Owns the buffers and pipelines of one method at one size. Frames run on the GPU one after the other, as on one queue
-/// they do, in the order in which they were recorded. Up to CullerInfo::frames_in_flight may be under way: when a frame
-/// is recorded, those before the last frames_in_flight - 1 are done, or were dropped.
+/// Owns the buffers and pipelines of one method, for frames up to a size. Frames run on the GPU one after the other, as
+/// on one queue they do, in the order in which they were recorded. Up to CullerInfo::frames_in_flight may be under way:
+/// when a frame is recorded, those before the last frames_in_flight - 1 are done, or were dropped.
 class LAMPLIGHT_API Culler {
  public:
   Culler() = default;
@@ -69,7 +69,7 @@ class LAMPLIGHT_API Culler {
 
   /// Records the passes. What they wrote is visible to CullerInfo::readers recorded later. Returns the frame's number,
   /// from 1 on. A recorded frame may be dropped (`drop`): none relies on what another one would have done. Errors, and
-  /// then nothing is recorded: no view or one of another size, a handle that the method needs and that is missing, more
+  /// then nothing is recorded: no view or a larger one, a handle that the method needs and that is missing, more
   /// lights than the capacity, fewer host lights than lights, a count on the GPU for an option that works on the CPU.
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 

@@ -68,8 +68,8 @@ class LAMPLIGHT_API PlanRunner {
                                              Passes which = Passes::separate);
 
   /// What of a frame does not go with the plan: a handle that it needs, a part of a buffer that begins at an odd place
-  /// or is too short, another size, more lights than its capacity, fewer host lights than lights. The first such thing,
-  /// or nothing.
+  /// or is too short, a larger size, more lights than its capacity, fewer host lights than lights. The first such
+  /// thing, or nothing.
   [[nodiscard]] std::optional<Error> check(const PlanInputs& inputs) const;
 
   /// Says that the record of that number has run, and all before it that were not dropped. Passes that are kept need
@@ -128,7 +128,7 @@ class LAMPLIGHT_API PlanRunner {
   void dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
   void draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
   [[nodiscard]] bool is_kept(const shared::Frame& frame, std::uint64_t record);
-  void zero_buffers(Recorder& recorder) const;
+  void zero_buffers(Recorder& recorder, const shared::Frame& frame) const;
 
   Plan plan_;
   std::vector<Buffer> buffers_;
