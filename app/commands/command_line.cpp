@@ -102,19 +102,19 @@ void check_repeats(const CLI::App& command) {
 Error parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App& command = parsed.empty() ? app : *parsed.front();
-  const std::string help = "see " + (parsed.empty() ? "lamp" : "lamp " + command.get_name()) + " --help";
+  const std::string help = "see " + (parsed.empty() ? app.get_name() : "lamp " + command.get_name()) + " --help";
   const std::string extra = first_extra(command);
   if (const std::string before = first_extra(app); extra.empty() && !parsed.empty() && before.starts_with("-"))
     return Error(fmt::format("option '{}': stands before the command, expected: lamp {} {} ...", before,
                              command.get_name(), before));
   if (extra.empty()) return Error(fmt::format("{}; {}", words_of(command, error), help));
   if (extra.starts_with("-")) return unknown_with_help("option", extra, option_names(command), help);
-  if (parsed.empty()) return unknown_command(app, extra);
+  if (parsed.empty() && !app.get_subcommands({}).empty()) return unknown_command(app, extra);
   return Error(fmt::format("argument '{}': was not expected; {}", extra, help));
 }
 
 std::string help_text(const CLI::App& command) {
-  const std::string name = command.get_parent() == nullptr ? "lamp" : "lamp " + command.get_name();
+  const std::string name = command.get_parent() == nullptr ? command.get_name() : "lamp " + command.get_name();
   std::string text = command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
   for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
   return text;

@@ -55,19 +55,6 @@ View captured_view(const Request& request, const Scene& scene) {
   return view;
 }
 
-/// A capture holds no surfaces to lie on but those that its pixels show, with the decals that were there.
-void add_decals(const Request& request, Setup& setup) {
-  if (request.decals == 0) return;
-  if (setup.scene.captured)
-    throw Error(fmt::format("--decals {}: the capture {} has its decals in its albedo and normals, expected 0",
-                            request.decals, request.scene));
-  const std::vector<Decal> decals = place_decals(setup.scene, request.decals, request.seed);
-  setup.decals = pack(decals);
-  if (const auto error = check_boxes(boxes_of(setup.decals))) throw Error(setup.scene.name + ": " + error->text());
-  const std::size_t own = std::min(decals.size(), setup.scene.decals.size());
-  setup.decals_note = fmt::format("{} of the scene + {} generated", own, decals.size() - own);
-}
-
 PlaceLights light_placement(const Request& request, const Scene& scene) {
   const auto [min_range, max_range] = parse_range(request.range);
   const int frame = request.light_frame >= 0 ? request.light_frame : std::max(0, request.frame);
@@ -102,6 +89,17 @@ View requested_view(const Request& request, const Scene& scene) {
 
 std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air) {
   return place_lights(air, light_placement(request, scene));
+}
+
+std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene) {
+  if (request.decals == 0) return {};
+  // It holds no surfaces to lie on but those that its pixels show, with the decals that were there.
+  if (scene.captured)
+    throw Error(fmt::format("--decals {}: the capture {} has its decals in its albedo and normals, expected 0",
+                            request.decals, request.scene));
+  std::vector<gpu::DecalData> decals = pack(place_decals(scene, request.decals, request.seed));
+  if (const auto error = check_boxes(boxes_of(decals))) throw Error(scene.name + ": " + error->text());
+  return decals;
 }
 
 glm::uvec2 parse_size(const std::string& text) {
@@ -214,8 +212,24 @@ Setup make_setup(const Request& request) {
   setup.lights.insert(setup.lights.end(), packed.begin(), packed.end());
   setup.lights_note = fmt::format("{} generated{} + {} of the scene", setup.generated.size(),
                                   range_note(setup.generated), setup.scene.lights.size());
-  add_decals(request, setup);
+  setup.decals = requested_decals(request, setup.scene);
+  const std::size_t own = std::min(setup.decals.size(), setup.scene.decals.size());
+  setup.decals_note = fmt::format("{} of the scene + {} generated", own, setup.decals.size() - own);
   return setup;
+}
+
+Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, LightingInfo info, bool grow) {
+  Lighting lighting(renderer.device(), shaders, info);
+  const Options asked = info.options;
+  // More than once: where one list is too short, it can hide what the next one needs.
+  while (grow) {
+    std::optional<Options> more = lighting.grown(renderer.cull(lighting).needed);
+    if (!more) break;
+    info.options = std::move(*more);
+    info.grown = changed_options(asked, info.options);
+    lighting = Lighting(renderer.device(), shaders, info);
+  }
+  return lighting;
 }
 
 Session::Session(const Request& request, const Setup& setup, ContextInfo::Validation validation)
@@ -230,27 +244,18 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
 }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
-  LightingInfo info{.method = &method,
-                    .options = take(resolve_options(method, options)),
-                    .width = setup_.view.width(),
-                    .height = setup_.view.height(),
-                    .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
-                    .path = path,
-                    .brdf = brdf_,
-                    .transparency = !gpu_scene_->blended().empty(),
-                    .captured = setup_.scene.captured.has_value(),
-                    .decals = !setup_.decals.empty()};
-  Lighting lighting(context_->device(), shaders_, info);
-  const Options asked = info.options;
-  // More than once: where one list is too short, it can hide what the next one needs.
-  while (grow_) {
-    std::optional<Options> more = lighting.grown(renderer_->cull(lighting).needed);
-    if (!more) break;
-    info.options = std::move(*more);
-    info.grown = changed_options(asked, info.options);
-    lighting = Lighting(context_->device(), shaders_, info);
-  }
-  return lighting;
+  return make_lighting(*renderer_, shaders_,
+                       {.method = &method,
+                        .options = take(resolve_options(method, options)),
+                        .width = setup_.view.width(),
+                        .height = setup_.view.height(),
+                        .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
+                        .path = path,
+                        .brdf = brdf_,
+                        .transparency = !gpu_scene_->blended().empty(),
+                        .captured = setup_.scene.captured.has_value(),
+                        .decals = !setup_.decals.empty()},
+                       grow_);
 }
 
 }  // namespace lamp::app

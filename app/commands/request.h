@@ -95,6 +95,8 @@ struct Setup {
 [[nodiscard]] View requested_view(const Request& request, const Scene& scene);
 /// The generated lights. `air`: the scene's.
 [[nodiscard]] std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air);
+/// The decals. Throws Error for a capture, and for boxes that none can be.
+[[nodiscard]] std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene);
 /// The scene's lights and the generated ones are few enough, and as lights must be.
 void check_scene_lights(const Request& request, const Scene& scene);
 
@@ -121,6 +123,9 @@ void add_verifier_option(CLI::App& command, std::string& verifier);
 [[nodiscard]] const Method& parse_method(const std::string& text);
 /// Whether a method's name asks for whatever suits best.
 [[nodiscard]] bool is_auto(std::string_view method);
+
+/// A lighting of the renderer's frame; with `grow`, with as much room as that needs.
+[[nodiscard]] Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, LightingInfo info, bool grow);
 
 /// Device, renderer and what they need, for one Setup.
 class Session {

@@ -34,7 +34,7 @@ bool has_debug_utils(const char* layer) {
   });
 }
 
-vulkan::Instance make_instance(ContextInfo::Validation validation) {
+vulkan::Instance make_instance(ContextInfo::Validation validation, std::span<const char* const> more = {}) {
   const VkApplicationInfo application{
       .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "lamp", .apiVersion = INSTANCE_VERSION};
   constexpr std::array FEATURES{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
@@ -45,7 +45,7 @@ vulkan::Instance make_instance(ContextInfo::Validation validation) {
   if (validate && !has_layer(VALIDATION_LAYER))
     throw Error("validation was asked for but the layer is missing: install vulkan-validationlayers", Exit::no_device);
   std::vector<const char*> layers;
-  std::vector<const char*> extensions;
+  std::vector<const char*> extensions(more.begin(), more.end());
   if (validate) layers.push_back(VALIDATION_LAYER);
   if (has_debug_utils(nullptr) || validate) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   if (validate) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
@@ -144,7 +144,8 @@ struct Context::Messages {
     const std::string_view text(data->pMessage);
     const std::string_view id(data->pMessageIdName == nullptr ? "" : data->pMessageIdName);
     // Layers since 1.4 leave the name out of the text.
-    messages.lines.push_back(text.find(id) != std::string_view::npos ? std::string(text) : fmt::format("[{}] {}", id, text));
+    messages.lines.push_back(text.find(id) != std::string_view::npos ? std::string(text)
+                                                                     : fmt::format("[{}] {}", id, text));
     return VK_FALSE;
   }
 };
@@ -158,7 +159,7 @@ std::vector<DeviceRow> list_devices() {
 }
 
 Context::Context(const ContextInfo& info) : messages_(std::make_unique<Messages>()) {
-  instance_ = make_instance(info.validation);
+  instance_ = make_instance(info.validation, info.instance_extensions);
   if (info.validation == ContextInfo::Validation::on) create_messenger();
   physical_ = choose_device(instance_, info.device);
   row_ = describe(instance_, physical_);
@@ -203,6 +204,7 @@ void Context::create_device(const ContextInfo& info) {
   const OptionalFeatures optional(instance_, physical_, info, &features.base);
   std::vector<const char*> extensions(required.begin(), required.end());
   extensions.insert(extensions.end(), optional.extensions.begin(), optional.extensions.end());
+  extensions.insert(extensions.end(), info.device_extensions.begin(), info.device_extensions.end());
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = optional.chain(),
                                   .queueCreateInfoCount = 1,
@@ -263,7 +265,10 @@ void Context::submit(const std::function<void(VkCommandBuffer)>& record) {
                                          .commandBuffer = commands};
   const VkSubmitInfo2 submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer};
-  check(vkQueueSubmit2(queue_, 1, &submit, fence_), "submitting to the device");
+  {
+    const std::lock_guard lock(queue_mutex_);
+    check(vkQueueSubmit2(queue_, 1, &submit, fence_), "submitting to the device");
+  }
   check(vkWaitForFences(handle_, 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the device");
   check(vkResetFences(handle_, 1, &fence_), "resetting a fence");
   check(vkResetCommandPool(handle_, pool_, 0), "resetting the command pool");

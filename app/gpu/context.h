@@ -6,6 +6,8 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +28,9 @@ struct DeviceRow {
 struct ContextInfo {
   std::string device;                                              ///< empty: the best
   enum class Validation { off, on } validation = Validation::off;  ///< core and synchronization validation
-  bool push_descriptors = true;      ///< where the device has them; else descriptors lie in sets
+  bool push_descriptors = true;                      ///< where the device has them; else descriptors lie in sets
+  std::span<const char* const> instance_extensions;  ///< besides what is always enabled: a window's
+  std::span<const char* const> device_extensions;    ///< likewise
   bool pipeline_statistics = false;  ///< pipelines that the driver can describe, if it can; they may compile slowly
 };
 
@@ -49,6 +53,8 @@ class Context {
   /// For whoever submits by itself, as several frames ahead are.
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
+  /// Held by whoever uses the queue while another thread may; `submit` holds it.
+  [[nodiscard]] std::mutex& queue_mutex() { return queue_mutex_; }
 
   /// Records, submits and waits. Throws Error when there is no memory for what it binds.
   void submit(const std::function<void(VkCommandBuffer)>& record);
@@ -72,6 +78,7 @@ class Context {
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice handle_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
+  std::mutex queue_mutex_;
   std::uint32_t queue_family_ = 0;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;

@@ -53,6 +53,14 @@ std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
   return values;
 }
 
+/// Of a plan that counts.
+void add_counts(Rendered& rendered, const Plan& plan, const vulkan::Buffer& counts) {
+  if (plan.counters == NO_RESOURCE) return;
+  vulkan::FrameCounts counted = vulkan::read_counts(plan, counts.mapped());
+  rendered.counters = counted.counters;
+  rendered.needed = std::move(counted.needed);
+}
+
 }  // namespace
 
 Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
@@ -129,17 +137,42 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   tracker_.forget(counts.handle());
   Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
   times.fill(rendered, lighting);
-  if (plan.counters == NO_RESOURCE) return rendered;
-  vulkan::FrameCounts counted = vulkan::read_counts(plan, counts.mapped());
-  rendered.counters = counted.counters;
-  rendered.needed = std::move(counted.needed);
+  add_counts(rendered, plan, counts);
   return rendered;
+}
+
+Rendered Renderer::draw(Lighting& lighting, const std::function<void(vulkan::Recorder&)>& more) {
+  const Plan& plan = lighting.runner().plan();
+  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
+  FrameTimes times;
+  submit(&lighting, [&](VkCommandBuffer commands) {
+    timestamps_.reset(commands);
+    vulkan::Recorder recorder(context_.device(), commands, tracker_, &timestamps_);
+    record_frame(recorder, lighting, true);
+    timestamps_.finish(commands);
+    vulkan::Recorder untimed(context_.device(), commands, tracker_);
+    more(untimed);
+    lighting.runner().record_counts(untimed, counts);
+  });
+  tracker_.forget(counts.handle());
+  times.add(timestamps_.read(), lighting);
+  Rendered rendered;
+  times.fill(rendered, lighting);
+  add_counts(rendered, plan, counts);
+  return rendered;
+}
+
+void Renderer::also(const std::function<void(vulkan::Recorder&)>& record) {
+  submit(nullptr, [&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    record(recorder);
+  });
 }
 
 vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   const Plan& plan = lighting.runner().plan();
   if (plan.counters == NO_RESOURCE) return {};
-  if (!surfaces_drawn_) draw_surfaces();
+  need_surfaces();
   const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
@@ -211,9 +244,13 @@ void Renderer::draw_surfaces(Lighting* decals) {
   surfaces_drawn_ = decals == nullptr;
 }
 
+void Renderer::need_surfaces() {
+  if (!surfaces_drawn_) draw_surfaces();
+}
+
 void Renderer::keep_surfaces() {
   if (kept_) return;
-  if (!surfaces_drawn_) draw_surfaces();
+  need_surfaces();
   kept_.emplace(context_.device(), *targets_);
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);

@@ -72,6 +72,13 @@ class Renderer {
   /// left in the G-buffer are not drawn again.
   [[nodiscard]] Rendered relight(Lighting& lighting);
 
+  /// Renders one frame, whose picture stays in the targets: what `more` records comes behind it. Surfaces that an
+  /// earlier frame of this view left in the G-buffer are not drawn again.
+  [[nodiscard]] Rendered draw(Lighting& lighting, const std::function<void(vulkan::Recorder&)>& more);
+
+  /// Submits what `record` records, and waits for it.
+  void also(const std::function<void(vulkan::Recorder&)>& record);
+
   /// Culls the frame and shades nothing; draws its surfaces first where there are none yet. What did not fit, and what
   /// is needed of the plan's capacities; nothing of a plan that does not count.
   [[nodiscard]] vulkan::FrameCounts cull(Lighting& lighting);
@@ -86,6 +93,9 @@ class Renderer {
   /// Culls and shades one frame and reads nothing back: for what a first use alone takes. Surfaces that an earlier
   /// frame of this view left in the G-buffer are not drawn again.
   void warm_up(Lighting& lighting);
+
+  /// Draws the surfaces of the view into the G-buffer, unless they are there.
+  void need_surfaces();
 
   /// Keeps a copy of the surfaces of this view, drawn first where there are none yet. Until the view changes, frames of
   /// the deferred paths copy that into the G-buffer instead of drawing, in less time.

@@ -1,0 +1,27 @@
+// The lights of one pixel: which its walk brings, and what each of them adds to its radiance.
+// Promise: through the look-up and the shading code that make the picture.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace lamp::app {
+
+/// The lights that the walk of a pixel of the last frame brings, ascending; none of sky. Culls anew. `pixel`: numbered
+/// row by row.
+[[nodiscard]] std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel);
+
+struct PixelTerms {
+  std::vector<glm::vec3> lights;  ///< radiance towards the eye, of each light asked for
+  glm::vec3 surroundings{0.0F};   ///< of all that is no light of the frame
+};
+/// Of an opaque surface, from the G-buffer of the last frame, which is drawn first if a forward path left none.
+[[nodiscard]] PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene,
+                                  const LightingInfo& info, std::uint32_t pixel, std::span<const std::uint32_t> lights);
+
+}  // namespace lamp::app

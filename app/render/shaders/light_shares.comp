@@ -1,0 +1,36 @@
+// What each of some lights adds to a pixel, and what its surroundings add: the terms of deferred.comp's sum, one by one.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+#include "scene_data.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
+layout(set = 0, binding = 2, std430) readonly buffer IdBuffer { uint ids[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
+  Surroundings surroundings;
+  DirectionalData directional_lights[];
+};
+layout(set = 0, binding = 8, std430) writeonly buffer TermBuffer { vec4 terms[]; };  // one more than ids: surroundings
+layout(push_constant) uniform Push {
+  uvec2 pixel;
+  uint count;  // of ids
+};
+#include "common/deferred_surface.glsl"
+#include "common/lights.glsl"
+#include "common/surroundings.glsl"
+
+void main() {
+  const uint i = gl_GlobalInvocationID.x;
+  if (i > count) return;
+  const Surface s = read_surface(ivec2(pixel), z_view_of(frame, texelFetch(depth_image, ivec2(pixel), 0).x));
+  const Reflector r = reflector(s);
+  vec3 term = vec3(0.0);
+  if (i < count)
+    add_light(term, r, ids[i]);
+  else
+    term = shade_surroundings(s, r, texelFetch(emission_image, ivec2(pixel), 0).rgb);
+  terms[i] = vec4(term, 0.0);
+}
