@@ -1,0 +1,112 @@
+// What overlays say of walks that are known; dynamic resolution; percentiles.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "render/heatmap.h"
+#include "view/overlay.h"
+#include "view/pace.h"
+#include "view/times.h"
+
+namespace lamp::app {
+namespace {
+
+View small_view() {
+  const auto view = View::create(2, 2, perspective(symmetric_window(1.0, 1.0), 0.1, INFINITE_FAR), glm::dmat4(1.0));
+  return view.value();
+}
+
+std::uint32_t alpha(std::uint32_t pixel) { return pixel >> 24U; }
+glm::u8vec3 color(std::uint32_t pixel) { return {pixel & 255U, pixel >> 8U & 255U, pixel >> 16U & 255U}; }
+
+/// Sky, and two cells: one of two pixels.
+const std::vector<Visit> VISITS{
+    {.cell = SKY_CELL}, {.visited = 3, .cell = 5}, {.visited = 9, .cell = 6}, {.visited = 3, .cell = 5}};
+// 0.1 m over the depth is how far ahead the surface is.
+const std::vector<float> DEPTH{0.0F, 0.1F, 0.05F, 0.02F};
+
+TEST(Overlays, HeatHasTheColoursOfHeatMaps) {
+  const View view = small_view();
+  const Overlaid made = make_overlay(Overlay::heat, Palette::rainbow, {.view = view, .visits = VISITS});
+  EXPECT_EQ(made.legend.high, 16.0);
+  EXPECT_EQ(made.legend.max, 9.0);
+  EXPECT_EQ(made.legend.mean, 5.0);
+  EXPECT_EQ(color(made.pixels[1]), heat_color(3, 16));
+  EXPECT_EQ(color(made.pixels[2]), heat_color(9, 16));
+}
+
+TEST(Overlays, CellsDiffer) {
+  const View view = small_view();
+  const Overlaid made = make_overlay(Overlay::cells, Palette::rainbow, {.view = view, .visits = VISITS});
+  EXPECT_EQ(made.pixels[1], made.pixels[3]);
+  EXPECT_NE(made.pixels[1], made.pixels[2]);
+  EXPECT_EQ(made.legend.cells, 2);
+}
+
+TEST(Overlays, DepthRangeIsFromNearestToFarthest) {
+  const View view = small_view();
+  const Overlaid made =
+      make_overlay(Overlay::depth_range, Palette::grey, {.view = view, .visits = VISITS, .depth = DEPTH});
+  EXPECT_NEAR(made.legend.max, 4.0, 1e-4);
+  EXPECT_NEAR(made.legend.mean, 2.0, 1e-4);
+  EXPECT_EQ(color(made.pixels[1]), glm::u8vec3(255));
+  EXPECT_EQ(color(made.pixels[2]), glm::u8vec3(20));
+}
+
+TEST(Overlays, OverflowMarksPixelsThatWalkEverything) {
+  const View view = small_view();
+  Walked walked{.view = view, .visits = VISITS, .lights = 9, .overflowed = true};
+  EXPECT_EQ(make_overlay(Overlay::overflow, Palette::grey, walked).legend.cells, 1);
+  walked.overflowed = false;
+  EXPECT_EQ(make_overlay(Overlay::overflow, Palette::grey, walked).legend.cells, 0);
+}
+
+TEST(Overlays, DimTheSky) {
+  const View view = small_view();
+  for (const Overlay overlay : {Overlay::heat, Overlay::cells, Overlay::depth_range, Overlay::overflow}) {
+    const Overlaid made = make_overlay(overlay, Palette::grey, {.view = view, .visits = VISITS, .depth = DEPTH});
+    EXPECT_EQ(color(made.pixels[0]), glm::u8vec3(0));
+    EXPECT_GT(alpha(made.pixels[0]), 0);
+  }
+}
+
+TEST(Palettes, RiseInLightness) {
+  for (const Palette palette : {Palette::rainbow, Palette::blue_yellow, Palette::grey}) {
+    double last = -1.0;
+    for (int i = 0; i <= 20; ++i) {
+      const glm::dvec3 c(palette_color(palette, i / 20.0));
+      const double luma = glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
+      EXPECT_GT(luma, last);
+      last = luma;
+    }
+  }
+}
+
+TEST(PaceTest, FindsTheSizeThatIsQuickEnough) {
+  Pace pace(100.0);
+  for (int i = 0; i < 200; ++i) pace.took(20.0 + 900.0 * pace.scale() * pace.scale());
+  EXPECT_EQ(pace.scale(), 0.25);  // 76 ms; 0.375 takes 147
+  for (int i = 0; i < 200; ++i) pace.took(10.0 * pace.scale());
+  EXPECT_EQ(pace.scale(), 1.0);
+}
+
+TEST(PaceTest, KeepsItsSizeThroughOneSlowPicture) {
+  Pace pace(100.0);
+  const double before = pace.scale();
+  pace.took(1000.0);
+  pace.took(90.0);
+  EXPECT_EQ(pace.scale(), before);
+}
+
+TEST(TimesTest, BeginAnewWithOtherPasses) {
+  Times times;
+  for (int i = 1; i <= 300; ++i) times.add({.passes = {{.name = "cull", .ms_median = 1.0 * i}}, .frame_ms = 1.0 * i});
+  ASSERT_EQ(times.rows().size(), 4);
+  EXPECT_EQ(times.rows()[3].ms.size(), Times::MOST);
+  EXPECT_NEAR(times.rows()[2].at(0.5), 180.0, 1.0);
+  times.add({.passes = {{.name = "other"}}});
+  EXPECT_EQ(times.rows()[3].name, "other");
+  EXPECT_EQ(times.rows()[3].ms.size(), 1);
+}
+
+}  // namespace
+}  // namespace lamp::app

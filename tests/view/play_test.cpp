@@ -1,0 +1,130 @@
+// Plays every script below tests/view/scripts on one device with validation on, and holds pictures that are saved
+// against what `lamp render` makes.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "system/run_program.h"
+#include "temporary_folder.h"
+#include "view/headless.h"
+
+namespace lamp::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path scripts() { return fs::path(LAMPLIGHT_SOURCE_DIR) / "tests/view/scripts"; }
+
+std::vector<std::string> script_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(scripts())) names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+Context& test_context() {
+  static Context context({.validation = ContextInfo::Validation::on});
+  return context;
+}
+
+std::string bytes_of_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// In an empty folder, which goes with it.
+class Play : public ::testing::Test {
+ protected:
+  Play() { fs::current_path(folder_.path()); }
+  ~Play() override { fs::current_path(was_); }
+
+  static void play_script(const std::vector<ScriptLine>& script) {
+    HeadlessInfo info{.script = script, .screen = {720, 480}};
+    info.state.request.scene = "plane";
+    info.state.request.size = "96x54";
+    info.state.request.size_given = true;
+    info.state.request.lights = 32;
+    info.state.request.lights_given = true;
+    info.state.request.method = "tiled";
+    info.state.paused = true;
+    run_headless(test_context(), info);
+  }
+
+ private:
+  fs::path was_ = fs::current_path();
+  TemporaryFolder folder_;
+};
+
+class PlayScript : public Play, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(PlayScript, MeetsItsExpectations) {
+  try {
+    play_script(read_script(scripts() / (GetParam() + ".jsonl")));
+  } catch (const Error& error) {
+    ADD_FAILURE() << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlayScript, ::testing::ValuesIn(script_names()),
+                         [](const auto& test) { return test.param; });
+
+TEST_F(Play, EndsWhereAnExpectationIsNotMet) {
+  try {
+    play_script(parse_script(R"({"expect": {"/method": "clustered"}})", "wrong"));
+    FAIL() << "the method is tiled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::check_failed);
+    EXPECT_STREQ(error.what(), "wrong: line 1: /method is \"tiled\", expected \"clustered\"");
+  }
+}
+
+/// A picture that is saved, a state that is saved, and what `lamp render` makes of that state and of the options.
+TEST_F(Play, SavesThePictureOfLampRender) {
+  const nlohmann::json state = nlohmann::json::parse(R"({"scene": "posts", "lights": 90, "seed": 4, "light_frame": 17,
+    "exposure": "0.7", "method": "clustered", "free_camera": {"eye": [0.5, 2, 6], "yaw": 0.25, "pitch": -0.125,
+    "near": 0.05, "far": 0, "fov_y": 1}, "edits": [{"light": 3, "type": "spot", "position": [0, 3, 0],
+    "color": [1, 0.2, 0.1], "intensity": 80, "range": 9, "direction": [0, -1, 0.1], "inner_angle": 0.3,
+    "outer_angle": 0.6}]})");
+  play_script(parse_script(nlohmann::json{{"set", state}}.dump() + R"(
+{"wait": "idle"}
+{"save_state": "state.json"}
+{"save_picture": "view.exr"}
+{"save_picture": "view.png"})",
+                           "picture"));
+  for (const std::string extension : {".exr", ".png"}) {
+    const ProgramResult run =
+        run_program({LAMP_EXECUTABLE, "render", "--state", "state.json", "-o", "lamp" + extension});
+    ASSERT_TRUE(run.succeeded) << run.err;
+    EXPECT_EQ(bytes_of_file("view" + extension), bytes_of_file("lamp" + extension)) << extension;
+  }
+}
+
+TEST_F(Play, SavesThePictureOfTheSameOptions) {
+  play_script(parse_script("{\"wait\": \"idle\"}\n{\"save_picture\": \"view.exr\"}", "picture"));
+  const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "plane", "--size", "96x54", "--lights", "32",
+                                         "--method", "tiled", "--samples", "1", "-o", "lamp.exr"});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  EXPECT_EQ(bytes_of_file("view.exr"), bytes_of_file("lamp.exr"));
+}
+
+/// What stands in the window is what `lamp` prints, but for times.
+TEST_F(Play, ReportsTheNumbersOfLamp) {
+  const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "plane", "--size", "96x54", "--lights", "32",
+                                         "--method", "tiled", "--samples", "1", "--json"});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  const nlohmann::json lamp = nlohmann::json::parse(run.out);
+  nlohmann::json expected;
+  for (const char* key :
+       {"method", "options", "path", "width", "height", "lights", "bytes", "cells", "overflowed_cells"})
+    expected[key] = lamp.at(key);
+  nlohmann::json pointers;
+  const nlohmann::json flat = expected.flatten();
+  for (const auto& [pointer, value] : flat.items()) pointers["/shown" + pointer] = value;
+  const std::string line = nlohmann::json{{"expect", pointers}}.dump();
+  EXPECT_NO_THROW(play_script(parse_script("{\"wait\": \"idle\"}\n" + line, "numbers")));
+}
+
+}  // namespace
+}  // namespace lamp::app

@@ -1,0 +1,105 @@
+// A state that is written and read again is the same; what is wrong is named and changes nothing.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/view_state.h"
+
+namespace lamp::app {
+namespace {
+
+/// No member as a new state has it.
+ViewState full_state() {
+  ViewState state;
+  Request& r = state.request;
+  r.scene = "posts";
+  r.size = "320x200";
+  r.size_given = true;
+  r.lights = 77;
+  r.lights_given = true;
+  r.spots = 0.123F;
+  r.range = "1:2";
+  r.decals = 5;
+  r.seed = 0xFFFFFFFFFFFFFFFFULL;
+  r.method = "tiled";
+  r.options = {"bounds=minmax", "tile=32"};
+  r.path = "forward";
+  r.brdf = "blinn-phong";
+  r.light_frame = 12;
+  r.free_camera = FreeCamera{.eye = {0.1, 1.0 / 3.0, -7e-9}, .yaw = 2.1, .pitch = -0.7, .fov_y = 0.9F};
+  r.projection = "infinite";
+  r.grow = true;
+  state.exposure = "0.25";
+  state.samples = 4;
+  state.edits = {{.light = 3,
+                  .value = {.type = LightType::spot,
+                            .position = {1.0F, 2.0F, 1.0F / 3.0F},
+                            .range = 4.0F,
+                            .color = {1.0F, 0.5F, 0.0F},
+                            .intensity = 9.0F,
+                            .direction = {0.0F, -1.0F, 0.0F},
+                            .inner_angle = 0.1F,
+                            .outer_angle = 0.2F}},
+                 {.light = 1, .value = {.position = {1.0F, 2.0F, 3.0F}}}};
+  state.resolution = 0.5F;
+  state.paused = true;
+  state.speed = -2.0F;
+  state.overlay = Overlay::depth_range;
+  state.palette = Palette::grey;
+  state.light_marks = LightMarks::cell;
+  state.picked = glm::uvec2(7, 9);
+  state.against = Against{.method = "clustered", .options = {"tile=64"}, .divider = 0.25F};
+  state.panels = false;
+  state.help = true;
+  return state;
+}
+
+TEST(ViewStateJson, ComesBackAsItWas) {
+  for (const ViewState& state : {ViewState(), full_state()}) {
+    const nlohmann::json written = to_json(state);
+    ViewState read;
+    read_state(read, nlohmann::json::parse(written.dump()), "state");
+    EXPECT_EQ(to_json(read), written);
+  }
+}
+
+TEST(ViewStateJson, HasEveryMember) {
+  const nlohmann::json plain = to_json(ViewState());
+  const nlohmann::json full = to_json(full_state());
+  for (const auto& [key, value] : full.items()) {
+    if (key == "version" || key == "camera" || key == "frame") continue;
+    EXPECT_FALSE(plain.contains(key) && plain.at(key) == value) << key << " is as in a new state";
+  }
+}
+
+TEST(ViewStateJson, SetsOnlyWhatIsThere) {
+  ViewState state = full_state();
+  read_state(state, {{"overlay", "heat"}, {"against", {{"divider", 0.75}}}, {"free_camera", nullptr}}, "line");
+  EXPECT_EQ(state.overlay, Overlay::heat);
+  EXPECT_EQ(state.against->method, "clustered");
+  EXPECT_EQ(state.against->divider, 0.75F);
+  EXPECT_FALSE(state.request.free_camera.has_value());
+  EXPECT_EQ(state.request.scene, "posts");
+}
+
+TEST(ViewStateJson, StaysAsItWasWhenSomethingIsWrong) {
+  ViewState state = full_state();
+  const nlohmann::json before = to_json(state);
+  EXPECT_THROW(read_state(state, {{"overlay", "heat"}, {"speed", "quick"}}, "line"), Error);
+  EXPECT_THROW(read_state(state, {{"method", "tiled"}, {"options", {{"tile", "7"}}}}, "line"), Error);
+  EXPECT_EQ(to_json(state), before);
+}
+
+TEST(FreeCameraTest, StandsWhereTheCameraDid) {
+  const FreeCamera free{.eye = {1.0, 2.0, 3.0}, .yaw = 0.7, .pitch = -0.3};
+  const FreeCamera again = free_from(camera_of(free));
+  EXPECT_NEAR(again.yaw, free.yaw, 1e-6);
+  EXPECT_NEAR(again.pitch, free.pitch, 1e-6);
+  EXPECT_EQ(again.eye, free.eye);
+  const glm::dmat3 axes(camera_of(free).world_from_camera);
+  EXPECT_NEAR(glm::determinant(axes), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace lamp::app

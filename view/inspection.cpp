@@ -1,0 +1,173 @@
+// Lists by the look-up that shading walks, truth by the oracle.
+// SPDX-License-Identifier: Apache-2.0
+#include "view/inspection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "gpu/check.h"
+#include "render/pixel_lights.h"
+#include "render/verification.h"
+
+namespace lamp::app {
+namespace {
+
+/// A number with spaces between its thousands.
+std::string grouped(std::uint64_t number) {
+  std::string text = fmt::format("{}", number);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, " ");
+  return text;
+}
+
+/// The pixels of one cell, and what encloses their surfaces.
+struct CellPixels {
+  std::vector<std::size_t> pixels;
+  Box bounds{.min = glm::vec3(std::numeric_limits<float>::max()), .max = glm::vec3(-std::numeric_limits<float>::max())};
+  double near_m = std::numeric_limits<double>::max();
+  double far_m = 0.0;
+};
+
+glm::dvec3 position_of(const Inspected& of, std::size_t pixel) {
+  const View& view = of.renderer.view();
+  const auto number = static_cast<std::uint32_t>(pixel);
+  return view.world_position(number % view.width(), number / view.width(), of.depth[pixel]);
+}
+
+CellPixels cell_pixels(const Inspected& of, std::uint32_t cell) {
+  CellPixels found;
+  for (std::size_t i = 0; i < of.visits.size(); ++i) {
+    if (of.visits[i].cell != cell) continue;
+    found.pixels.push_back(i);
+    const glm::vec3 position(position_of(of, i));
+    found.bounds = {.min = glm::min(found.bounds.min, position), .max = glm::max(found.bounds.max, position)};
+    const double z = of.renderer.view().z_view(of.depth[i]);
+    found.near_m = std::min(found.near_m, z);
+    found.far_m = std::max(found.far_m, z);
+  }
+  return found;
+}
+
+/// Lights that may reach what lies in the box: all others are farther away than their range, by more than rounding.
+std::vector<std::uint32_t> near_lights(std::span<const shared::Light> lights, const Box& box) {
+  constexpr float WIDER = 1.001F;
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    const glm::vec3 to_box = lights[i].position - glm::clamp(lights[i].position, box.min, box.max);
+    if (glm::length(to_box) <= WIDER * lights[i].range) near.push_back(i);
+  }
+  return near;
+}
+
+/// The oracle's lights of a cell's pixels; those of other pixels of their rows are left empty.
+Truth truth_of(const Inspected& of, const CellPixels& cell) {
+  const std::uint32_t width = of.renderer.view().width();
+  const std::vector<std::uint32_t> near = near_lights(of.lights, cell.bounds);
+  Truth truth{.first_row = static_cast<std::uint32_t>(cell.pixels.front() / width)};
+  truth.rows = static_cast<std::uint32_t>(cell.pixels.back() / width) + 1 - truth.first_row;
+  const std::size_t first = std::size_t{truth.first_row} * width;
+  auto next = cell.pixels.begin();
+  for (std::size_t i = 0; i < std::size_t{truth.rows} * width; ++i) {
+    truth.offsets.push_back(static_cast<std::uint32_t>(truth.lights.size()));
+    if (next == cell.pixels.end() || *next != first + i) continue;
+    const glm::dvec3 position = position_of(of, *next++);
+    for (const std::uint32_t light : near) {
+      const Reach reached = reach(of.lights[light], position);
+      if (reached == Reach::inside) truth.lights.push_back(light);
+      if (reached == Reach::boundary) ++truth.boundary_pairs;
+    }
+  }
+  truth.offsets.push_back(static_cast<std::uint32_t>(truth.lights.size()));
+  return truth;
+}
+
+/// What visits of a truth's rows say, of those pixels alone that it has lights for.
+void add(Proof& proof, const Truth& truth, std::span<const Visit> visits, std::uint32_t width) {
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const std::uint32_t pairs = truth.offsets[i + 1] - truth.offsets[i];
+    if (visits[i].ended) {
+      ++proof.unfollowed;
+      continue;
+    }
+    proof.pairs += pairs;
+    proof.missed += visits[i].missed;
+    if (visits[i].missed == 0 || !proof.first_miss.empty()) continue;
+    const auto number = static_cast<std::uint32_t>(i);
+    proof.first_miss = fmt::format("pixel ({}, {}): light {}", number % width, truth.first_row + number / width,
+                                   visits[i].first_missed);
+  }
+}
+
+std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
+  constexpr glm::vec3 LUMINANCE{0.2126F, 0.7152F, 0.0722F};
+  const glm::dvec3 position = position_of(of, pixel);
+  const std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
+  const PixelTerms terms = terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, ids);
+  double sum = glm::dot(terms.surroundings, LUMINANCE);
+  for (const glm::vec3& term : terms.lights) sum += glm::dot(term, LUMINANCE);
+  std::vector<ListedLight> lights;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const shared::Light& light = of.lights[ids[i]];
+    lights.push_back({.light = ids[i],
+                      .spot = light.type == shared::LIGHT_SPOT,
+                      .distance_m = static_cast<float>(glm::length(glm::dvec3(light.position) - position)),
+                      .range_m = light.range,
+                      .reach = reach(light, position),
+                      .share = sum > 0.0 ? glm::dot(terms.lights[i], LUMINANCE) / sum : 0.0});
+  }
+  return lights;
+}
+
+}  // namespace
+
+std::string words_of(const Proof& proof) {
+  std::string words = fmt::format("{} missed of {} pairs of pixel and light in {} pixels", grouped(proof.missed),
+                                  grouped(proof.pairs), grouped(proof.pixels));
+  if (!proof.first_miss.empty()) words += ", the first: " + proof.first_miss;
+  if (proof.unfollowed != 0)
+    words +=
+        fmt::format("; the device ended the walks of {} pixels, which could not be checked", grouped(proof.unfollowed));
+  return words;
+}
+
+Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
+  const View& view = of.renderer.view();
+  Inspection found{.pixel = glm::min(pixel, glm::uvec2(view.width(), view.height()) - 1U)};
+  const std::size_t number = found.pixel.x + std::size_t{view.width()} * found.pixel.y;
+  if (of.visits[number].cell == gpu::SKY_CELL) return found;
+  found.sky = false;
+  found.cell = of.visits[number].cell;
+  found.position = position_of(of, number);
+  found.z_view = static_cast<float>(view.z_view(of.depth[number]));
+  const CellPixels cell = cell_pixels(of, found.cell);
+  found.cell_pixels = static_cast<std::uint32_t>(cell.pixels.size());
+  found.cell_near_m = static_cast<float>(cell.near_m);
+  found.cell_far_m = static_cast<float>(cell.far_m);
+  found.lights = listed(of, static_cast<std::uint32_t>(number));
+  const Truth truth = truth_of(of, cell);
+  found.proof.pixels = cell.pixels.size();
+  add(found.proof, truth, of.renderer.visit(of.lighting, truth), view.width());
+  return found;
+}
+
+Proof prove(const Inspected& of, const std::function<void(float)>& progress) {
+  const View& view = of.renderer.view();
+  Proof proof;
+  for (const float depth : of.depth) proof.pixels += depth > 0.0F ? 1 : 0;
+  constexpr std::uint32_t BAND = 16;  // rows: often enough for a progress bar to move
+  for (std::uint32_t row = 0; row < view.height(); row += BAND) {
+    progress(static_cast<float>(row) / static_cast<float>(view.height()));
+    for_each_truth({.view = view,
+                    .depth = of.depth,
+                    .lights = of.lights,
+                    .first_row = row,
+                    .rows = std::min(BAND, view.height() - row)},
+                   [&](const Truth& truth) { add(proof, truth, of.renderer.visit(of.lighting, truth), view.width()); });
+  }
+  return proof;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,66 @@
+// What is known of one pixel: its cell, the lights listed there, and whether the oracle finds that one is missing.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "lamplight/view.h"
+#include "oracle/reference.h"
+#include "render/lighting.h"
+#include "render/renderer.h"
+
+namespace lamp::app {
+
+/// A light in the list of a pixel's cell.
+struct ListedLight {
+  std::uint32_t light = 0;
+  bool spot = false;
+  float distance_m = 0.0F;  ///< from the surface in the pixel
+  float range_m = 0.0F;
+  Reach reach = Reach::outside;  ///< of that surface
+  double share = 0.0;            ///< of the pixel's luminance, 0 .. 1
+};
+
+/// Pairs of pixel and light that the oracle says reach, and those of them that a walk did not bring.
+struct Proof {
+  std::uint64_t pixels = 0;
+  std::uint64_t pairs = 0;
+  std::uint64_t missed = 0;
+  std::uint64_t unfollowed = 0;  ///< pixels whose walk the device ended: nothing is known of them
+  std::string first_miss;        ///< "pixel (12, 34): light 56", or empty
+};
+/// "0 missed of 1 234 567 pairs in 256 pixels".
+[[nodiscard]] std::string words_of(const Proof& proof);
+
+struct Inspection {
+  glm::uvec2 pixel{0};  ///< of what was rendered
+  bool sky = true;      ///< then the rest is empty
+  std::uint32_t cell = 0;
+  glm::vec3 position{0.0F};  ///< m, world space
+  float z_view = 0.0F;       ///< m ahead of the eye
+  std::uint32_t cell_pixels = 0;
+  float cell_near_m = 0.0F;  ///< of the surfaces in the cell's pixels, z_view
+  float cell_far_m = 0.0F;
+  std::vector<ListedLight> lights;  ///< ascending
+  Proof proof;                      ///< of all pixels of the cell
+};
+
+/// What an inspection looks at: the renderer's last frame, lit by `lighting`.
+struct Inspected {
+  Renderer& renderer;
+  Lighting& lighting;
+  const ShaderLibrary& shaders;
+  const GpuScene& scene;
+  std::span<const shared::Light> lights;
+  std::span<const Visit> visits;  ///< of all pixels
+  std::span<const float> depth;   ///< likewise
+};
+[[nodiscard]] Inspection inspect(const Inspected& of, glm::uvec2 pixel);
+
+/// The proof of all pixels, in bands; `progress` is told the share that is done.
+[[nodiscard]] Proof prove(const Inspected& of, const std::function<void(float)>& progress);
+
+}  // namespace lamp::app

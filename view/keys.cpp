@@ -1,0 +1,133 @@
+// Keys to changes of the state.
+// SPDX-License-Identifier: Apache-2.0
+#include "view/keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "commands/pictures.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::array<KeyHelp, 20> HELP{{
+    {"H, F1", "Shows and hides this help."},
+    {"Tab", "Shows and hides the panels."},
+    {"click", "Looks into a pixel: its cell and the lights there."},
+    {"Escape", "Looks away, and closes the help."},
+    {"drag", "Turns the camera."},
+    {"W A S D, arrows", "Fly: ahead, left, back, right."},
+    {"Q, E", "Fly down and up. Shift makes it ten times as fast."},
+    {"R", "Goes back to the scene's camera."},
+    {"Space", "Stops and starts time."},
+    {"period, comma", "One frame on, one frame back."},
+    {"O, Shift+O", "The next overlay, the one before."},
+    {"P", "The next palette."},
+    {"L", "Shows lights: none, those of the cell, all."},
+    {"M, Shift+M", "The next method, the one before."},
+    {"G", "The next shading path."},
+    {"B", "A against B: the picture right of a line by a second method."},
+    {"1, 2", "Darker, brighter. 0 sets the automatic exposure."},
+    {"V", "Holds the whole picture against the oracle."},
+    {"Ctrl+S", "Saves the picture; with Shift, the state."},
+    {"Ctrl+Z", "Takes the last change back; with Shift, makes it again."},
+}};
+
+constexpr double METRES_A_SECOND = 3.0;
+constexpr double QUICK = 10.0;
+constexpr double STEEPEST = 0.499 * std::numbers::pi;
+
+template <class Word>
+void next_word(Word& value, std::size_t count, int by) {
+  value = static_cast<Word>((static_cast<std::size_t>(value) + count + static_cast<std::size_t>(by)) % count);
+}
+
+std::string next_name(std::string_view name, std::span<const std::string_view> names, int by) {
+  const auto count = static_cast<std::ptrdiff_t>(names.size());
+  const std::ptrdiff_t at = std::ranges::find(names, name) - names.begin();
+  return std::string(names[static_cast<std::size_t>((at + count + by) % count)]);
+}
+
+void next_method(ViewState& state, int by) {
+  state.request.method = next_name(state.request.method, method_choices(), by);
+  const auto method = find_method(state.request.method);
+  state.request.options =
+      method.ok() ? kept_options(state.request.options, *method.value()) : std::vector<std::string>();
+}
+
+void expose(ViewState& state, const Shown& shown, float factor) {
+  const float now = parse_exposure(state.exposure).value_or(shown.exposure);
+  state.exposure = fmt::format("{}", std::clamp(now * factor, 1e-6F, 1e6F));
+}
+
+void step_time(ViewState& state, const Shown& shown, int by) {
+  state.paused = true;
+  const int frames = shown.flight_frames != 0 ? static_cast<int>(shown.flight_frames) : 300;
+  int& frame = state.request.frame >= 0 ? state.request.frame : state.request.light_frame;
+  frame = (std::max(frame, 0) + frames + by) % frames;
+}
+
+void apply_letter(std::string_view key, int by, ViewState& state, const Shown& shown, Wishes& wishes) {
+  if (key == "h") state.help = !state.help;
+  if (key == "r") state.request.free_camera.reset();
+  if (key == "o") next_word(state.overlay, overlay_names().size(), by);
+  if (key == "p") next_word(state.palette, palette_names().size(), by);
+  if (key == "l") next_word(state.light_marks, light_mark_names().size(), by);
+  if (key == "m") next_method(state, by);
+  if (key == "g") state.request.path = next_name(state.request.path, path_names(), by);
+  if (key == "b") state.against = state.against ? std::nullopt : std::optional(Against());
+  if (key == "v") wishes.prove = true;
+  if (key == "1") expose(state, shown, 1.0F / 1.25F);
+  if (key == "2") expose(state, shown, 1.25F);
+  if (key == "0") state.exposure = "auto";
+  if (key == "period") step_time(state, shown, 1);
+  if (key == "comma") step_time(state, shown, -1);
+}
+
+}  // namespace
+
+std::span<const KeyHelp> key_help() { return HELP; }
+
+void apply_keys(const Input& input, ViewState& state, const Shown& shown, Wishes& wishes, bool focus) {
+  const bool shift = input.holds("shift");
+  for (const std::string& key : input.pressed) {
+    if (input.holds("ctrl")) {
+      if (key == "s") (shift ? wishes.save_state : wishes.save_picture) = true;
+      if (key == "z") (shift ? wishes.redo : wishes.undo) = true;
+      continue;
+    }
+    apply_letter(key, shift ? -1 : 1, state, shown, wishes);
+    if (key == "f1") state.help = !state.help;
+    if (focus) continue;
+    if (key == "tab") state.panels = !state.panels;
+    if (key == "space") state.paused = !state.paused;
+    if (key == "escape" && !state.help) state.picked.reset();
+    if (key == "escape") state.help = false;
+  }
+}
+
+void fly(const Input& input, ViewState& state, const Shown& shown, glm::dvec2 look, float seconds, bool focus) {
+  if (input.holds("ctrl") || shown.number == 0 || shown.captured) return;
+  const auto held = [&](std::string_view letter, std::string_view arrow) {
+    return input.holds(letter) || (!focus && !arrow.empty() && input.holds(arrow)) ? 1.0 : 0.0;
+  };
+  const glm::dvec3 move(held("d", "right") - held("a", "left"), held("e", "") - held("q", ""),
+                        held("w", "up") - held("s", "down"));
+  if (move == glm::dvec3(0.0) && look == glm::dvec2(0.0)) return;
+  if (!state.request.free_camera) {
+    if (state.request.frame >= 0) state.request.light_frame = state.request.frame;
+    state.request.frame = -1;
+    state.request.free_camera = free_from(shown.scene_camera);
+  }
+  FreeCamera& camera = *state.request.free_camera;
+  camera.yaw = std::remainder(camera.yaw - look.x, 2.0 * std::numbers::pi);
+  camera.pitch = std::clamp(camera.pitch - look.y, -STEEPEST, STEEPEST);
+  const double metres = METRES_A_SECOND * seconds * (input.holds("shift") ? QUICK : 1.0);
+  camera.eye += metres * (move.x * right(camera) + glm::dvec3(0.0, move.y, 0.0) + move.z * ahead(camera));
+}
+
+}  // namespace lamp::app

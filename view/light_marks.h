@@ -1,0 +1,17 @@
+// Lights drawn where they are: a dot, the outline of what a point light reaches, the axis and edge of a cone.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "view/gui.h"
+#include "view/shown.h"
+
+namespace lamp::app {
+
+/// Onto the picture's rectangle of the screen. Of very many lights, the first MOST_MARKS that are in sight.
+void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& picture);
+inline constexpr std::size_t MOST_MARKS = 20000;
+
+/// Where in the picture a point of the world is seen, 0 .. 1 from its top left; nothing behind the eye.
+[[nodiscard]] std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& position);
+
+}  // namespace lamp::app

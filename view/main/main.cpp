@@ -1,0 +1,99 @@
+// lamp-view: looks at light culling while it runs. One command line, one place where errors end.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include "commands/command_line.h"
+#include "commands/view_state.h"
+#include "lamplight/version.h"
+#include "system/print.h"
+#include "system/signals.h"
+#include "view/headless.h"
+
+namespace {
+
+using namespace lamp::app;
+
+struct ViewOptions {
+  ViewState state;
+  bool headless = false;
+  bool validate = false;
+  std::string script;
+  std::string screen = "1280x720";
+};
+
+void add_options(CLI::App& app, ViewOptions& o) {
+  add_state_option(app, o.state);
+  add_common_options(app, o.state.request);
+  add_picture_options(app, o.state.request);
+  add_exposure_option(app, o.state.exposure);
+  app.add_flag("--headless", o.headless, "draw on a screen that nobody sees, for --script")->group("Window");
+  app.add_option("--script", o.script, "do what the lines of this file say, then end (docs/viewer.md)")
+      ->type_name("FILE")
+      ->group("Window");
+  app.add_option("--screen", o.screen, "size of the window, or of the screen that nobody sees, in pixels")
+      ->type_name("WIDTHxHEIGHT")
+      ->group("Window")
+      ->capture_default_str();
+  app.add_flag("--validate", o.validate, "end with exit code 1 if Vulkan's validation layer says something")
+      ->group("Device");
+}
+
+Exit run(int argc, char** argv) {
+  CLI::App app("Lamplight's window: see which lights are in which cells, and why", "lamp-view");
+  app.set_version_flag("--version", "lamp-view " + std::string(lamp::version()), "Print the version and exit");
+  app.footer(
+      "Examples:\n"
+      "  lamp-view atrium --lights 4096\n"
+      "  lamp-view --state lamp-view.json\n"
+      "  lamp-view --headless --script demo.jsonl\n"
+      "Exit codes: 0 done, 1 a script's expectation was not met, 2 bad input or output that cannot be written,\n"
+      "3 no usable device or display");
+  ViewOptions o;
+  add_options(app, o);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw parse_error(app, error);
+    write_out(error.get_name() == "CallForVersion" ? app.version() + "\n" : help_text(app));
+    return Exit::done;
+  }
+  check_repeats(app);
+  check_state(o.state);
+  const ContextInfo::Validation validation = o.validate ? ContextInfo::Validation::on : ContextInfo::Validation::off;
+  const std::vector<ScriptLine> script = o.script.empty() ? std::vector<ScriptLine>() : read_script(o.script);
+  Context context({.device = o.state.request.device, .validation = validation});
+  run_headless(context, {.state = o.state, .script = script, .screen = parse_size(o.screen)});
+  return Exit::done;
+}
+
+Exit complain(std::string_view why, Exit exit) {
+  print_error("lamp-view: {}\n", one_line(why));
+  return exit;
+}
+
+Exit run_or_complain(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const Error& error) {
+    return complain(error.what(), error.exit());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory: try fewer lights or a smaller picture", Exit::bad_input);
+  } catch (const std::exception& error) {
+    return complain(error.what(), Exit::bad_input);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  watch_signals();
+  const Exit exit = run_or_complain(argc, argv);
+  if (output_problem() != 0) return static_cast<int>(complain("standard output: cannot be written", Exit::bad_input));
+  return static_cast<int>(exit);
+}

@@ -1,0 +1,171 @@
+// One function for each overlay.
+// Based on: Nuñez, Anderton, Renslow, Optimizing colormaps with consideration for color vision deficiency (cividis),
+// PLOS ONE 13 (2018), for blue-yellow: five of its colours, which differ for all kinds of colour vision.
+// SPDX-License-Identifier: Apache-2.0
+#include "view/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <unordered_map>
+
+#include "render/heatmap_legend.h"
+#include "render/shaders/sky_cell.h"
+
+namespace lamp::app {
+namespace {
+
+using gpu::SKY_CELL;
+
+constexpr float SKY_DIMMED = 0.7F;  // as heat maps over pictures have it
+constexpr float MAP_ALPHA = 0.6F;
+constexpr glm::u8vec3 SIGNAL{255, 0, 200};
+constexpr std::array<glm::u8vec3, 5> CIVIDIS{
+    {{0, 34, 78}, {65, 77, 107}, {124, 123, 120}, {188, 175, 111}, {254, 232, 56}}};
+
+std::uint32_t rgba(glm::u8vec3 color, float alpha) {
+  const auto a = static_cast<std::uint32_t>(std::lround(255.0F * alpha));
+  return color.r | static_cast<std::uint32_t>(color.g) << 8U | static_cast<std::uint32_t>(color.b) << 16U | a << 24U;
+}
+
+const std::uint32_t SKY = rgba({0, 0, 0}, SKY_DIMMED);
+
+glm::u8vec3 between(std::span<const glm::u8vec3> ramp, double position) {
+  const double place = std::clamp(position, 0.0, 1.0) * static_cast<double>(ramp.size() - 1);
+  const std::size_t left = std::min(static_cast<std::size_t>(place), ramp.size() - 2);
+  const auto weight = static_cast<float>(place - static_cast<double>(left));
+  return glm::u8vec3(glm::mix(glm::vec3(ramp[left]), glm::vec3(ramp[left + 1]), weight) + 0.5F);
+}
+
+/// A colour that neighbours are unlikely to share: the golden ratio's steps around the hues, which spread any run of
+/// numbers evenly.
+glm::u8vec3 cell_color(std::uint32_t cell) {
+  const double hue = std::fmod(cell * 0.6180339887498949, 1.0) * 6.0;
+  const auto channel = [&](double shift) {
+    const double k = std::fmod(hue + shift, 6.0);
+    return 255.0 * (1.0 - 0.75 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
+  };
+  return {channel(5.0), channel(3.0), channel(1.0)};
+}
+
+std::uint64_t cells_seen(const Walked& walked) {
+  std::vector<std::uint32_t> cells;
+  for (const Visit& visit : walked.visits)
+    if (visit.cell != SKY_CELL && (cells.empty() || cells.back() != visit.cell)) cells.push_back(visit.cell);
+  std::ranges::sort(cells);
+  return static_cast<std::uint64_t>(std::ranges::distance(cells.begin(), std::ranges::unique(cells).begin()));
+}
+
+/// Calls `color` for every pixel that has a cell.
+template <class Color>
+std::vector<std::uint32_t> for_pixels(const Walked& walked, const Color& color) {
+  std::vector<std::uint32_t> pixels(walked.visits.size(), SKY);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    if (walked.visits[i].cell != SKY_CELL) pixels[i] = color(i);
+  return pixels;
+}
+
+Overlaid heat(Palette palette, const Walked& walked) {
+  Legend legend{.overlay = Overlay::heat, .cells = cells_seen(walked)};
+  std::uint64_t seen = 0;
+  std::uint32_t most = 0;
+  for (const Visit& visit : walked.visits) {
+    if (visit.cell == SKY_CELL) continue;
+    legend.mean += visit.visited;
+    ++seen;
+    most = std::max(most, visit.visited);
+  }
+  if (seen != 0) legend.mean /= static_cast<double>(seen);
+  const std::uint32_t own = most > 1U << 31 ? most : std::bit_ceil(std::max(most, 2U));  // as `lamp render --heatmap`
+  const std::uint32_t top = walked.scale_max > 0.0 ? static_cast<std::uint32_t>(walked.scale_max) : own;
+  legend.low = 1.0;
+  legend.high = top;
+  legend.max = most;
+  return {.pixels = for_pixels(walked,
+                               [&](std::size_t i) {
+                                 const std::uint32_t count = walked.visits[i].visited;
+                                 const glm::u8vec3 color =
+                                     count == 0 ? glm::u8vec3(0) : palette_color(palette, heat_position(count, top));
+                                 return rgba(color, MAP_ALPHA);
+                               }),
+          .legend = legend};
+}
+
+Overlaid cells(const Walked& walked) {
+  return {
+      .pixels = for_pixels(walked, [&](std::size_t i) { return rgba(cell_color(walked.visits[i].cell), MAP_ALPHA); }),
+      .legend = {.overlay = Overlay::cells, .cells = cells_seen(walked)}};
+}
+
+struct Range {
+  double near_m = 1e30;
+  double far_m = 0.0;
+};
+
+Overlaid depth_range(Palette palette, const Walked& walked) {
+  std::unordered_map<std::uint32_t, Range> ranges;
+  for (std::size_t i = 0; i < walked.visits.size(); ++i) {
+    if (walked.visits[i].cell == SKY_CELL) continue;
+    Range& range = ranges[walked.visits[i].cell];
+    const double z = walked.view.z_view(walked.depth[i]);
+    range = {std::min(range.near_m, z), std::max(range.far_m, z)};
+  }
+  Legend legend{.overlay = Overlay::depth_range, .cells = ranges.size()};
+  for (const auto& [cell, range] : ranges) {
+    legend.max = std::max(legend.max, range.far_m - range.near_m);
+    legend.mean += (range.far_m - range.near_m) / static_cast<double>(ranges.size());
+  }
+  legend.high = walked.scale_max > 0.0 ? walked.scale_max : std::max(legend.max, 1e-3);
+  return {.pixels = for_pixels(walked,
+                               [&](std::size_t i) {
+                                 const Range& range = ranges[walked.visits[i].cell];
+                                 const double share = (range.far_m - range.near_m) / legend.high;
+                                 return rgba(palette_color(palette, share), MAP_ALPHA);
+                               }),
+          .legend = legend};
+}
+
+Overlaid overflow(const Walked& walked) {
+  Legend legend{.overlay = Overlay::overflow};
+  const auto walks_all = [&](const Visit& visit) {
+    return walked.overflowed && visit.cell != SKY_CELL && visit.visited >= walked.lights;
+  };
+  for (const Visit& visit : walked.visits) legend.cells += walks_all(visit) ? 1 : 0;
+  return {.pixels = for_pixels(
+              walked, [&](std::size_t i) { return walks_all(walked.visits[i]) ? rgba(SIGNAL, 0.8F) : rgba({}, 0.3F); }),
+          .legend = legend};
+}
+
+}  // namespace
+
+glm::u8vec3 palette_color(Palette palette, double position) {
+  constexpr std::array<glm::u8vec3, 2> GREY{{{20, 20, 20}, {255, 255, 255}}};
+  switch (palette) {
+    case Palette::rainbow:
+      return heat_ramp(position);
+    case Palette::blue_yellow:
+      return between(CIVIDIS, position);
+    case Palette::grey:
+      break;
+  }
+  return between(GREY, position);
+}
+
+Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
+  switch (overlay) {
+    case Overlay::heat:
+      return heat(palette, walked);
+    case Overlay::cells:
+      return cells(walked);
+    case Overlay::depth_range:
+      return depth_range(palette, walked);
+    case Overlay::overflow:
+      return app::overflow(walked);
+    case Overlay::none:
+      break;
+  }
+  return {};
+}
+
+}  // namespace lamp::app

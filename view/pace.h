@@ -1,0 +1,27 @@
+// Dynamic resolution: how large a picture may be so that the device draws enough of them.
+// Promise: pure; the same times give the same sizes.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace lamp::app {
+
+class Pace {
+ public:
+  /// `target_ms`: how long a picture may take.
+  explicit Pace(double target_ms) : target_ms_(target_ms) {}
+
+  /// Of the width and of the height that were asked for.
+  [[nodiscard]] double scale() const;
+  /// A picture of this scale took so long. What compiled or loaded something says nothing, and is not told.
+  void took(double ms);
+
+ private:
+  double target_ms_;
+  std::size_t step_ = 2;  ///< into the scales, the largest first
+  int slow_ = 0;          ///< pictures in a row
+  int quick_ = 0;
+};
+
+}  // namespace lamp::app

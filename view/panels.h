@@ -1,0 +1,64 @@
+// The panels: each draws one part of a state, and changes it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "view/shown.h"
+#include "view/times.h"
+#include "view/widgets.h"
+
+namespace lamp::app {
+
+/// What the panels ask the viewer to do.
+struct Wishes {
+  bool save_picture = false;
+  bool save_state = false;
+  bool prove = false;
+  bool undo = false;
+  bool redo = false;
+  bool step = false;  ///< one frame of time
+};
+
+/// What panels see.
+struct PanelFrame {
+  ViewState& state;
+  const Shown& shown;
+  Widgets& widgets;
+  const Times& times;
+  const DeviceTraits& traits;
+  Wishes& wishes;
+  std::string& picture_file;
+  std::string& state_file;
+  const std::optional<Proof>& proof;  ///< of all pixels
+  bool proving = false;
+  float progress = 0.0F;  ///< of that
+};
+
+void scene_panel(PanelFrame& p);
+void camera_panel(PanelFrame& p);
+void lights_panel(PanelFrame& p);
+void method_panel(PanelFrame& p);
+void against_panel(PanelFrame& p);
+void look_panel(PanelFrame& p);
+void times_panel(PanelFrame& p);
+void save_panel(PanelFrame& p);
+/// The pixel that was picked, and the proofs.
+void inspector_panel(PanelFrame& p);
+void help_window(const ScreenRect& picture, float scale);
+/// The colours of an overlay in a corner of the picture.
+void legend_window(const Shown& shown, const ScreenRect& picture);
+
+/// Why a method with these options cannot light this frame; empty: it can.
+[[nodiscard]] std::string why_not(const std::string& method, const std::vector<std::string>& options,
+                                  const Shown& shown, const DeviceTraits& traits);
+/// The options with one set, or left out where that is the method's own.
+[[nodiscard]] std::vector<std::string> with_option(const std::vector<std::string>& options, const OptionSpec& spec,
+                                                   const std::string& value);
+/// Those of the options that another method has too.
+[[nodiscard]] std::vector<std::string> kept_options(const std::vector<std::string>& options, const Method& method);
+/// All methods' names, with "auto" before them.
+[[nodiscard]] std::vector<std::string_view> method_choices();
+
+}  // namespace lamp::app

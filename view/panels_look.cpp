@@ -1,0 +1,113 @@
+// Exposure, overlays and their legend.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cmath>
+
+#include "commands/pictures.h"
+#include "render/heatmap_legend.h"
+#include "view/panels.h"
+
+namespace lamp::app {
+namespace {
+
+ImU32 color_of(glm::u8vec3 color) { return IM_COL32(color.r, color.g, color.b, 255); }
+
+/// The scale with numbers below it.
+void draw_scale(const Legend& legend, Palette palette) {
+  constexpr int STEPS = 64;
+  const float width = 20.0F * ImGui::GetFontSize();
+  const float height = ImGui::GetFontSize();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (int i = 0; i < STEPS; ++i) {
+    const float left = at.x + width * static_cast<float>(i) / STEPS;
+    const double position = (i + 0.5) / STEPS;
+    draw.AddRectFilled({left, at.y}, {left + width / STEPS + 1.0F, at.y + height},
+                       color_of(palette_color(palette, position)));
+  }
+  ImGui::Dummy({width, height});
+  const auto number = [&](double share, const std::string& text) {
+    const float x = static_cast<float>(share) * width - ImGui::CalcTextSize(text.c_str()).x * static_cast<float>(share);
+    if (share > 0.0) ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + x, 0.0F);
+    ImGui::TextUnformatted(text.c_str());
+  };
+  if (legend.overlay == Overlay::heat) {
+    const double middle = std::exp2(std::round(std::log2(legend.high) / 2.0));
+    number(0.0, "1");
+    number(heat_position(middle, static_cast<std::uint32_t>(legend.high)), fmt::format("{:.0f}", middle));
+    number(1.0, fmt::format("{:.0f}", legend.high));
+  } else {
+    number(0.0, "0 m");
+    number(1.0, fmt::format("{:.1f} m", legend.high));
+  }
+}
+
+void legend_text(const Legend& legend) {
+  switch (legend.overlay) {
+    case Overlay::heat:
+      ImGui::TextUnformatted(
+          fmt::format("lights that a pixel walks: mean {:.1f}, max {:.0f}", legend.mean, legend.max).c_str());
+      break;
+    case Overlay::cells:
+      ImGui::TextUnformatted(fmt::format("{} cells hold pixels, each has a colour", legend.cells).c_str());
+      break;
+    case Overlay::depth_range:
+      ImGui::TextUnformatted(
+          fmt::format("from the nearest to the farthest surface of a cell: mean {:.2f} m, max {:.1f} m", legend.mean,
+                      legend.max)
+              .c_str());
+      break;
+    case Overlay::overflow:
+      ImGui::TextUnformatted(
+          fmt::format("{} pixels walk every light, because their cell did not fit", legend.cells).c_str());
+      break;
+    case Overlay::none:
+      break;
+  }
+}
+
+}  // namespace
+
+void look_panel(PanelFrame& p) {
+  if (!p.widgets.header("Picture and overlays", true)) return;
+  bool automatic = p.state.exposure == "auto";
+  if (p.widgets.check("automatic exposure", automatic, "As bright as the surfaces in sight ask for."))
+    p.state.exposure = automatic ? "auto" : fmt::format("{}", p.shown.exposure);
+  if (!automatic) {
+    float factor = parse_exposure(p.state.exposure).value_or(1.0F);
+    if (p.widgets.slide("exposure", factor, {.min = 0.001, .max = 1000.0, .logarithmic = true, .format = "%.3f"},
+                        "The factor of the picture's brightness."))
+      p.state.exposure = fmt::format("{}", factor);
+  }
+  p.widgets.choose_word(
+      "overlay", p.state.overlay, overlay_names(),
+      "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, or "
+      "those that did not fit.");
+  p.widgets.choose_word("palette", p.state.palette, palette_names(),
+                        "Colours of the scale. Blue-yellow and grey can be read with any colour vision.");
+  bool dynamic = p.state.resolution == 0.0F;
+  if (p.widgets.check("dynamic resolution", dynamic, "Smaller pictures where the device would draw too few of them."))
+    p.state.resolution = dynamic ? 0.0F : 1.0F;
+  if (!dynamic)
+    p.widgets.slide("resolution", p.state.resolution, {.min = 0.1, .max = 1.0}, "Of what is drawn, over the screen's.");
+}
+
+void legend_window(const Shown& shown, const ScreenRect& picture) {
+  if (shown.first.legend.overlay == Overlay::none) return;
+  ImGui::SetNextWindowPos({static_cast<float>(picture.min.x) + 8.0F, static_cast<float>(picture.max.y) - 8.0F},
+                          ImGuiCond_Always, {0.0F, 1.0F});
+  constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs |
+                                     ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin("legend", nullptr, FIXED)) {
+    const Legend& legend = shown.first.legend;
+    legend_text(legend);
+    if (legend.overlay == Overlay::heat || legend.overlay == Overlay::depth_range)
+      draw_scale(legend, shown.state.palette);
+  }
+  ImGui::End();
+}
+
+}  // namespace lamp::app

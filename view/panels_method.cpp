@@ -1,0 +1,145 @@
+// Methods and their options, from the table alone: a new one appears here by itself.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "gpu/check.h"
+#include "view/panels.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::array<std::string_view, 2> BRDFS{"ggx", "blinn-phong"};
+constexpr std::string_view AUTO = "auto";
+constexpr double MANY_TIMES = 64.0;  // a range of which the top is so much more than the bottom slides logarithmically
+
+const Method* method_of(const std::string& name) {
+  const auto found = find_method(name);
+  return found.ok() ? found.value() : nullptr;
+}
+
+/// What an option is set to.
+std::string value_of(const std::vector<std::string>& options, const OptionSpec& spec) {
+  const std::string begin = std::string(spec.key) + "=";
+  for (const std::string& option : options)
+    if (option.starts_with(begin)) return option.substr(begin.size());
+  return std::string(spec.fallback);
+}
+
+std::uint32_t number_of(const std::string& text) {
+  std::uint32_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// Method and options of one side. `prefix` tells its labels from the other's.
+void choose_method(PanelFrame& p, const std::string& prefix, std::string& name, std::vector<std::string>& options) {
+  const std::vector<std::string_view> names = method_choices();
+  const auto reason = [&](std::string_view method) { return why_not(std::string(method), {}, p.shown, p.traits); };
+  if (p.widgets.choose(prefix + "method", name, names,
+                       "How lights are culled. Auto takes the one expected to be fastest.", reason)) {
+    const Method* chosen = method_of(name);
+    options = chosen == nullptr ? std::vector<std::string>() : kept_options(options, *chosen);
+  }
+  const Method* method = method_of(name);
+  if (method == nullptr) return;
+  Widgets::note(method->summary);
+  for (const OptionSpec& spec : method->options) {
+    const std::string label = prefix + std::string(spec.key);
+    std::string value = value_of(options, spec);
+    bool changed = false;
+    if (!spec.choices.empty()) {
+      changed = p.widgets.choose(label, value, spec.choices, std::string(spec.help), [&](std::string_view choice) {
+        return why_not(name, with_option(options, spec, std::string(choice)), p.shown, p.traits);
+      });
+    } else {
+      std::uint32_t number = number_of(value);
+      const auto min = static_cast<double>(spec.min);
+      const auto max = static_cast<double>(spec.max);
+      changed =
+          p.widgets.slide(label, number, {.min = min, .max = max, .logarithmic = max > MANY_TIMES * std::max(1.0, min)},
+                          std::string(spec.help));
+      value = fmt::format("{}", number);
+    }
+    if (changed) options = with_option(options, spec, value);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string_view> method_choices() {
+  std::vector<std::string_view> names{AUTO};
+  for (const Method& method : methods()) names.push_back(method.name);
+  return names;
+}
+
+std::string why_not(const std::string& method, const std::vector<std::string>& options, const Shown& shown,
+                    const DeviceTraits& traits) {
+  const Method* found = method_of(method);
+  if (found == nullptr || shown.number == 0) return "";
+  auto resolved = resolve_options(*found, options);
+  if (!resolved.ok()) return resolved.error().text();
+  const auto plan = make_plan(*found, {.width = shown.view.width(),
+                                       .height = shown.view.height(),
+                                       .light_capacity = static_cast<std::uint32_t>(shown.lights->size()),
+                                       .options = std::move(resolved.value()),
+                                       .traits = traits});
+  return plan.ok() ? "" : plan.error().text();
+}
+
+std::vector<std::string> with_option(const std::vector<std::string>& options, const OptionSpec& spec,
+                                     const std::string& value) {
+  const std::string begin = std::string(spec.key) + "=";
+  std::vector<std::string> changed = options;
+  std::erase_if(changed, [&](const std::string& option) { return option.starts_with(begin); });
+  if (value != spec.fallback) changed.push_back(begin + value);
+  return changed;
+}
+
+std::vector<std::string> kept_options(const std::vector<std::string>& options, const Method& method) {
+  std::vector<std::string> kept;
+  for (const std::string& option : options)
+    if (resolve_options(method, {option}).ok()) kept.push_back(option);
+  return kept;
+}
+
+void method_panel(PanelFrame& p) {
+  if (!p.widgets.header("Method", true)) return;
+  choose_method(p, "", p.state.request.method, p.state.request.options);
+  const Stats& stats = p.shown.first.stats;
+  if (p.shown.first.by_auto) {
+    Widgets::text(fmt::format("auto took {}", stats.method));
+    if (p.widgets.button("keep that", "Names the method that auto took, so that its options can be changed.")) {
+      p.state.request.method = stats.method;
+      p.state.request.options.clear();
+      for (const OptionSpec& spec : method_of(stats.method)->options)
+        p.state.request.options = with_option(p.state.request.options, spec, stats.options.word(spec.key));
+    }
+  }
+  p.widgets.choose("path", p.state.request.path, path_names(), "How pixels are shaded.");
+  p.widgets.choose("brdf", p.state.request.brdf, BRDFS, "How surfaces reflect.");
+  p.widgets.check("make room", p.state.request.grow, "Enlarges lists until every light fits.");
+  for (const std::string& note : stats.notes) Widgets::note(note);
+  if (stats.rendered.counters.overflowed_cells != 0) Widgets::text(overflow_words(stats));
+}
+
+void against_panel(PanelFrame& p) {
+  if (!p.widgets.header("A against B", false)) return;
+  bool compares = p.state.against.has_value();
+  if (p.widgets.check("compare", compares, "Draws the picture right of a line with a second method. Drag the line."))
+    p.state.against = compares ? std::optional(Against()) : std::nullopt;
+  if (!p.state.against) return;
+  p.widgets.slide("divider", p.state.against->divider, {}, "Where the line is.");
+  choose_method(p, "B: ", p.state.against->method, p.state.against->options);
+  if (!p.shown.second) return;
+  const Rendered& a = p.shown.first.stats.rendered;
+  const Rendered& b = p.shown.second->stats.rendered;
+  Widgets::row("A", fmt::format("cull {:.2f} ms, shade {:.2f} ms", a.cull_ms, a.shade_ms));
+  Widgets::row("B", fmt::format("cull {:.2f} ms, shade {:.2f} ms", b.cull_ms, b.shade_ms));
+}
+
+}  // namespace lamp::app

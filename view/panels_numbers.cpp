@@ -1,0 +1,61 @@
+// Times, memory, saving.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "view/panels.h"
+
+namespace lamp::app {
+namespace {
+
+void draw_graph(const Times::Row& row, float top) {
+  ImGui::PlotLines(("##" + row.name).c_str(), row.ms.data(), static_cast<int>(row.ms.size()), 0, nullptr, 0.0F, top,
+                   {ImGui::GetWindowWidth() * 0.4F, ImGui::GetFontSize() * 1.4F});
+}
+
+void draw_times(const Times& times) {
+  constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoKeepColumnsVisible;
+  if (times.rows().empty() || !ImGui::BeginTable("times", 3, FLAGS)) return;
+  for (const Times::Row& row : times.rows()) {
+    const double p95 = row.at(0.95);
+    ImGui::TableNextColumn();
+    draw_graph(row, static_cast<float>(std::max(1.3 * p95, 1e-3)));
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(fmt::format("{:.2f} ({:.2f} .. {:.2f})", row.at(0.5), row.at(0.05), p95).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.name.c_str());
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void times_panel(PanelFrame& p) {
+  if (!p.widgets.header("Times and memory", true)) return;
+  const Stats& stats = p.shown.first.stats;
+  Widgets::note("Median of the last pictures (5th .. 95th percentile), milliseconds on the device.");
+  draw_times(p.times);
+  Widgets::row("cells", fmt::format("{}", stats.cells));
+  Widgets::row("overflowed", fmt::format("{} cells", stats.rendered.counters.overflowed_cells));
+  for (const auto& [name, bytes] : stats.bytes)
+    Widgets::row(name, fmt::format("{:.3f} MB", static_cast<double>(bytes) * 1e-6));
+}
+
+void save_panel(PanelFrame& p) {
+  if (!p.widgets.header("Save", true)) return;
+  p.widgets.write("picture file", p.picture_file, "A name that ends in .png or .exr.");
+  if (p.widgets.button("save picture", "Writes the picture that lamp render makes of this state, in full size."))
+    p.wishes.save_picture = true;
+  p.widgets.slide("samples", p.state.samples, {.min = 1, .max = 64, .logarithmic = true},
+                  "Samples of a pixel in pictures that are saved.");
+  p.widgets.write("state file", p.state_file, "A name that ends in .json.");
+  if (p.widgets.button("save state", "Writes all that is set here. lamp-view --state and lamp render --state read it."))
+    p.wishes.save_state = true;
+  if (p.widgets.button("undo", "Takes the last change back.")) p.wishes.undo = true;
+  ImGui::SameLine();
+  if (p.widgets.button("redo", "Makes it again.")) p.wishes.redo = true;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,44 @@
+// What is on the screen, and what is known of it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/stats.h"
+#include "commands/view_state.h"
+#include "gpu/image.h"
+#include "lamplight/view.h"
+#include "view/inspection.h"
+#include "view/overlay.h"
+
+namespace lamp::app {
+
+/// What one method did.
+struct ShownSide {
+  Stats stats;  ///< as `lamp render --json` has them
+  bool by_auto = false;
+  Legend legend;
+};
+
+struct Shown {
+  std::uint64_t number = 0;  ///< of the frame, from 1; 0: there is none yet
+  bool made_anew = false;    ///< a scene was loaded or a pipeline compiled for it: its time says nothing of others
+  ViewState state;           ///< that it shows; the size is the one that was rendered
+  std::shared_ptr<const GpuImage> image;
+  float exposure = 1.0F;
+  View view;
+  std::shared_ptr<const std::vector<shared::Light>> lights;
+  std::uint32_t flight_frames = 0;  ///< 0: the scene has no flight
+  bool captured = false;
+  std::vector<std::string> cameras;  ///< of the scene
+  Camera scene_camera;               ///< where the view is, unless the scene is captured
+  std::vector<std::string> notes;    ///< of the scene's loader
+  ShownSide first;
+  std::optional<ShownSide> second;  ///< right of the divider
+  std::optional<Inspection> inspection;
+};
+
+}  // namespace lamp::app

@@ -1,0 +1,277 @@
+// Scene, lights, renderer, lightings: each with the key of what it was made from.
+// SPDX-License-Identifier: Apache-2.0
+#include "view/stage.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/pictures.h"
+#include "gpu/check.h"
+#include "render/antialias.h"
+#include "scene/flight.h"
+#include "scene/place_decals.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::size_t MOST_LIGHTINGS = 8;
+
+/// What generated lights and decals follow from.
+std::string lights_key(const Request& r) {
+  return fmt::format("{} {} {} {} {} {} {} {}", r.lights, r.lights_given, r.spots, r.range, r.seed, r.decals, r.frame,
+                     r.light_frame);
+}
+
+std::string key_of(const LightingInfo& info, bool grow) {
+  return fmt::format("{} {} {}x{} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "), info.width,
+                     info.height, info.light_capacity, static_cast<int>(info.path), static_cast<int>(info.brdf),
+                     info.decals, grow);
+}
+
+}  // namespace
+
+struct Stage::KeptScene {
+  std::string name;
+  Scene scene;
+  std::optional<OpenAir> air;
+  std::unique_ptr<GpuScene> gpu;
+};
+
+struct Stage::KeptLights {
+  std::string key;
+  std::vector<shared::Light> made;  ///< without edits
+  std::vector<gpu::DecalData> decals;
+  std::shared_ptr<const std::vector<shared::Light>> lights;
+};
+
+Stage::Stage(Context& context, const ShaderLibrary& shaders, const std::string& calibration)
+    : context_(context), shaders_(shaders), chooser_(context, shaders, calibration) {}
+
+Stage::~Stage() = default;
+
+void Stage::need_scene(const std::string& name) {
+  if (scene_ && scene_->name == name) return;
+  auto scene = std::make_unique<KeptScene>();
+  scene->name = name;
+  scene->scene = load_scene(name);
+  scene->gpu = std::make_unique<GpuScene>(context_, scene->scene);
+  display_.reset();
+  renderer_.reset();
+  lightings_.clear();
+  lights_.reset();
+  auto_key_.clear();
+  renderer_key_.clear();
+  scene_ = std::move(scene);
+  made_anew_ = true;
+}
+
+void Stage::need_lights(const ViewState& state) {
+  const Request& request = state.request;
+  const Scene& scene = scene_->scene;
+  check_scene_lights(request, scene);
+  auto lights = std::make_unique<KeptLights>();
+  lights->key = lights_key(request);
+  if (lights_ && lights_->key == lights->key) {
+    lights->made = std::move(lights_->made);
+    lights->decals = std::move(lights_->decals);
+  } else {
+    lights->made = pack(scene.lights);
+    const bool generates = request.lights != 0 && (!scene.captured || request.lights_given);
+    if (generates && !scene_->air) scene_->air = find_open_air(scene);
+    if (generates) {
+      const std::vector<shared::Light> generated = pack(requested_lights(request, scene, *scene_->air));
+      lights->made.insert(lights->made.end(), generated.begin(), generated.end());
+    }
+    lights->decals = requested_decals(request, scene);
+  }
+  lights_ = std::move(lights);
+  auto all = std::make_shared<std::vector<shared::Light>>(lights_->made);
+  apply_edits(state, *all);
+  lights_->lights = std::move(all);
+}
+
+void Stage::need_frame(const ViewState& state) {
+  need_scene(state.request.scene);
+  const View view = requested_view(state.request, scene_->scene);
+  need_lights(state);
+  const auto lights = static_cast<std::uint32_t>(lights_->lights->size());
+  const auto decals = static_cast<std::uint32_t>(lights_->decals.size());
+  std::string key = fmt::format("{}x{} {} {}", view.width(), view.height(), lights, decals);
+  if (key != renderer_key_) {
+    display_.reset();
+    renderer_.reset();
+    renderer_key_.clear();
+    renderer_ =
+        std::make_unique<Renderer>(context_, shaders_, *scene_->gpu, view.width(), view.height(), lights, decals);
+    display_ = std::make_unique<Display>(context_.device(), shaders_, view.width(), view.height());
+    renderer_key_ = std::move(key);
+    made_anew_ = true;
+  }
+  renderer_->set_frame(view, *lights_->lights, lights_->decals);
+}
+
+MethodChoice Stage::choice(const Request& request, const std::string& method, const std::vector<std::string>& options) {
+  if (!is_auto(method)) return {.method = &parse_method(method), .options = options};
+  std::string key = fmt::format("{} {} {} {} {} {}", request.scene, request.size, request.lights, request.spots,
+                                request.range, request.seed);
+  if (key != auto_key_) {
+    auto_choice_ = chooser_.choose(*renderer_, {.scene = scene_->scene,
+                                                .view = renderer_->view(),
+                                                .lights = *lights_->lights,
+                                                .light_capacity = static_cast<std::uint32_t>(lights_->lights->size())});
+    auto_key_ = std::move(key);
+  }
+  return auto_choice_;
+}
+
+Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
+                              const std::vector<std::string>& options) {
+  const MethodChoice chosen = choice(request, method, options);
+  LightingInfo info{.method = chosen.method,
+                    .options = take(resolve_options(*chosen.method, chosen.options)),
+                    .width = renderer_->view().width(),
+                    .height = renderer_->view().height(),
+                    .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size()),
+                    .path = parse_path(request.path),
+                    .brdf = parse_brdf(request.brdf),
+                    .transparency = !scene_->gpu->blended().empty(),
+                    .captured = scene_->scene.captured.has_value(),
+                    .decals = !lights_->decals.empty()};
+  std::string key = key_of(info, request.grow);
+  const auto found = std::ranges::find(lightings_, key, &KeptLighting::key);
+  if (found != lightings_.end()) {
+    lightings_.splice(lightings_.begin(), lightings_, found);
+  } else {
+    lightings_.push_front({std::move(key), make_lighting(*renderer_, shaders_, std::move(info), request.grow)});
+    made_anew_ = true;
+    if (lightings_.size() > MOST_LIGHTINGS) lightings_.pop_back();
+  }
+  return {.lighting = lightings_.front().lighting, .by_auto = chosen.by_auto};
+}
+
+ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered rendered) const {
+  return {.stats = make_stats({.device = context_.row(),
+                               .scene = state.request.scene,
+                               .view = renderer_->view(),
+                               .lights = lights_->lights->size(),
+                               .frames = 1,
+                               .decals = lights_->decals.size()},
+                              chosen.lighting, std::move(rendered)),
+          .by_auto = chosen.by_auto,
+          .legend = {}};
+}
+
+Legend Stage::lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
+                       std::uint32_t first_x, std::uint32_t end_x) {
+  const View& view = renderer_->view();
+  visits_ = renderer_->visit_all(lighting);
+  if (state.overlay == Overlay::depth_range) depth_ = renderer_->read_depth();
+  const Overlaid made = make_overlay(state.overlay, state.palette,
+                                     {.view = view,
+                                      .visits = visits_,
+                                      .depth = depth_,
+                                      .lights = static_cast<std::uint32_t>(lights_->lights->size()),
+                                      .overflowed = overflowed,
+                                      .scale_max = scale_max});
+  const std::span<std::uint32_t> to = display_->overlay();
+  for (std::uint32_t y = 0; y < view.height(); ++y)
+    for (std::uint32_t x = first_x; x < std::min(end_x, view.width()); ++x)
+      to[x + std::size_t{view.width()} * y] = made.pixels[x + std::size_t{view.width()} * y];
+  return made.legend;
+}
+
+Inspected Stage::inspected(Lighting& lighting) {
+  depth_ = renderer_->read_depth();
+  visits_ = renderer_->visit_all(lighting);
+  return {.renderer = *renderer_,
+          .lighting = lighting,
+          .shaders = shaders_,
+          .scene = *scene_->gpu,
+          .lights = *lights_->lights,
+          .visits = visits_,
+          .depth = depth_};
+}
+
+Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
+  ViewState state = asked;
+  made_anew_ = false;
+  need_scene(state.request.scene);
+  const Scene& scene = scene_->scene;
+  if (!scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
+  need_frame(state);
+  const std::uint32_t width = renderer_->view().width();
+  const std::optional<float> exposure = parse_exposure(state.exposure);
+  const float divider = state.against ? state.against->divider : 1.0F;
+  const auto end_x = static_cast<std::uint32_t>(std::lround(divider * static_cast<float>(width)));
+
+  Shown shown{.number = ++number_, .view = renderer_->view(), .lights = lights_->lights};
+  /// Draws one side into the columns from `first` on.
+  const auto draw_side = [&](const std::string& method, const std::vector<std::string>& options, std::uint32_t first,
+                             std::uint32_t end, bool sets_exposure) {
+    const Chosen chosen = lighting(state.request, method, options);
+    Rendered rendered = renderer_->draw(chosen.lighting, [&](vulkan::Recorder& recorder) {
+      if (sets_exposure && !exposure) display_->record_sums(recorder, renderer_->targets());
+    });
+    if (sets_exposure) shown.exposure = exposure ? *exposure : display_->exposure();
+    ShownSide made = side(state, chosen, std::move(rendered));
+    const bool overlaid = state.overlay != Overlay::none;
+    if (overlaid)
+      made.legend = lay_over(state, chosen.lighting, made.stats.rendered.counters.overflowed_cells != 0,
+                             sets_exposure ? 0.0 : shown.first.legend.high, first, end);
+    renderer_->also([&](vulkan::Recorder& recorder) {
+      display_->record(recorder, renderer_->targets(),
+                       {.exposure = shown.exposure, .first_x = first, .end_x = end, .overlaid = overlaid});
+    });
+    return std::pair<ShownSide, Lighting*>(std::move(made), &chosen.lighting);
+  };
+  auto [first, first_lighting] = draw_side(state.request.method, state.request.options, 0, end_x, true);
+  shown.first = std::move(first);
+  if (state.picked) {
+    const glm::vec2 scale = glm::vec2(width, renderer_->view().height()) / glm::vec2(parse_size(asked.request.size));
+    const glm::uvec2 pixel = scene.captured ? *state.picked : glm::uvec2(glm::vec2(*state.picked) * scale);
+    shown.inspection = inspect(inspected(*first_lighting), pixel);
+  }
+  if (state.against) shown.second = draw_side(state.against->method, state.against->options, end_x, width, false).first;
+  shown.made_anew = std::exchange(made_anew_, false);
+  shown.image = display_->image();
+  shown.flight_frames = scene.flight ? scene.flight->frames : 0;
+  shown.captured = scene.captured.has_value();
+  for (const Camera& camera : scene.cameras) shown.cameras.push_back(camera.name);
+  if (!scene.captured)
+    shown.scene_camera =
+        state.request.frame >= 0 ? frame_camera(scene, state.request.frame) : find_camera(scene, state.request.camera);
+  shown.notes = scene.notes;
+  shown.state = std::move(state);
+  return shown;
+}
+
+Stage::Picture Stage::picture(const ViewState& state) {
+  need_frame(state);
+  const Chosen chosen = lighting(state.request, state.request.method, state.request.options);
+  if (scene_->scene.captured && state.samples > 1)
+    throw Error(fmt::format("samples: got {}, but a captured frame has one sample a pixel", state.samples));
+  Picture made{.radiance = render_samples(*renderer_, chosen.lighting, *lights_->lights, lights_->decals,
+                                          {.samples = state.samples})
+                               .image,
+               .toned = {}};
+  const std::optional<float> exposure = parse_exposure(state.exposure);
+  made.toned = tone_map(made.radiance, exposure ? *exposure : automatic_exposure(made.radiance));
+  return made;
+}
+
+Proof Stage::prove(const ViewState& asked, glm::uvec2 size) {
+  ViewState state = asked;
+  need_scene(state.request.scene);
+  if (!scene_->scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
+  need_frame(state);
+  const Chosen chosen = lighting(state.request, state.request.method, state.request.options);
+  static_cast<void>(renderer_->draw(chosen.lighting, [](vulkan::Recorder&) {}));
+  const Proof proof = app::prove(inspected(chosen.lighting), [&](float share) { progress_ = share; });
+  progress_ = 1.0F;
+  return proof;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,84 @@
+// Draws states: keeps the scene, its lights, the renderer and the last few lightings, and makes anew only what a state
+// changed. One thread at a time.
+// Promise: a picture that is saved is that of `lamp render` with the same options, bit for bit on the same device.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands/auto_method.h"
+#include "render/display.h"
+#include "view/shown.h"
+
+namespace lamp::app {
+
+class Stage {
+ public:
+  Stage(Context& context, const ShaderLibrary& shaders, const std::string& calibration);
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// Draws the state in this size; a captured frame has its own. Throws Error: nothing that was shown before changes.
+  [[nodiscard]] Shown draw(const ViewState& state, glm::uvec2 size);
+
+  /// The picture of the state in the size that its request says.
+  struct Picture {
+    HdrImage radiance;
+    LdrImage toned;
+  };
+  [[nodiscard]] Picture picture(const ViewState& state);
+
+  /// Holds all pixels of the state against the oracle.
+  [[nodiscard]] Proof prove(const ViewState& state, glm::uvec2 size);
+  /// How much of that is done, 0 .. 1; from any thread.
+  [[nodiscard]] float progress() const { return progress_; }
+
+ private:
+  struct KeptScene;
+  struct KeptLights;
+  struct KeptLighting {
+    std::string key;
+    Lighting lighting;
+  };
+  struct Chosen {
+    Lighting& lighting;
+    bool by_auto = false;
+  };
+  void need_scene(const std::string& name);
+  void need_lights(const ViewState& state);
+  /// The renderer with the state's frame in it.
+  void need_frame(const ViewState& state);
+  [[nodiscard]] MethodChoice choice(const Request& request, const std::string& method,
+                                    const std::vector<std::string>& options);
+  [[nodiscard]] Chosen lighting(const Request& request, const std::string& method,
+                                const std::vector<std::string>& options);
+  [[nodiscard]] ShownSide side(const ViewState& state, const Chosen& chosen, Rendered rendered) const;
+  /// Lays the state's overlay over columns of the picture that `chosen` made last.
+  [[nodiscard]] Legend lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
+                                std::uint32_t first_x, std::uint32_t end_x);
+  [[nodiscard]] Inspected inspected(Lighting& lighting);
+
+  Context& context_;
+  const ShaderLibrary& shaders_;
+  AutoMethod chooser_;
+  std::unique_ptr<KeptScene> scene_;
+  std::unique_ptr<KeptLights> lights_;
+  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Display> display_;
+  std::string renderer_key_;
+  std::list<KeptLighting> lightings_;  ///< the last used first
+  std::string auto_key_;               ///< of what `auto_choice_` was made for
+  MethodChoice auto_choice_;
+  std::vector<Visit> visits_;  ///< of the last walk
+  std::vector<float> depth_;
+  std::uint64_t number_ = 0;
+  bool made_anew_ = false;
+  std::atomic<float> progress_ = 0.0F;
+};
+
+}  // namespace lamp::app

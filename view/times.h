@@ -1,0 +1,31 @@
+// The times of the last pictures, pass by pass.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace lamp::app {
+
+class Times {
+ public:
+  static constexpr std::size_t MOST = 240;  ///< pictures
+
+  struct Row {
+    std::string name;  ///< "cull", "shade", "frame", then the passes
+    std::vector<float> ms;
+    [[nodiscard]] double at(double share) const;  ///< percentile
+  };
+
+  /// Begins anew where passes are others than before.
+  void add(const Rendered& rendered);
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  std::vector<Row> rows_;
+};
+
+}  // namespace lamp::app

@@ -1,0 +1,243 @@
+// Input to state, state to jobs.
+// SPDX-License-Identifier: Apache-2.0
+#include "view/viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "commands/pictures.h"
+#include "files/read_json.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr double FRAMES_A_SECOND = 30.0;  // of a flight
+constexpr std::size_t MOST_UNDONE = 100;
+
+/// What a drawing depends on: a state without what lies beside or over the picture.
+std::string drawing_key(ViewState state, glm::uvec2 size) {
+  state.panels = false;
+  state.help = false;
+  state.samples = 1;
+  state.paused = false;
+  state.speed = 0.0F;
+  state.resolution = 0.0F;
+  state.light_marks = LightMarks::none;
+  return fmt::format("{}x{} {}", size.x, size.y, to_json(state).dump());
+}
+
+/// What undo goes back over: a state without what moves by itself.
+std::string change_key(ViewState state) {
+  state.request.light_frame = -1;
+  if (state.request.frame >= 0) state.request.frame = 0;
+  state.help = false;
+  return to_json(state).dump();
+}
+
+bool is_state(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
+bool is_capture(const std::string& file) { return std::filesystem::path(file).filename() == "frame.json"; }
+
+}  // namespace
+
+Viewer::Viewer(ViewerInfo info)
+    : state_(std::move(info.state)),
+      settled_(state_),
+      traits_(info.traits),
+      pace_(info.target_ms),
+      paced_(info.target_ms > 0.0),
+      scale_(info.scale) {}
+
+std::optional<Job> Viewer::next_job() {
+  if (busy_ || lost_) return std::nullopt;
+  if (!queued_.empty()) {
+    Job job = std::move(queued_.front());
+    queued_.erase(queued_.begin());
+    busy_ = true;
+    return job;
+  }
+  const double part = state_.resolution > 0.0F ? state_.resolution : paced_ ? pace_.scale() : 1.0;
+  const glm::uvec2 size = glm::max(glm::uvec2(1), glm::uvec2(glm::dvec2(asked_) * part + 0.5));
+  std::string key = drawing_key(state_, size);
+  idle_ = key == drawn_key_;
+  if (idle_) return std::nullopt;
+  drawn_key_ = std::move(key);
+  busy_ = true;
+  return Job{.kind = Job::Kind::draw, .state = state_, .size = size, .file = {}};
+}
+
+void Viewer::finish(Done done) {
+  busy_ = false;
+  if (done.job.kind == Job::Kind::prove) proving_ = false;
+  lost_ = done.lost;
+  if (!done.error.empty()) {
+    complain(done.error);
+    keep_scene(done.job.state);
+    return;
+  }
+  if (done.job.kind == Job::Kind::draw && !error_stays_) error_.clear();
+  if (done.job.kind == Job::Kind::picture) said_ = "saved " + done.job.file;
+  if (done.proof) proof_ = done.proof;
+  if (done.proof) said_ = words_of(*proof_);
+  if (!done.shown) return;
+  const bool fresh = done.shown->made_anew;
+  if (!fresh && paced_) pace_.took(done.ms);
+  pictures_ms_ = pictures_ms_ == 0.0 || fresh ? done.ms : 0.9 * pictures_ms_ + 0.1 * done.ms;
+  shown_ = std::move(*done.shown);
+  times_.add(shown_.first.stats.rendered);
+}
+
+void Viewer::complain(const std::string& error) {
+  error_ = error;
+  error_stays_ = true;
+  ++errors_;
+}
+
+void Viewer::keep_scene(const ViewState& failed) {
+  Request& r = state_.request;
+  if (shown_.number == 0 || failed.request.scene == shown_.state.request.scene || r.scene != failed.request.scene)
+    return;
+  const Request& was = shown_.state.request;
+  r.scene = was.scene;
+  r.camera = was.camera;
+  r.free_camera = was.free_camera;
+  r.frame = was.frame;
+  settled_ = state_;
+}
+
+void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float progress) {
+  lay_out(screen);
+  places_.next_frame();
+  const ViewState before = state_;
+  for (const std::string& file : input.dropped) open(file);
+  draw_panels(screen, progress);
+  const bool focus = interface_has_focus();
+  if (!interface_takes_text()) {
+    apply_keys(input, state_, shown_, wishes_, focus);
+    use_mouse(input, seconds, focus);
+  }
+  take_wishes();
+  pass_time(seconds);
+  try_state(before);
+  note_change();
+  draw_status(screen);
+}
+
+/// What cannot be said of any scene is taken back at once; what the scene or the device refuses is found by drawing.
+void Viewer::try_state(const ViewState& before) {
+  try {
+    check_state(state_);
+  } catch (const Error& error) {
+    complain(error.what());
+    state_ = before;
+  }
+}
+
+void Viewer::note_change() {
+  if (interface_is_used() || dragging_ || change_key(state_) == change_key(settled_)) return;
+  error_stays_ = false;
+  undone_.push_back(settled_);
+  if (undone_.size() > MOST_UNDONE) undone_.erase(undone_.begin());
+  redone_.clear();
+  settled_ = state_;
+  proof_.reset();
+}
+
+void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
+  if (from.empty()) return;
+  to.push_back(state_);
+  state_ = std::move(from.back());
+  from.pop_back();
+  settled_ = state_;
+  proof_.reset();
+}
+
+void Viewer::pass_time(float seconds) {
+  Request& r = state_.request;
+  if (r.frame < 0 && r.light_frame < 0) r.light_frame = 0;
+  if (state_.paused || shown_.number == 0) return;
+  clock_ += seconds * FRAMES_A_SECOND * state_.speed;
+  const double whole = std::floor(clock_);
+  clock_ -= whole;
+  const int frames = shown_.flight_frames != 0 ? static_cast<int>(shown_.flight_frames) : 300;
+  int& frame = r.frame >= 0 ? r.frame : r.light_frame;
+  frame = ((frame + static_cast<int>(whole)) % frames + frames) % frames;
+}
+
+void Viewer::take_wishes() {
+  const Wishes wishes = std::exchange(wishes_, {});
+  if (wishes.save_picture) save_picture(picture_file_);
+  if (wishes.save_state) save_state(state_file_);
+  if (wishes.undo) undo(undone_, redone_);
+  if (wishes.redo) undo(redone_, undone_);
+  if (wishes.step) apply_keys({.pressed = {"period"}}, state_, shown_, wishes_, false);
+  if (wishes.prove && !proving_ && shown_.number != 0) {
+    proving_ = true;
+    proof_.reset();
+    const glm::uvec2 size(shown_.view.width(), shown_.view.height());
+    queued_.push_back({.kind = Job::Kind::prove, .state = state_, .size = size, .file = {}});
+  }
+}
+
+void Viewer::save_picture(const std::string& file) {
+  queued_.push_back({.kind = Job::Kind::picture, .state = state_, .size = asked_, .file = file});
+  idle_ = false;
+}
+
+void Viewer::save_state(const std::string& file) {
+  try {
+    constexpr std::string_view KINDS[] = {".json"};
+    check_output("save state", file, KINDS);
+    ViewState saved = state_;
+    if (shown_.number != 0 && !shown_.captured) {
+      saved.request.size = shown_.state.request.size;
+      saved.request.size_given = true;
+    }
+    write_output(file, [&](const std::filesystem::path& path) { app::save_state(path, saved); });
+    said_ = "saved " + file;
+  } catch (const Error& error) {
+    complain(error.what());
+  }
+}
+
+void Viewer::open(const std::string& file) {
+  try {
+    if (is_state(file) && !is_capture(file)) {
+      state_ = load_state(file);
+      return;
+    }
+    ViewState opened = state_;
+    opened.request.scene = file;
+    opened.request.camera.clear();
+    opened.request.free_camera.reset();
+    opened.request.frame = -1;
+    opened.edits.clear();
+    opened.picked.reset();
+    state_ = std::move(opened);
+  } catch (const Error& error) {
+    complain(error.what());
+  }
+}
+
+nlohmann::json Viewer::report() const {
+  nlohmann::json json = to_json(state_);
+  json["error"] = error_;
+  json["said"] = said_;
+  json["pictures"] = shown_.number;
+  if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
+  if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
+  if (proof_) json["proof"] = words_of(*proof_);
+  if (!shown_.inspection) return json;
+  const Inspection& found = *shown_.inspection;
+  json["inspection"] = {{"pixel", {found.pixel.x, found.pixel.y}},
+                        {"sky", found.sky},
+                        {"cell", found.cell},
+                        {"lights", found.lights.size()},
+                        {"missed", found.proof.missed},
+                        {"pairs", found.proof.pairs}};
+  return json;
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,109 @@
+// The viewer between a user and a stage: takes input, lays out the screen, says what is to be drawn next.
+// Promise: never waits; whoever owns it performs its jobs, at once or in a thread.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/job.h"
+#include "view/keys.h"
+#include "view/pace.h"
+#include "view/panels.h"
+
+namespace lamp::app {
+
+struct ViewerInfo {
+  ViewState state;
+  DeviceTraits traits;
+  double target_ms = 0.0;  ///< how long a picture may take; 0: resolution is never lowered by itself
+  float scale = 1.0F;      ///< of letters and panels
+};
+
+class Viewer {
+ public:
+  explicit Viewer(ViewerInfo info);
+
+  /// The interface of a frame, between Gui::begin and Gui::end; `progress` of the proof that is being made.
+  void frame(const Input& input, glm::uvec2 screen, float seconds, float progress);
+
+  /// What is to be done next, if there is anything. Its Done comes back to `finish`, before the next is asked for.
+  [[nodiscard]] std::optional<Job> next_job();
+  void finish(Done done);
+  /// Everything that was asked for is done, and what is shown is the state.
+  [[nodiscard]] bool idle() const { return idle_ && queued_.empty() && !busy_; }
+  /// No picture in a file and no proof waits to be made.
+  [[nodiscard]] bool asks_for_nothing() const { return queued_.empty() && !proving_; }
+
+  [[nodiscard]] ViewState& state() { return state_; }
+  [[nodiscard]] const Shown& shown() const { return shown_; }
+  /// Where on the screen the picture is.
+  [[nodiscard]] const ScreenRect& picture() const { return picture_; }
+  [[nodiscard]] Places& places() { return places_; }
+  [[nodiscard]] const std::string& error() const { return error_; }
+  /// How often there was one.
+  [[nodiscard]] std::uint64_t errors() const { return errors_; }
+  [[nodiscard]] const std::optional<Proof>& proof() const { return proof_; }
+  [[nodiscard]] bool device_lost() const { return lost_; }
+  /// What is set and what is seen, for scripts to expect.
+  [[nodiscard]] nlohmann::json report() const;
+
+  /// Asks for a picture in a file.
+  void save_picture(const std::string& file);
+  /// Writes the state in the size that is shown. What cannot be written is an error on the screen.
+  void save_state(const std::string& file);
+  /// Opens a scene, a capture or a state; what else it is is an error on the screen.
+  void open(const std::string& file);
+  /// Says something on the screen.
+  void say(const std::string& words) { said_ = words; }
+
+ private:
+  void lay_out(glm::uvec2 screen);
+  void use_mouse(const Input& input, float seconds, bool focus);
+  void draw_panels(glm::uvec2 screen, float progress);
+  void draw_status(glm::uvec2 screen) const;
+  void take_wishes();
+  void pass_time(float seconds);
+  void note_change();
+  void undo(std::vector<ViewState>& from, std::vector<ViewState>& to);
+  void try_state(const ViewState& before);
+  /// Shows an error until something is changed.
+  void complain(const std::string& error);
+  /// After a scene could not be opened: the one that is shown stays.
+  void keep_scene(const ViewState& failed);
+
+  ViewState state_;
+  ViewState settled_;  ///< the state when nobody was changing it
+  std::vector<ViewState> undone_, redone_;
+  DeviceTraits traits_;
+  Pace pace_;
+  bool paced_;
+  float scale_;
+  double clock_ = 0.0;  ///< fractions of a frame of the flight
+  Shown shown_;
+  std::string drawn_key_;    ///< of the last drawing that was asked for
+  std::vector<Job> queued_;  ///< pictures and proofs
+  bool busy_ = false;
+  bool idle_ = false;
+  bool proving_ = false;
+  bool lost_ = false;
+  std::optional<Proof> proof_;
+  Times times_;
+  double pictures_ms_ = 0.0;  ///< of a picture, all in all, smoothed
+  std::string error_, said_;
+  std::uint64_t errors_ = 0;
+  bool error_stays_ = false;  ///< though what is drawn after it succeeds
+  Places places_;
+  Wishes wishes_;
+  std::string picture_file_ = "lamp-view.png";
+  std::string state_file_ = "lamp-view.json";
+  ScreenRect area_;     ///< of the screen, that panels leave free
+  ScreenRect picture_;  ///< within that
+  glm::uvec2 asked_{1};
+  std::optional<glm::vec2> last_mouse_, pressed_at_;
+  bool dragging_ = false;
+  bool drags_divider_ = false;
+};
+
+}  // namespace lamp::app

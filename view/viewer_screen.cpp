@@ -1,0 +1,172 @@
+// The viewer's screen: where the picture is, what the mouse does there, and what is drawn beside and over it.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "view/light_marks.h"
+#include "view/viewer.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr float PANEL_WIDTH = 400.0F;  // pixels at scale 1
+constexpr float STATUS_HEIGHT = 24.0F;
+constexpr float RADIANS_A_PIXEL = 0.004F;
+constexpr float STILL_PX = 4.0F;  // a press that moved no farther is a click
+constexpr float DIVIDER_PX = 6.0F;
+const ImVec4 ALARM{1.0F, 0.45F, 0.35F, 1.0F};
+
+/// The largest rectangle of that aspect in the middle of an area.
+ScreenRect fitted(const ScreenRect& area, glm::uvec2 size) {
+  const glm::dvec2 room(glm::max(area.size(), glm::ivec2(1)));
+  const double scale = std::min(room.x / size.x, room.y / size.y);
+  const glm::ivec2 fit = glm::max(glm::ivec2(1), glm::ivec2(glm::dvec2(size) * scale + 0.5));
+  const glm::ivec2 min = area.min + (glm::ivec2(room) - fit) / 2;
+  return {.min = min, .max = min + fit};
+}
+
+bool contains(const ScreenRect& rect, glm::vec2 at) {
+  return at.x >= static_cast<float>(rect.min.x) && at.y >= static_cast<float>(rect.min.y) &&
+         at.x < static_cast<float>(rect.max.x) && at.y < static_cast<float>(rect.max.y);
+}
+
+float divider_x(const ScreenRect& picture, const Against& against) {
+  return static_cast<float>(picture.min.x) + against.divider * static_cast<float>(picture.size().x);
+}
+
+void draw_divider(const ScreenRect& picture, const Shown& shown) {
+  if (!shown.state.against || !shown.second) return;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const float x = divider_x(picture, *shown.state.against);
+  draw.AddLine({x, static_cast<float>(picture.min.y)}, {x, static_cast<float>(picture.max.y)},
+               IM_COL32(255, 255, 255, 200), 2.0F);
+  const float y = static_cast<float>(picture.min.y) + 6.0F;
+  const std::string a = shown.first.stats.method;
+  const std::string b = shown.second->stats.method;
+  draw.AddText({x - 8.0F - ImGui::CalcTextSize(a.c_str()).x, y}, IM_COL32_WHITE, a.c_str());
+  draw.AddText({x + 8.0F, y}, IM_COL32_WHITE, b.c_str());
+}
+
+/// A frame around the pixel that is looked into.
+void draw_picked(const ScreenRect& picture, const Shown& shown) {
+  if (!shown.inspection) return;
+  const glm::vec2 scale = glm::vec2(picture.size()) / glm::vec2(shown.view.width(), shown.view.height());
+  const glm::vec2 min = glm::vec2(picture.min) + glm::vec2(shown.inspection->pixel) * scale;
+  const glm::vec2 middle = min + 0.5F * scale;
+  const float half = std::max(5.0F, 0.5F * scale.x + 2.0F);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, IM_COL32(0, 0, 0, 255), 0.0F, 0,
+               3.0F);
+  draw.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, IM_COL32_WHITE);
+}
+
+}  // namespace
+
+void Viewer::lay_out(glm::uvec2 screen) {
+  // On a narrow screen the panels lie over the picture.
+  const bool beside = state_.panels && static_cast<float>(screen.x) > 1.5F * PANEL_WIDTH * scale_;
+  const auto left = static_cast<int>(beside ? PANEL_WIDTH * scale_ : 0.0F);
+  const auto bottom = static_cast<int>(STATUS_HEIGHT * scale_);
+  area_ = {.min = {left, 0}, .max = {static_cast<int>(screen.x), std::max(1, static_cast<int>(screen.y) - bottom)}};
+  Request& r = state_.request;
+  if (!r.size_given) r.size = fmt::format("{}x{}", area_.size().x, area_.size().y);
+  asked_ = parse_size(r.size);
+  const glm::uvec2 size = shown_.captured ? glm::uvec2(shown_.view.width(), shown_.view.height()) : asked_;
+  picture_ = fitted(area_, size);
+}
+
+void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
+  glm::dvec2 look(0.0);
+  const bool held = input.buttons[0] || input.buttons[1];
+  const bool over = input.mouse && contains(picture_, *input.mouse) && !ImGui::GetIO().WantCaptureMouse;
+  if (held && !pressed_at_ && over) {
+    pressed_at_ = input.mouse;
+    drags_divider_ = state_.against && std::abs(input.mouse->x - divider_x(picture_, *state_.against)) < DIVIDER_PX;
+  }
+  if (pressed_at_ && input.mouse) {
+    dragging_ = dragging_ || glm::distance(*input.mouse, *pressed_at_) > STILL_PX;
+    const float across = (input.mouse->x - static_cast<float>(picture_.min.x)) / static_cast<float>(picture_.size().x);
+    if (dragging_ && drags_divider_ && state_.against)
+      state_.against->divider = std::clamp(across, 0.0F, 1.0F);
+    else if (dragging_ && last_mouse_)
+      look = glm::dvec2(*input.mouse - *last_mouse_) * double{RADIANS_A_PIXEL};
+  }
+  if (!held && pressed_at_) {
+    if (!dragging_ && shown_.number != 0) {
+      const glm::vec2 size = shown_.captured ? glm::vec2(shown_.view.width(), shown_.view.height()) : glm::vec2(asked_);
+      const glm::vec2 at = (*pressed_at_ - glm::vec2(picture_.min)) / glm::vec2(picture_.size()) * size;
+      state_.picked = glm::uvec2(glm::clamp(at, glm::vec2(0.0F), size - 1.0F));
+    }
+    pressed_at_.reset();
+    dragging_ = false;
+  }
+  last_mouse_ = input.mouse;
+  fly(input, state_, shown_, look, seconds, focus);
+}
+
+void Viewer::draw_panels(glm::uvec2 screen, float progress) {
+  if (state_.light_marks != LightMarks::none) draw_light_marks(state_.light_marks, shown_, picture_);
+  draw_divider(picture_, shown_);
+  draw_picked(picture_, shown_);
+  legend_window(shown_, picture_);
+  if (state_.help) help_window(area_, scale_);
+  if (!state_.panels) return;
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize({PANEL_WIDTH * scale_, static_cast<float>(screen.y)});
+  constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  if (ImGui::Begin("panels", nullptr, FIXED)) {
+    Widgets widgets(places_);
+    PanelFrame p{.state = state_,
+                 .shown = shown_,
+                 .widgets = widgets,
+                 .times = times_,
+                 .traits = traits_,
+                 .wishes = wishes_,
+                 .picture_file = picture_file_,
+                 .state_file = state_file_,
+                 .proof = proof_,
+                 .proving = proving_,
+                 .progress = progress};
+    if (widgets.button("help", "All keys. H does the same.")) state_.help = !state_.help;
+    for (void (*panel)(PanelFrame&) : {inspector_panel, scene_panel, camera_panel, lights_panel, method_panel,
+                                       against_panel, look_panel, times_panel, save_panel})
+      panel(p);
+  }
+  ImGui::End();
+}
+
+void Viewer::draw_status(glm::uvec2 screen) const {
+  const float height = STATUS_HEIGHT * scale_;
+  ImGui::SetNextWindowPos({static_cast<float>(area_.min.x), static_cast<float>(screen.y) - height});
+  ImGui::SetNextWindowSize({static_cast<float>(screen.x) - static_cast<float>(area_.min.x), height});
+  constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoNav |
+                                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_NoFocusOnAppearing;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(8.0F * scale_, 4.0F * scale_));
+  if (ImGui::Begin("status", nullptr, FIXED)) {
+    std::string words = shown_.number == 0 ? "loading ..." : "";
+    if (shown_.number != 0) {
+      const Stats& stats = shown_.first.stats;
+      words = fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms  {:.1f} pictures/s",
+                          stats.scene, stats.width, stats.height, stats.lights, stats.method,
+                          shown_.first.by_auto ? " (auto)" : "", stats.rendered.cull_ms, stats.rendered.shade_ms,
+                          stats.rendered.frame_ms, pictures_ms_ > 0.0 ? 1000.0 / pictures_ms_ : 0.0);
+      if (busy_ && !idle_) words += "  ...";
+      if (!said_.empty()) words += "  " + said_;
+    }
+    if (lost_) words = "The device was lost. The state can still be saved.";
+    const std::string& line = error_.empty() || lost_ ? words : error_;
+    if (error_.empty() && !lost_)
+      ImGui::TextUnformatted(line.c_str());
+    else
+      ImGui::TextColored(ALARM, "%s", line.c_str());
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace lamp::app

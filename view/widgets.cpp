@@ -1,0 +1,178 @@
+// Draws widgets, notes their places.
+// SPDX-License-Identifier: Apache-2.0
+#include "view/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "error.h"
+#include "lamplight/method.h"
+
+namespace lamp::app {
+namespace {
+
+const ImVec4 QUIET{0.62F, 0.62F, 0.66F, 1.0F};
+constexpr float LABEL_PART = 0.42F;  // of a panel's width, right of the widgets
+
+ImGuiSliderFlags flags_of(const Widgets::Limits& limits) {
+  return ImGuiSliderFlags_AlwaysClamp | (limits.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+}
+
+/// Greys what is drawn while it lives.
+class Greyed {
+ public:
+  explicit Greyed(bool greyed) { ImGui::BeginDisabled(greyed); }
+  ~Greyed() { ImGui::EndDisabled(); }
+  Greyed(const Greyed&) = delete;
+  Greyed& operator=(const Greyed&) = delete;
+};
+
+void tooltip(const std::string& tip, const std::string& reason) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || (tip.empty() && reason.empty())) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0F);
+  ImGui::TextUnformatted(tip.c_str());
+  if (!reason.empty()) ImGui::TextUnformatted(("It cannot be used now: " + reason).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+}  // namespace
+
+void Places::next_frame() {
+  places_ = std::move(drawn_);
+  drawn_.clear();
+}
+
+void Places::add(const std::string& label, const ScreenRect& rect, bool visible) { drawn_[label] = {rect, visible}; }
+
+ScreenRect Places::find(const std::string& label) const {
+  const auto found = places_.find(label);
+  if (found != places_.end()) return found->second.rect;
+  std::vector<std::string_view> names;
+  for (const auto& [name, place] : places_) names.push_back(name);
+  throw Error(fmt::format("'{}': there is none of that name on the screen; the nearest are {}", label,
+                          fmt::join(nearest_names(label, names), ", ")));
+}
+
+bool Places::in_sight(const std::string& label) const {
+  const auto found = places_.find(label);
+  return found != places_.end() && found->second.visible;
+}
+
+bool Places::takes_scroll(const std::string& label) {
+  if (wanted_ != label) return false;
+  wanted_.clear();
+  return true;
+}
+
+void Widgets::before(const std::string& label) {
+  if (places_.takes_scroll(label)) ImGui::SetScrollHereY();
+}
+
+void Widgets::done(const std::string& label, const std::string& tip, const std::string& reason) {
+  const ImVec2 min = ImGui::GetItemRectMin();
+  const ImVec2 max = ImGui::GetItemRectMax();
+  places_.add(label, {.min = {min.x, min.y}, .max = {max.x, max.y}}, ImGui::IsItemVisible());
+  tooltip(tip, reason);
+}
+
+bool Widgets::header(const std::string& label, bool open) {
+  before(label);
+  const bool is_open = ImGui::CollapsingHeader(label.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  done(label, "");
+  return is_open;
+}
+
+bool Widgets::button(const std::string& label, const std::string& tip, const std::string& reason) {
+  before(label);
+  const Greyed greyed(!reason.empty());
+  const bool clicked = ImGui::Button(label.c_str());
+  done(label, tip, reason);
+  return clicked;
+}
+
+bool Widgets::check(const std::string& label, bool& value, const std::string& tip, const std::string& reason) {
+  before(label);
+  const Greyed greyed(!reason.empty());
+  const bool changed = ImGui::Checkbox(label.c_str(), &value);
+  done(label, tip, reason);
+  return changed;
+}
+
+bool Widgets::choose(const std::string& label, std::string& value, std::span<const std::string_view> names,
+                     const std::string& tip, const std::function<std::string(std::string_view)>& reason_of) {
+  before(label);
+  ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
+  const bool open = ImGui::BeginCombo(label.c_str(), value.c_str(), ImGuiComboFlags_HeightLargest);
+  done(label, tip);
+  if (!open) return false;
+  bool changed = false;
+  for (const std::string_view name : names) {
+    const std::string reason = reason_of ? reason_of(name) : "";
+    const Greyed greyed(!reason.empty());
+    if (ImGui::Selectable(std::string(name).c_str(), name == value)) {
+      value = name;
+      changed = true;
+    }
+    done(fmt::format("{}: {}", label, name), "", reason);
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool Widgets::slide(const std::string& label, float& value, const Limits& limits, const std::string& tip,
+                    const std::string& reason) {
+  before(label);
+  const Greyed greyed(!reason.empty());
+  ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
+  const bool changed = ImGui::SliderFloat(label.c_str(), &value, static_cast<float>(limits.min),
+                                          static_cast<float>(limits.max), limits.format, flags_of(limits));
+  done(label, tip, reason);
+  return changed;
+}
+
+bool Widgets::slide(const std::string& label, std::uint32_t& value, const Limits& limits, const std::string& tip,
+                    const std::string& reason) {
+  before(label);
+  const Greyed greyed(!reason.empty());
+  ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
+  const auto min = static_cast<std::uint32_t>(limits.min);
+  const auto max = static_cast<std::uint32_t>(limits.max);
+  const bool changed =
+      ImGui::SliderScalar(label.c_str(), ImGuiDataType_U32, &value, &min, &max, "%u", flags_of(limits));
+  done(label, tip, reason);
+  return changed;
+}
+
+bool Widgets::write(const std::string& label, std::string& value, const std::string& tip) {
+  before(label);
+  ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
+  ImGui::InputText(label.c_str(), &value);
+  const bool left = ImGui::IsItemDeactivatedAfterEdit();
+  done(label, tip);
+  return left;
+}
+
+void Widgets::text(std::string_view words) {
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextUnformatted(words.data(), words.data() + words.size());
+  ImGui::PopTextWrapPos();
+}
+
+void Widgets::note(std::string_view words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, QUIET);
+  text(words);
+  ImGui::PopStyleColor();
+}
+
+void Widgets::row(std::string_view name, std::string_view value) {
+  note(name);
+  ImGui::SameLine(LABEL_PART * ImGui::GetWindowWidth());
+  text(value);
+}
+
+}  // namespace lamp::app
