@@ -13,13 +13,22 @@ constexpr int SLOW_PICTURES = 2;    // before it becomes smaller: one alone may 
 constexpr int QUICK_PICTURES = 12;  // before it becomes larger: about a second
 constexpr double WITH_ROOM = 0.8;   // of the target, that the next larger one is expected to take
 
+constexpr double MOST_REST_MS = 1000.0;
+
 double pixels(std::size_t step) { return SCALES[step] * SCALES[step]; }
 
 }  // namespace
 
 double Pace::scale() const { return SCALES[step_]; }
 
+double Pace::rest_scale() const {
+  for (std::size_t step = 0; step < step_; ++step)
+    if (last_ms_ * pixels(step) / pixels(step_) <= MOST_REST_MS) return SCALES[step];
+  return scale();
+}
+
 void Pace::took(double ms) {
+  last_ms_ = ms;
   slow_ = ms > target_ms_ ? slow_ + 1 : 0;
   const bool larger_fits = step_ > 0 && ms * pixels(step_ - 1) / pixels(step_) < WITH_ROOM * target_ms_;
   quick_ = larger_fits ? quick_ + 1 : 0;

@@ -14,13 +14,16 @@ class Pace {
 
   /// Of the width and of the height that were asked for.
   [[nodiscard]] double scale() const;
+  /// The same of a picture that is drawn once and stays: the largest that is expected to take at most a second.
+  [[nodiscard]] double rest_scale() const;
   /// A picture of this scale took so long. What compiled or loaded something says nothing, and is not told.
   void took(double ms);
 
  private:
   double target_ms_;
   std::size_t step_ = 2;  ///< into the scales, the largest first
-  int slow_ = 0;          ///< pictures in a row
+  double last_ms_ = 0.0;
+  int slow_ = 0;  ///< pictures in a row
   int quick_ = 0;
 };
 

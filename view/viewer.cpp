@@ -15,10 +15,11 @@ namespace lamp::app {
 namespace {
 
 constexpr double FRAMES_A_SECOND = 30.0;  // of a flight
+constexpr double REST_S = 0.5;            // without a change, before what is shown is drawn larger
 constexpr std::size_t MOST_UNDONE = 100;
 
 /// What a drawing depends on: a state without what lies beside or over the picture.
-std::string drawing_key(ViewState state, glm::uvec2 size) {
+std::string drawing_key(ViewState state) {
   state.panels = false;
   state.help = false;
   state.samples = 1;
@@ -26,7 +27,7 @@ std::string drawing_key(ViewState state, glm::uvec2 size) {
   state.speed = 0.0F;
   state.resolution = 0.0F;
   state.light_marks = LightMarks::none;
-  return fmt::format("{}x{} {}", size.x, size.y, to_json(state).dump());
+  return to_json(state).dump();
 }
 
 /// What undo goes back over: a state without what moves by itself.
@@ -35,6 +36,10 @@ std::string change_key(ViewState state) {
   if (state.request.frame >= 0) state.request.frame = 0;
   state.help = false;
   return to_json(state).dump();
+}
+
+glm::uvec2 part_of(glm::uvec2 size, double part) {
+  return glm::max(glm::uvec2(1), glm::uvec2(glm::dvec2(size) * part + 0.5));
 }
 
 bool is_state(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
@@ -50,6 +55,11 @@ Viewer::Viewer(ViewerInfo info)
       paced_(info.target_ms > 0.0),
       scale_(info.scale) {}
 
+glm::uvec2 Viewer::paced_size() const {
+  if (state_.resolution > 0.0F) return part_of(asked_, state_.resolution);
+  return paced_ ? part_of(asked_, pace_.scale()) : asked_;
+}
+
 std::optional<Job> Viewer::next_job() {
   if (busy_ || lost_) return std::nullopt;
   if (!queued_.empty()) {
@@ -58,11 +68,14 @@ std::optional<Job> Viewer::next_job() {
     busy_ = true;
     return job;
   }
-  const double part = state_.resolution > 0.0F ? state_.resolution : paced_ ? pace_.scale() : 1.0;
-  const glm::uvec2 size = glm::max(glm::uvec2(1), glm::uvec2(glm::dvec2(asked_) * part + 0.5));
-  std::string key = drawing_key(state_, size);
+  // What rests is drawn once more, as large as a second allows.
+  std::string content = drawing_key(state_);
+  if (content != drawn_content_) rests_s_ = 0.0;
+  const glm::uvec2 size = rests_s_ > REST_S ? part_of(asked_, pace_.rest_scale()) : paced_size();
+  std::string key = fmt::format("{}x{} {}", size.x, size.y, content);
   idle_ = key == drawn_key_;
   if (idle_) return std::nullopt;
+  drawn_content_ = std::move(content);
   drawn_key_ = std::move(key);
   busy_ = true;
   return Job{.kind = Job::Kind::draw, .state = state_, .size = size, .file = {}};
@@ -82,9 +95,11 @@ void Viewer::finish(Done done) {
   if (done.proof) proof_ = done.proof;
   if (done.proof) said_ = words_of(*proof_);
   if (!done.shown) return;
-  const bool fresh = done.shown->made_anew;
-  if (!fresh && paced_) pace_.took(done.ms);
-  pictures_ms_ = pictures_ms_ == 0.0 || fresh ? done.ms : 0.9 * pictures_ms_ + 0.1 * done.ms;
+  const bool rested = done.job.size != glm::uvec2(paced_size());
+  if (!done.shown->made_anew && paced_ && !rested) {
+    pace_.took(done.ms);
+    picture_ms_ = picture_ms_ == 0.0 ? done.ms : 0.9 * picture_ms_ + 0.1 * done.ms;
+  }
   shown_ = std::move(*done.shown);
   times_.add(shown_.first.stats.rendered);
 }
@@ -120,6 +135,7 @@ void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float p
   }
   take_wishes();
   pass_time(seconds);
+  if (paced_ && state_.resolution == 0.0F && !busy_) rests_s_ += seconds;
   try_state(before);
   note_change();
   draw_status(screen);

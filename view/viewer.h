@@ -59,6 +59,7 @@ class Viewer {
   void say(const std::string& words) { said_ = words; }
 
  private:
+  [[nodiscard]] glm::uvec2 paced_size() const;
   void lay_out(glm::uvec2 screen);
   void use_mouse(const Input& input, float seconds, bool focus);
   void draw_panels(glm::uvec2 screen, float progress);
@@ -82,15 +83,16 @@ class Viewer {
   float scale_;
   double clock_ = 0.0;  ///< fractions of a frame of the flight
   Shown shown_;
-  std::string drawn_key_;    ///< of the last drawing that was asked for
-  std::vector<Job> queued_;  ///< pictures and proofs
+  std::string drawn_content_, drawn_key_;  ///< of the last drawing that was asked for; with its size
+  std::vector<Job> queued_;                ///< pictures and proofs
   bool busy_ = false;
   bool idle_ = false;
   bool proving_ = false;
   bool lost_ = false;
   std::optional<Proof> proof_;
   Times times_;
-  double pictures_ms_ = 0.0;  ///< of a picture, all in all, smoothed
+  double picture_ms_ = 0.0;  ///< of a picture, all in all, smoothed
+  double rests_s_ = 0.0;     ///< that nothing has changed
   std::string error_, said_;
   std::uint64_t errors_ = 0;
   bool error_stays_ = false;  ///< though what is drawn after it succeeds

@@ -154,7 +154,7 @@ void Viewer::draw_status(glm::uvec2 screen) const {
       words = fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms  {:.1f} pictures/s",
                           stats.scene, stats.width, stats.height, stats.lights, stats.method,
                           shown_.first.by_auto ? " (auto)" : "", stats.rendered.cull_ms, stats.rendered.shade_ms,
-                          stats.rendered.frame_ms, pictures_ms_ > 0.0 ? 1000.0 / pictures_ms_ : 0.0);
+                          stats.rendered.frame_ms, picture_ms_ > 0.0 ? 1000.0 / picture_ms_ : 0.0);
       if (busy_ && !idle_) words += "  ...";
       if (!said_.empty()) words += "  " + said_;
     }

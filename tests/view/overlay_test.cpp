@@ -84,7 +84,8 @@ TEST(Palettes, RiseInLightness) {
 TEST(PaceTest, FindsTheSizeThatIsQuickEnough) {
   Pace pace(100.0);
   for (int i = 0; i < 200; ++i) pace.took(20.0 + 900.0 * pace.scale() * pace.scale());
-  EXPECT_EQ(pace.scale(), 0.25);  // 76 ms; 0.375 takes 147
+  EXPECT_EQ(pace.scale(), 0.25);       // 76 ms; 0.375 takes 147
+  EXPECT_EQ(pace.rest_scale(), 0.75);  // 76 ms times 9; at full size, 16
   for (int i = 0; i < 200; ++i) pace.took(10.0 * pace.scale());
   EXPECT_EQ(pace.scale(), 1.0);
 }

@@ -13,6 +13,7 @@
 #include "system/print.h"
 #include "system/signals.h"
 #include "view/headless.h"
+#include "view/window.h"
 
 namespace {
 
@@ -66,8 +67,14 @@ Exit run(int argc, char** argv) {
   check_state(o.state);
   const ContextInfo::Validation validation = o.validate ? ContextInfo::Validation::on : ContextInfo::Validation::off;
   const std::vector<ScriptLine> script = o.script.empty() ? std::vector<ScriptLine>() : read_script(o.script);
-  Context context({.device = o.state.request.device, .validation = validation});
-  run_headless(context, {.state = o.state, .script = script, .screen = parse_size(o.screen)});
+  const glm::uvec2 screen = parse_size(o.screen);
+  if (o.headless) {
+    Context context({.device = o.state.request.device, .validation = validation});
+    run_headless(context, {.state = o.state, .script = script, .screen = screen});
+  } else {
+    run_window(
+        {.state = o.state, .script = script, .plays = !o.script.empty(), .size = screen, .validation = validation});
+  }
   return Exit::done;
 }
 
