@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <set>
 
 #include "gpu/check.h"
 #include "render/pixel_lights.h"
@@ -101,6 +102,40 @@ void add(Proof& proof, const Truth& truth, std::span<const Visit> visits, std::u
   }
 }
 
+/// The smallest tile and depths that hold the cell's pixels.
+gpu::ExplainedCell volume_of(const Inspected& of, const CellPixels& cell) {
+  const View& view = of.renderer.view();
+  glm::uvec2 min(~0U);
+  glm::uvec2 max(0);
+  std::uint32_t mask = 0;
+  const double part = std::max(cell.far_m - cell.near_m, 1e-30) / 32.0;
+  for (const std::size_t i : cell.pixels) {
+    const glm::uvec2 pixel(i % view.width(), i / view.width());
+    min = glm::min(min, pixel);
+    max = glm::max(max, pixel);
+    const double place = (view.z_view(of.depth[i]) - cell.near_m) / part;
+    mask |= 1U << static_cast<std::uint32_t>(std::clamp(place, 0.0, 31.0));
+  }
+  return {.min_px = glm::vec2(min),
+          .max_px = glm::vec2(max + 1U),
+          .z_near = static_cast<float>(cell.near_m),
+          .z_far = static_cast<float>(cell.far_m),
+          .mask = mask,
+          .count = 0};
+}
+
+/// Which lights reach a pixel of the cell, and which tests they pass.
+void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth, std::vector<ListedLight>& lights) {
+  const std::set<std::uint32_t> reaching(truth.lights.begin(), truth.lights.end());
+  std::vector<std::uint32_t> ids;
+  for (const ListedLight& light : lights) ids.push_back(light.light);
+  const std::vector<std::uint32_t> passes = explain(of.renderer, of.shaders, volume_of(of, cell), ids);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    lights[i].reaches_cell = reaching.contains(lights[i].light);
+    lights[i].passes = passes[i];
+  }
+}
+
 std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
   constexpr glm::vec3 LUMINANCE{0.2126F, 0.7152F, 0.0722F};
   const glm::dvec3 position = position_of(of, pixel);
@@ -133,6 +168,20 @@ std::string words_of(const Proof& proof) {
   return words;
 }
 
+std::span<const std::string_view> test_names() {
+  static constexpr std::array<std::string_view, 6> NAMES{"sides", "depths", "mask", "box", "exact", "cone"};
+  return NAMES;
+}
+
+std::string why_listed(const ListedLight& light) {
+  if (light.reach != Reach::outside) return "reaches the pixel";
+  if (light.reaches_cell) return "reaches the cell";
+  std::string dropping;
+  for (std::size_t i = 0; i < test_names().size(); ++i)
+    if ((light.passes >> i & 1U) == 0) dropping += fmt::format("{}{}", dropping.empty() ? "" : ", ", test_names()[i]);
+  return dropping.empty() ? "no test drops it" : dropping + " would drop it";
+}
+
 Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   const View& view = of.renderer.view();
   Inspection found{.pixel = glm::min(pixel, glm::uvec2(view.width(), view.height()) - 1U)};
@@ -149,6 +198,7 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.lights = listed(of, static_cast<std::uint32_t>(number));
   const Truth truth = truth_of(of, cell);
   found.proof.pixels = cell.pixels.size();
+  add_reasons(of, cell, truth, found.lights);
   add(found.proof, truth, of.renderer.visit(of.lighting, truth), view.width());
   return found;
 }

@@ -11,6 +11,7 @@
 #include "oracle/reference.h"
 #include "render/lighting.h"
 #include "render/renderer.h"
+#include "render/shaders/explain_data.h"
 
 namespace lamp::app {
 
@@ -22,6 +23,8 @@ struct ListedLight {
   float range_m = 0.0F;
   Reach reach = Reach::outside;  ///< of that surface
   double share = 0.0;            ///< of the pixel's luminance, 0 .. 1
+  bool reaches_cell = false;     ///< a pixel of the cell, as the oracle says
+  std::uint32_t passes = 0;      ///< gpu::PASSES_SIDES and so on, against the cell's pixels
 };
 
 /// Pairs of pixel and light that the oracle says reach, and those of them that a walk did not bring.
@@ -34,6 +37,12 @@ struct Proof {
 };
 /// "0 missed of 1 234 567 pairs in 256 pixels".
 [[nodiscard]] std::string words_of(const Proof& proof);
+
+/// Why a light is in the list: "reaches the pixel", "reaches another pixel of the cell", "box, exact would drop it", or
+/// that no test would.
+[[nodiscard]] std::string why_listed(const ListedLight& light);
+/// The names of the tests in `passes`.
+[[nodiscard]] std::span<const std::string_view> test_names();
 
 struct Inspection {
   glm::uvec2 pixel{0};  ///< of what was rendered

@@ -44,8 +44,9 @@ void against_panel(PanelFrame& p);
 void look_panel(PanelFrame& p);
 void times_panel(PanelFrame& p);
 void save_panel(PanelFrame& p);
-/// The pixel that was picked, and the proofs.
-void inspector_panel(PanelFrame& p);
+void proof_panel(PanelFrame& p);
+/// The pixel that was picked.
+void inspector_window(const Shown& shown, Widgets& widgets, ViewState& state, const ScreenRect& area, float scale);
 void help_window(const ScreenRect& picture, float scale);
 /// The colours of an overlay in a corner of the picture.
 void legend_window(const Shown& shown, const ScreenRect& picture);

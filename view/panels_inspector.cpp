@@ -10,25 +10,14 @@
 namespace lamp::app {
 namespace {
 
-std::string_view words_of(Reach reach) {
-  switch (reach) {
-    case Reach::inside:
-      return "yes";
-    case Reach::boundary:
-      return "at its edge";
-    case Reach::outside:
-      break;
-  }
-  return "no";
-}
-
 void draw_lights(const Inspection& found) {
   constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   const float height =
       ImGui::GetFontSize() * 1.4F * static_cast<float>(std::clamp<std::size_t>(found.lights.size() + 2, 3, 14));
   if (!ImGui::BeginTable("lights of the cell", 6, FLAGS, {0.0F, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  for (const char* title : {"light", "type", "distance", "range", "reaches", "share"}) ImGui::TableSetupColumn(title);
+  for (const char* title : {"light", "type", "dist.", "range", "share", "why it is listed"})
+    ImGui::TableSetupColumn(title);
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(found.lights.size()));
@@ -41,10 +30,10 @@ void draw_lights(const Inspection& found) {
       };
       cell(fmt::format("{}", light.light));
       cell(light.spot ? "spot" : "point");
-      cell(fmt::format("{:.2f} m", light.distance_m));
-      cell(fmt::format("{:.2f} m", light.range_m));
-      cell(std::string(words_of(light.reach)));
-      cell(fmt::format("{:.1f} %", 100.0 * light.share));
+      cell(fmt::format("{:.2f}", light.distance_m));
+      cell(fmt::format("{:.2f}", light.range_m));
+      cell(fmt::format("{:.1f}%", 100.0 * light.share));
+      cell(why_listed(light));
     }
   }
   ImGui::EndTable();
@@ -68,14 +57,25 @@ void draw_inspection(const Inspection& found, const Stats& stats) {
 
 }  // namespace
 
-void inspector_panel(PanelFrame& p) {
-  if (!p.widgets.header("Inspector and proof", true)) return;
-  if (p.shown.inspection)
-    draw_inspection(*p.shown.inspection, p.shown.first.stats);
-  else
-    Widgets::note("Click a pixel of the picture to see its cell, and every light that is listed there.");
-  if (p.state.picked && p.widgets.button("look away", "Forgets the pixel. Escape does the same."))
-    p.state.picked.reset();
+void inspector_window(const Shown& shown, Widgets& widgets, ViewState& state, const ScreenRect& area, float scale) {
+  if (!shown.inspection) return;
+  const float width = std::min(560.0F * scale, static_cast<float>(area.size().x));
+  ImGui::SetNextWindowPos({static_cast<float>(area.max.x), static_cast<float>(area.min.y)}, ImGuiCond_Appearing,
+                          {1.0F, 0.0F});
+  ImGui::SetNextWindowSize({width, 0.0F}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowBgAlpha(0.9F);
+  constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin("Inspector", nullptr, FLAGS)) {
+    draw_inspection(*shown.inspection, shown.first.stats);
+    if (widgets.button("look away", "Forgets the pixel. Escape does the same.")) state.picked.reset();
+  }
+  ImGui::End();
+}
+
+void proof_panel(PanelFrame& p) {
+  if (!p.widgets.header("Proof", true)) return;
+  if (!p.shown.inspection)
+    Widgets::note("Click a pixel of the picture to see its cell, and why each light is listed there.");
   if (p.widgets.button("prove the picture", "Holds the list of every pixel against the oracle, in double precision.",
                        p.proving ? "it is being done" : ""))
     p.wishes.prove = true;

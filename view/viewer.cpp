@@ -247,10 +247,15 @@ nlohmann::json Viewer::report() const {
   if (proof_) json["proof"] = words_of(*proof_);
   if (!shown_.inspection) return json;
   const Inspection& found = *shown_.inspection;
+  // A test that drops a light which reaches the cell would lose it.
+  const auto lost = std::ranges::count_if(found.lights, [](const ListedLight& light) {
+    return (light.reaches_cell || light.reach == Reach::inside) && light.passes != gpu::PASSES_ALL;
+  });
   json["inspection"] = {{"pixel", {found.pixel.x, found.pixel.y}},
                         {"sky", found.sky},
                         {"cell", found.cell},
                         {"lights", found.lights.size()},
+                        {"lost_by_tests", lost},
                         {"missed", found.proof.missed},
                         {"pairs", found.proof.pairs}};
   return json;

@@ -113,13 +113,14 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   draw_picked(picture_, shown_);
   legend_window(shown_, picture_);
   if (state_.help) help_window(area_, scale_);
+  Widgets widgets(places_);
+  inspector_window(shown_, widgets, state_, area_, scale_);
   if (!state_.panels) return;
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize({PANEL_WIDTH * scale_, static_cast<float>(screen.y)});
   constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("panels", nullptr, FIXED)) {
-    Widgets widgets(places_);
     PanelFrame p{.state = state_,
                  .shown = shown_,
                  .widgets = widgets,
@@ -132,7 +133,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                  .proving = proving_,
                  .progress = progress};
     if (widgets.button("help", "All keys. H does the same.")) state_.help = !state_.help;
-    for (void (*panel)(PanelFrame&) : {inspector_panel, scene_panel, camera_panel, lights_panel, method_panel,
+    for (void (*panel)(PanelFrame&) : {proof_panel, scene_panel, camera_panel, lights_panel, method_panel,
                                        against_panel, look_panel, times_panel, save_panel})
       panel(p);
   }

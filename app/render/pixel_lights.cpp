@@ -3,7 +3,6 @@
 #include "render/pixel_lights.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "gpu/check.h"
@@ -13,7 +12,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t TERM_GROUP = 64;           // threads of light_shares.comp
+constexpr std::uint32_t LIGHT_GROUP = 64;          // threads of light_shares.comp and explain.comp
 constexpr std::uint32_t CONSTANT_REFLECTION = 10;  // common/brdf.glsl
 
 vulkan::Buffer read_back(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
@@ -22,6 +21,51 @@ vulkan::Buffer read_back(const vulkan::Device& device, const char* name, std::ui
                                       .bytes = std::max<std::uint64_t>(bytes, 16),
                                       .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                       .memory = vulkan::MemoryUse::readback}));
+}
+
+/// A dispatch of one thread a light: frame at binding 0, the lights' ids at 2, all lights at 3, answers at 8.
+struct LightPass {
+  const char* shader = nullptr;
+  std::vector<vulkan::Constant> constants;
+  std::vector<vulkan::Bound> bound;  ///< besides; read
+  std::vector<std::uint32_t> push;
+  std::size_t answers = 0;
+};
+
+template <class Answer>
+std::vector<Answer> for_lights(Renderer& renderer, const ShaderLibrary& shaders, std::span<const std::uint32_t> lights,
+                               LightPass pass) {
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  const vulkan::Buffer ids =
+      upload_buffer(renderer.context(), "lights of a pixel", std::as_bytes(lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const vulkan::Buffer answers = read_back(renderer.device(), pass.shader, pass.answers * sizeof(Answer));
+  const vulkan::Resource written = vulkan::Resource::storage(answers.handle());
+  std::vector<vulkan::Bound>& bound = pass.bound;
+  bound.push_back({0, renderer.data().frame_constants()});
+  bound.push_back({2, vulkan::Resource::storage(ids.handle())});
+  bound.push_back({3, renderer.data().lights()});
+  std::vector<vulkan::Use> uses;
+  for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
+  uses.push_back({.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+  bound.push_back({8, written});
+  const auto push_bytes = static_cast<std::uint32_t>(pass.push.size() * sizeof(std::uint32_t));
+  vulkan::PipelineInfo info{.name = pass.shader, .constants = pass.constants, .push_constant_bytes = push_bytes};
+  for (const vulkan::Bound& b : bound) info.bindings.push_back({b.binding, b.resource.type});
+  const vulkan::Pipeline pipeline =
+      take(vulkan::Pipeline::compute(renderer.device(), info, shaders.spirv(pass.shader)));
+  renderer.also([&](vulkan::Recorder& recorder) {
+    recorder.begin_pass(pass.shader, uses);
+    recorder.bind(pipeline, bound);
+    vkCmdPushConstants(recorder.commands(), pipeline.layout(), VK_SHADER_STAGE_ALL, 0, push_bytes, pass.push.data());
+    vkCmdDispatch(recorder.commands(), static_cast<std::uint32_t>(pass.answers) / LIGHT_GROUP + 1, 1, 1);
+    recorder.end_pass();
+    recorder.barrier({host_reads(written)});
+  });
+  renderer.forget(ids);
+  renderer.forget(answers);
+  std::vector<Answer> found(pass.answers);
+  if (!found.empty()) std::memcpy(found.data(), answers.mapped().data(), found.size() * sizeof(Answer));
+  return found;
 }
 
 }  // namespace
@@ -47,50 +91,29 @@ std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std
 
 PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene, const LightingInfo& info,
                     std::uint32_t pixel, std::span<const std::uint32_t> lights) {
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   if (info.path == ShadingPath::forward) renderer.need_surfaces();
   const Targets& targets = renderer.targets();
-  const FrameData& data = renderer.data();
-  const vulkan::Device& device = renderer.device();
-  const vulkan::Buffer ids =
-      upload_buffer(renderer.context(), "lights of a pixel", std::as_bytes(lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer terms = read_back(device, "terms of a pixel", (lights.size() + 1) * sizeof(glm::vec4));
-  const vulkan::Resource read = vulkan::Resource::storage(ids.handle());
-  const vulkan::Resource written = vulkan::Resource::storage(terms.handle());
-  const std::vector<vulkan::Bound> bound{{0, data.frame_constants()},
-                                         {1, targets.depth.sampled()},
-                                         {2, read},
-                                         {3, data.lights()},
-                                         {4, scene.surroundings()},
-                                         {5, targets.base_color.sampled()},
-                                         {6, targets.surface.sampled()},
-                                         {7, targets.emission.sampled()},
-                                         {8, written}};
-  vulkan::PipelineInfo pipeline{.name = "light shares",
-                                .constants = {{CONSTANT_REFLECTION, static_cast<std::uint32_t>(info.brdf)}},
-                                .push_constant_bytes = 3 * sizeof(std::uint32_t)};
-  std::vector<vulkan::Use> uses;
-  for (const vulkan::Bound& b : bound) {
-    pipeline.bindings.push_back({b.binding, b.resource.type});
-    if (b.binding != 8) uses.push_back(reads(b.resource, COMPUTE));
-  }
-  uses.push_back({.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
-  const vulkan::Pipeline shares = take(vulkan::Pipeline::compute(device, pipeline, shaders.spirv("light_shares")));
-  const auto count = static_cast<std::uint32_t>(lights.size());
-  renderer.also([&](vulkan::Recorder& recorder) {
-    recorder.begin_pass("light shares", uses);
-    recorder.bind(shares, bound);
-    const std::array<std::uint32_t, 3> push{pixel % targets.width, pixel / targets.width, count};
-    vkCmdPushConstants(recorder.commands(), shares.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), push.data());
-    vkCmdDispatch(recorder.commands(), count / TERM_GROUP + 1, 1, 1);
-    recorder.end_pass();
-    recorder.barrier({host_reads(written)});
-  });
-  renderer.forget(ids);
-  renderer.forget(terms);
-  std::vector<glm::vec4> found(lights.size() + 1);
-  std::memcpy(found.data(), terms.mapped().data(), found.size() * sizeof(glm::vec4));
-  return {.lights = {found.begin(), found.end() - 1}, .surroundings = glm::vec3(found.back())};
+  const std::vector<glm::vec4> terms = for_lights<glm::vec4>(
+      renderer, shaders, lights,
+      {.shader = "light_shares",
+       .constants = {{CONSTANT_REFLECTION, static_cast<std::uint32_t>(info.brdf)}},
+       .bound = {{1, targets.depth.sampled()},
+                 {4, scene.surroundings()},
+                 {5, targets.base_color.sampled()},
+                 {6, targets.surface.sampled()},
+                 {7, targets.emission.sampled()}},
+       .push = {pixel % targets.width, pixel / targets.width, static_cast<std::uint32_t>(lights.size())},
+       .answers = lights.size() + 1});
+  return {.lights = {terms.begin(), terms.end() - 1}, .surroundings = glm::vec3(terms.back())};
+}
+
+std::vector<std::uint32_t> explain(Renderer& renderer, const ShaderLibrary& shaders, gpu::ExplainedCell cell,
+                                   std::span<const std::uint32_t> lights) {
+  cell.count = static_cast<std::uint32_t>(lights.size());
+  std::vector<std::uint32_t> push(sizeof(cell) / sizeof(std::uint32_t));
+  std::memcpy(push.data(), &cell, sizeof(cell));
+  return for_lights<std::uint32_t>(renderer, shaders, lights,
+                                   {.shader = "explain", .push = std::move(push), .answers = lights.size()});
 }
 
 }  // namespace lamp::app

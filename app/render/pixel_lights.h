@@ -1,5 +1,6 @@
-// The lights of one pixel: which its walk brings, and what each of them adds to its radiance.
-// Promise: through the look-up and the shading code that make the picture.
+// The lights of one pixel: which its walk brings, what each adds to its radiance, and which tests keep
+// each in its cell.
+// Promise: through the look-up, the shading code and the tests that make the picture.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "render/shaders/explain_data.h"
 
 namespace lamp::app {
 
@@ -23,5 +25,9 @@ struct PixelTerms {
 /// Of an opaque surface, from the G-buffer of the last frame, which is drawn first if a forward path left none.
 [[nodiscard]] PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene,
                                   const LightingInfo& info, std::uint32_t pixel, std::span<const std::uint32_t> lights);
+
+/// Which of the library's tests each light passes against the cell (gpu::PASSES_SIDES and so on). `cell.count` is set.
+[[nodiscard]] std::vector<std::uint32_t> explain(Renderer& renderer, const ShaderLibrary& shaders,
+                                                 gpu::ExplainedCell cell, std::span<const std::uint32_t> lights);
 
 }  // namespace lamp::app
