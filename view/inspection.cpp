@@ -206,7 +206,7 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
 Proof prove(const Inspected& of, const std::function<void(float)>& progress) {
   const View& view = of.renderer.view();
   Proof proof;
-  for (const float depth : of.depth) proof.pixels += depth > 0.0F ? 1 : 0;
+  for (const float depth : of.depth) proof.pixels += depth != view.sky_depth() ? 1 : 0;
   constexpr std::uint32_t BAND = 16;  // rows: often enough for a progress bar to move
   for (std::uint32_t row = 0; row < view.height(); row += BAND) {
     progress(static_cast<float>(row) / static_cast<float>(view.height()));

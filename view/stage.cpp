@@ -26,9 +26,9 @@ std::string lights_key(const Request& r) {
 }
 
 std::string key_of(const LightingInfo& info, bool grow) {
-  return fmt::format("{} {} {}x{} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "), info.width,
-                     info.height, info.light_capacity, static_cast<int>(info.path), static_cast<int>(info.brdf),
-                     info.decals, grow);
+  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
+                     info.width, info.height, info.light_capacity, static_cast<int>(info.path),
+                     static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed, grow);
 }
 
 }  // namespace
@@ -99,13 +99,15 @@ void Stage::need_frame(const ViewState& state) {
   need_lights(state);
   const auto lights = static_cast<std::uint32_t>(lights_->lights->size());
   const auto decals = static_cast<std::uint32_t>(lights_->decals.size());
-  std::string key = fmt::format("{}x{} {} {}", view.width(), view.height(), lights, decals);
+  const HostDepth depth = parse_depth(state.request.depth, state.request.depth_samples);
+  std::string key =
+      fmt::format("{}x{} {} {} {} {}", view.width(), view.height(), lights, decals, depth.samples, depth.reversed);
   if (key != renderer_key_) {
     display_.reset();
     renderer_.reset();
     renderer_key_.clear();
-    renderer_ =
-        std::make_unique<Renderer>(context_, shaders_, *scene_->gpu, view.width(), view.height(), lights, decals);
+    renderer_ = std::make_unique<Renderer>(context_, shaders_, *scene_->gpu, view.width(), view.height(), lights,
+                                           decals, depth);
     display_ = std::make_unique<Display>(context_.device(), shaders_, view.width(), view.height());
     renderer_key_ = std::move(key);
     made_anew_ = true;
@@ -137,6 +139,7 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
                     .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size()),
                     .path = parse_path(request.path),
                     .brdf = parse_brdf(request.brdf),
+                    .depth = renderer_->depth(),
                     .transparency = !scene_->gpu->blended().empty(),
                     .captured = scene_->scene.captured.has_value(),
                     .decals = !lights_->decals.empty()};

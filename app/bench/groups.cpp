@@ -72,6 +72,8 @@ Group base_of(const Series& series, const Limits& limits) {
   if (!series.timed)
     return {.series = series.name,
             .brdf = series.brdf,
+            .depth = series.depth,
+            .depth_samples = series.depth_samples,
             .seed = series.seed,
             .frame = series.frame,
             .entries = entries_of(series)};
@@ -81,6 +83,8 @@ Group base_of(const Series& series, const Limits& limits) {
   const bool limited = !limits.frames && series.frames > most;
   return {.series = series.name,
           .brdf = series.brdf,
+          .depth = series.depth,
+          .depth_samples = series.depth_samples,
           .seed = series.seed,
           .frame = series.frame,
           .frames = limits.frames.value_or(std::min(series.frames, most)),
@@ -100,9 +104,11 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   }
   const auto [width, height] = size_of(group.size);
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
-  const std::uint64_t pairs = std::uint64_t{width} * rows * group.lights;
+  const std::uint64_t pairs = std::uint64_t{width} * rows * series.depth_samples * group.lights;
   const std::uint64_t all_pairs = std::uint64_t{width} * height * group.lights;
-  group.verify.verifier = chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
+  group.verify.verifier = series.depth_samples > 1  // which the oracle alone knows of
+                              ? Verifier::oracle
+                              : chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
   const bool by_gpu = group.verify.verifier == Verifier::gpu;
   group.verify.every_list = by_gpu && limits.every_list && rows < height;
   if (series.verify.what == Verify::What::nothing) {
@@ -154,6 +160,12 @@ void choose_pictures(const Series& series, std::span<Group> groups) {
   for (const auto& [scene, group] : most) group->pictures = true;
 }
 
+/// Nothing of reversed depth of one sample: keys of old results hold.
+std::string depth_words(const Group& group) {
+  return (group.depth == "reversed" ? "" : " depth=" + group.depth) +
+         (group.depth_samples == 1 ? "" : fmt::format(" depth_samples={}", group.depth_samples));
+}
+
 }  // namespace
 
 double configurations(const Series& series) {
@@ -196,12 +208,12 @@ std::string key_of(const Group& group, const GroupEntry& entry) {
     lights = fmt::format("{}..{} in {} waves", group.flight->from, group.flight->to, group.flight->waves);
   std::vector<std::string> options = entry.options;
   return fmt::format(
-      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={} | {} {}{}{} | "
+      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={}{} | {} {}{}{} | "
       "frames={}+{} verify={}{}",
       group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
       group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
-      entry.method, fmt::join(options, " "), options.empty() ? "" : " ", entry.path, group.warm_up, group.frames,
-      words_of(group.verify), group.pictures ? " pictures" : "");
+      depth_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ", entry.path, group.warm_up,
+      group.frames, words_of(group.verify), group.pictures ? " pictures" : "");
 }
 
 std::uint32_t lights_at(const LightWave& wave, std::uint32_t frame, std::uint32_t frames) {

@@ -21,7 +21,8 @@ struct GroupEntry {
 /// Everything that the entries of a group share.
 struct Group {
   std::string series;
-  std::string scene, size, range, camera, projection, brdf;
+  std::string scene, size, range, camera, projection, brdf, depth;
+  std::uint32_t depth_samples = 1;
   std::uint32_t lights = 0;  ///< the most, in a flight
   double spots = 0.0;
   std::uint64_t seed = 1;

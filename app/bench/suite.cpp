@@ -157,6 +157,8 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("projections", series.projections);
   object.read("paths", series.paths);
   object.read("brdf", series.brdf);
+  object.read("depth", series.depth);
+  object.read("depth_samples", series.depth_samples, 1, 8);
   object.read("seed", series.seed);
   std::uint32_t frame = ~0U;
   object.read("frame", frame, 0, MAX_FRAMES);

@@ -64,6 +64,8 @@ struct Series {
   std::vector<std::string> projections{"camera"};
   std::vector<std::string> paths{"deferred"};
   std::string brdf = "ggx";
+  std::string depth = "reversed";   ///< or "standard"
+  std::uint32_t depth_samples = 1;  ///< a pixel, of the depth that lights are culled with
   std::uint64_t seed = 1;
   int frame = -1;                  ///< of the scene's flight, for the camera and for when the lights begin; -1: camera
   std::uint32_t frames = 60;       ///< timed ones

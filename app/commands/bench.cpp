@@ -62,6 +62,8 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   series.ranges = {r.range};
   series.cameras = {r.camera};
   series.projections = {r.projection};
+  series.depth = r.depth;
+  series.depth_samples = r.depth_samples;
   series.paths = {r.path};
   series.brdf = r.brdf;
   series.seed = r.seed;
@@ -222,7 +224,7 @@ Exit bench(const BenchOptions& o) {
 void refuse_with_suite(const CLI::App& command, const std::string& name) {
   if (!is_suite(name)) return;
   for (const char* option : {"--size", "--lights", "--spots", "--range", "--seed", "--camera", "--frame",
-                             "--projection", "--brdf", "--method", "--option", "--path"})
+                             "--projection", "--depth", "--depth-samples", "--brdf", "--method", "--option", "--path"})
     if (command.count(option) != 0)
       throw Error(
           fmt::format("{}: belongs to a scene, and {} is a suite, which says its own; a suite takes --max-lights, "
@@ -248,6 +250,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   auto o = std::make_shared<BenchOptions>();
   o->request.scene = "quick";
   add_common_options(*command, o->request);
+  add_depth_options(*command, o->request);
   command->get_option("scene")->description("a suite (lamp list suites), a suite's .json file, or a scene");
   add_method_option(*command, o->methods, "method to measure on a scene");
   add_option_option(*command, o->request);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "gpu/check.h"
+#include "render/antialias.h"
 
 namespace lamp::app {
 namespace {
@@ -41,6 +42,7 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
           .light_capacity = light_capacity(scene, group),
           .path = parse_path(entry.path),
           .brdf = parse_brdf(group.brdf),
+          .depth = parse_depth(group.depth, group.depth_samples),
           .transparency = !scene.gpu->blended().empty(),
           .captured = scene.scene.captured.has_value()};
 }
@@ -57,24 +59,32 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
 void Checker::need_truths() {
   if (group_.verify.verifier == Verifier::gpu) {
     if (!verifier_) verifier_.emplace(renderer_, frame_.lights, group_.verify.every_list ? Rows{} : rows_);
-  } else if (depth_.empty()) {
-    depth_ = renderer_.read_depth();
+  } else if (depths_.empty()) {
+    const std::uint32_t samples = renderer_.depth().samples;
+    truths_.resize(samples);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+      renderer_.set_sample(i);
+      depths_.push_back(samples > 1 ? renderer_.draw_depth() : renderer_.read_depth());
+    }
   }
 }
 
-void Checker::for_each_truth(const std::function<void(const Truth&)>& use) {
-  for (const Truth& truth : truths_) use(truth);
-  if (!truths_.empty()) return;
+void Checker::for_each_truth(std::uint32_t sample, const std::function<void(const Truth&)>& use) {
+  for (const Truth& truth : truths_[sample]) use(truth);
+  if (!truths_[sample].empty()) return;
   std::uint64_t lights = 0;
   std::vector<Truth> kept;
-  lamp::app::for_each_truth(
-      {.view = frame_.view, .depth = depth_, .lights = frame_.lights, .first_row = rows_.first, .rows = rows_.count},
-      [&](const Truth& truth) {
-        use(truth);
-        lights += truth.lights.size();
-        if (lights <= KEPT_LIGHTS) kept.push_back(truth);
-      });
-  if (lights <= KEPT_LIGHTS) truths_ = std::move(kept);
+  lamp::app::for_each_truth({.view = renderer_.view(),
+                             .depth = depths_[sample],
+                             .lights = frame_.lights,
+                             .first_row = rows_.first,
+                             .rows = rows_.count},
+                            [&](const Truth& truth) {
+                              use(truth);
+                              lights += truth.lights.size();
+                              if (lights <= KEPT_LIGHTS / depths_.size()) kept.push_back(truth);
+                            });
+  if (lights <= KEPT_LIGHTS / depths_.size()) truths_[sample] = std::move(kept);
 }
 
 const HdrImage& Checker::reference(ShadingPath path) {
@@ -85,7 +95,7 @@ const HdrImage& Checker::reference(ShadingPath path) {
         lighting_info(device_.scene(group_.scene), group_, {.method = "all", .path = forward ? "forward" : "deferred"});
     info.shaded = rows_;
     Lighting lighting(device_.context().device(), device_.shaders(), info);
-    image = cropped(renderer_.render(lighting).image, rows_);
+    image = cropped(render_samples(renderer_, lighting, frame_.lights, {}, {}).image, rows_);
   }
   return *image;
 }
@@ -94,7 +104,10 @@ Findings Checker::find(Lighting& lighting) {
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
   if (verifier_) return verifier_->check(lighting, which);
   Verification verification(frame_.view.width());
-  for_each_truth([&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which)); });
+  for (std::uint32_t i = renderer_.depth().samples; i-- != 0;) {  // the first last: it is timed
+    renderer_.set_sample(i);
+    for_each_truth(i, [&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which)); });
+  }
   return verification.findings();
 }
 
@@ -109,7 +122,9 @@ Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked
 }
 
 Checked Checker::check(Lighting& lighting) {
-  Checked checked{.verdict = "unverified", .reason = group_.unchecked, .rendered = renderer_.render(lighting)};
+  Checked checked{.verdict = "unverified",
+                  .reason = group_.unchecked,
+                  .rendered = render_samples(renderer_, lighting, frame_.lights, {}, {})};
   if (group_.verify.what == Verify::What::nothing) return checked;
   const bool by_volumes = lighting.info().path == ShadingPath::standard_deferred;
   if (by_volumes && !group_.verify.compares_pictures) return checked;

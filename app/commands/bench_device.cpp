@@ -29,6 +29,7 @@ Camera camera_of(const Scene& scene, const Group& group, std::uint32_t frame) {
 
 View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
   const glm::uvec2 size = parse_size(group.size);
+  const HostDepth depth = parse_depth(group.depth, group.depth_samples);
   if (scene.captured) {
     const View& view = scene.captured->view;
     if (size != glm::uvec2(view.width(), view.height()) || group.projection != "camera" || group.frame >= 0 ||
@@ -36,9 +37,13 @@ View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
       throw Error(fmt::format("scene '{}': is a captured frame of {}x{} pixels, with one camera of its own; got {}{}",
                               group.scene, view.width(), view.height(), group.size,
                               group.projection != "camera" ? ", projection " + group.projection : ""));
+    if (!depth.reversed || depth.samples != 1)
+      throw Error(fmt::format("scene '{}': is a captured frame with reversed depth of one sample a pixel; got {} of {}",
+                              group.scene, group.depth, depth.samples));
     return view;
   }
-  return view_of(camera_of(scene, group, frame), size.x, size.y, group.projection);
+  const View view = view_of(camera_of(scene, group, frame), size.x, size.y, group.projection);
+  return depth.reversed ? view : with_standard_depth(view);
 }
 
 }  // namespace
@@ -106,7 +111,9 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .brdf = group.brdf,
           .camera = group.camera,
           .frame = group.frame,
-          .projection = group.projection};
+          .projection = group.projection,
+          .depth = group.depth,
+          .depth_samples = group.depth_samples};
 }
 
 }  // namespace lamp::app

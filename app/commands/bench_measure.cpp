@@ -98,6 +98,8 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
                   {"projection", group.projection},
                   {"path", entry.path},
                   {"method", entry.method}};
+  if (group.depth != "reversed") parameters["depth"] = group.depth;
+  if (group.depth_samples != 1) parameters["depth_samples"] = group.depth_samples;
   for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
   return parameters;
 }
@@ -299,7 +301,8 @@ std::vector<json> measure(const MeasureInfo& info) {
   std::list<Candidate> candidates;
   try {
     renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view.width(), frame.view.height(),
-                     light_capacity(scene, info.group));
+                     light_capacity(scene, info.group), /*decal_capacity=*/0,
+                     parse_depth(info.group.depth, info.group.depth_samples));
     checker.emplace(info.device, info.group, *renderer, frame);
     candidates = make_candidates(info, scene, choose_for(info, scene, *renderer, frame));
   } catch (const Error& error) {

@@ -86,8 +86,14 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
     if (!file.empty()) line(label, file);
 }
 
-/// Samples a pixel. A captured frame has what its depth buffer has, one.
+/// Samples a pixel. A captured frame has what its depth buffer has, one; and so has depth that was asked for.
 std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
+  if (const std::uint32_t of_depth = o.state.request.depth_samples; of_depth > 1) {
+    if (o.state.samples > 1 && o.state.samples != of_depth)
+      throw Error(fmt::format("--samples: got {}, but with --depth-samples {} the picture has those", o.state.samples,
+                              of_depth));
+    return of_depth;
+  }
   if (!scene.captured) return o.state.samples == 0 ? 4 : o.state.samples;
   if (o.state.samples > 1)
     throw Error(fmt::format("--samples: got {}, but a captured frame has one sample a pixel", o.state.samples));
@@ -145,6 +151,7 @@ Run add_render(CLI::App& app) {
   auto o = std::make_shared<RenderOptions>();
   add_state_option(*command, o->state);
   add_common_options(*command, o->state.request);
+  add_depth_options(*command, o->state.request);
   add_picture_options(*command, o->state.request);
   add_out_option(*command, o->out, "write the picture to this file, .png or .exr");
   const auto add_output = [&](const char* name, std::string& file, const char* help) {

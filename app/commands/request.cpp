@@ -49,6 +49,13 @@ View captured_view(const Request& request, const Scene& scene) {
   if (request.projection != "camera")
     throw Error(fmt::format("--projection '{}': the capture {} has its own, expected none or camera",
                             request.projection, request.scene));
+  const HostDepth depth = parse_depth(request.depth, request.depth_samples);
+  if (!depth.reversed)
+    throw Error(fmt::format("--depth {}: the capture {} is kept with reversed depth, expected reversed", request.depth,
+                            request.scene));
+  if (depth.samples != 1)
+    throw Error(fmt::format("--depth-samples {}: the capture {} has one sample a pixel, expected 1",
+                            request.depth_samples, request.scene));
   static_cast<void>(find_camera(scene, request.camera));
   if (request.frame >= 0) throw Error(fmt::format("--frame: the capture {} is one frame", request.scene));
   if (request.free_camera) throw Error(fmt::format("camera: the capture {} has its own, expected none", request.scene));
@@ -84,7 +91,8 @@ View requested_view(const Request& request, const Scene& scene) {
   const Camera camera = request.free_camera  ? camera_of(*request.free_camera)
                         : request.frame >= 0 ? frame_camera(scene, request.frame)
                                              : find_camera(scene, request.camera);
-  return view_of(camera, size.x, size.y, request.projection);
+  const View view = view_of(camera, size.x, size.y, request.projection);
+  return parse_depth(request.depth, request.depth_samples).reversed ? view : with_standard_depth(view);
 }
 
 std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air) {
@@ -141,6 +149,15 @@ Brdf parse_brdf(const std::string& text) {
   throw unknown_name("--brdf", text, NAMES);
 }
 
+HostDepth parse_depth(const std::string& text, std::uint32_t samples) {
+  constexpr std::array<std::string_view, 2> NAMES{"reversed", "standard"};
+  if (std::ranges::find(NAMES, text) == NAMES.end()) throw unknown_name("--depth", text, NAMES);
+  constexpr std::array<std::uint32_t, 4> COUNTS{1, 2, 4, 8};
+  if (std::ranges::find(COUNTS, samples) == COUNTS.end())
+    throw Error(fmt::format("--depth-samples {}: expected 1, 2, 4 or 8", samples));
+  return {.samples = samples, .reversed = text == NAMES[0]};
+}
+
 VerifierChoice parse_verifier(const std::string& text, const Context& context) {
   if (text == "oracle") return VerifierChoice::oracle;
   if (text == "auto") return context.has_doubles() ? VerifierChoice::by_pairs : VerifierChoice::oracle;
@@ -181,6 +198,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_range(request.range));
   static_cast<void>(parse_path(request.path));
   static_cast<void>(parse_brdf(request.brdf));
+  static_cast<void>(parse_depth(request.depth, request.depth_samples));
 }
 
 Scene load_scene(const std::string& name) {
@@ -233,13 +251,17 @@ Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, Lightin
 }
 
 Session::Session(const Request& request, const Setup& setup, ContextInfo::Validation validation)
-    : setup_(setup), brdf_(parse_brdf(request.brdf)), grow_(request.grow), shaders_(request.shader_dir) {
+    : setup_(setup),
+      brdf_(parse_brdf(request.brdf)),
+      depth_(parse_depth(request.depth, request.depth_samples)),
+      grow_(request.grow),
+      shaders_(request.shader_dir) {
   context_ = std::make_unique<Context>(ContextInfo{
       .device = request.device, .validation = validation, .pipeline_statistics = request.pipeline_statistics});
   gpu_scene_ = std::make_unique<GpuScene>(*context_, setup.scene);
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
                                          static_cast<std::uint32_t>(setup.lights.size()),
-                                         static_cast<std::uint32_t>(setup.decals.size()));
+                                         static_cast<std::uint32_t>(setup.decals.size()), depth_);
   renderer_->set_frame(setup.view, setup.lights, setup.decals);
 }
 
@@ -252,6 +274,7 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
                         .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
                         .path = path,
                         .brdf = brdf_,
+                        .depth = depth_,
                         .transparency = !gpu_scene_->blended().empty(),
                         .captured = setup_.scene.captured.has_value(),
                         .decals = !setup_.decals.empty()},

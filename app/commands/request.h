@@ -42,6 +42,8 @@ struct Request {
   int light_frame = -1;                   ///< of the generated lights' paths; -1: as the flight's
   std::optional<FreeCamera> free_camera;  ///< in place of the camera; not with a frame of the flight
   std::string projection = "camera";
+  std::string depth = "reversed";   ///< or "standard": which way device depth runs
+  std::uint32_t depth_samples = 1;  ///< a pixel, of what lights are culled with: 1, 2, 4 or 8
   std::string device;
   std::string shader_dir;
   bool pipeline_statistics = false;
@@ -59,6 +61,8 @@ void add_method_option(CLI::App& command, std::vector<std::string>& methods, con
 void add_picture_options(CLI::App& command, Request& request);
 /// Adds `--option`.
 void add_option_option(CLI::App& command, Request& request);
+/// Adds `--depth` and `--depth-samples`, for commands that can draw it so.
+void add_depth_options(CLI::App& command, Request& request);
 /// Adds `--path`.
 void add_path_option(CLI::App& command, Request& request);
 /// Adds `--grow`.
@@ -109,6 +113,8 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] std::pair<float, float> parse_range(const std::string& text);
 [[nodiscard]] ShadingPath parse_path(const std::string& text);
 [[nodiscard]] Brdf parse_brdf(const std::string& text);
+/// "reversed" or "standard"; 1, 2, 4 or 8 samples.
+[[nodiscard]] HostDepth parse_depth(const std::string& text, std::uint32_t samples);
 /// "oracle", "gpu" or "auto": by the number of pairs where the device has double precision, else the oracle. Throws
 /// Error for `gpu` where it has not.
 [[nodiscard]] VerifierChoice parse_verifier(const std::string& text, const Context& context);
@@ -143,6 +149,7 @@ class Session {
  private:
   const Setup& setup_;
   Brdf brdf_;
+  HostDepth depth_;
   bool grow_;
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;

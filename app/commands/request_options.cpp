@@ -124,6 +124,23 @@ void add_option_option(CLI::App& command, Request& r) {
       ->group("Method");
 }
 
+void add_depth_options(CLI::App& command, Request& r) {
+  command
+      .add_option(
+          "--depth", r.depth,
+          "which way depth runs: reversed (near 1, sky 0), or standard (near 0, sky 1); a capture's is reversed")
+      ->type_name("NAME")
+      ->group("View")
+      ->capture_default_str();
+  command
+      .add_option("--depth-samples", r.depth_samples,
+                  "samples a pixel of the depth that lights are culled with, 1, 2, 4 or 8; each is shaded")
+      ->check(whole_number(1, 8))
+      ->type_name("N")
+      ->group("View")
+      ->capture_default_str();
+}
+
 void add_path_option(CLI::App& command, Request& r) {
   command.add_option("--path", r.path, "how pixels are shaded: forward, tiled-deferred, deferred or standard-deferred")
       ->type_name("NAME")

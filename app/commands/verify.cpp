@@ -4,12 +4,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "commands/auto_method.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/verify_rows.h"
+#include "render/antialias.h"
 #include "render/gpu_verifier.h"
 #include "system/print.h"
 
@@ -57,6 +59,15 @@ std::vector<std::string> wanted_methods(const VerifyOptions& o) {
   return wanted;
 }
 
+/// Calls `use` with the depth of each sample of a pixel, which the renderer then draws.
+void for_each_sample(Renderer& renderer, const std::function<void(std::span<const float>)>& use) {
+  if (renderer.depth().samples == 1) return use(renderer.read_depth());
+  for (std::uint32_t i = renderer.depth().samples; i-- != 0;) {  // the first sample last: it is drawn from there on
+    renderer.set_sample(i);
+    use(renderer.draw_depth());
+  }
+}
+
 void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& candidates) {
   using Passes = vulkan::PlanRunner::Passes;
   for (Candidate& candidate : candidates) {
@@ -69,9 +80,11 @@ void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& ca
 }
 
 void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
-  const std::vector<float> depth = session.renderer().read_depth();
-  for_each_truth({.view = setup.view, .depth = depth, .lights = setup.lights, .rows = setup.view.height()},
-                 [&](const Truth& truth) { visit_band(session, truth, candidates); });
+  for_each_sample(session.renderer(), [&](std::span<const float> depth) {
+    const View& view = session.renderer().view();
+    for_each_truth({.view = view, .depth = depth, .lights = setup.lights, .rows = view.height()},
+                   [&](const Truth& truth) { visit_band(session, truth, candidates); });
+  });
   for (Candidate& candidate : candidates) {
     candidate.findings = candidate.separate.findings();
     if (candidate.lighting.runner().plan().fused)
@@ -113,14 +126,16 @@ Findings decal_findings_of(Candidate& candidate) {
 void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
   const std::vector<shared::OrientedBox> boxes = boxes_of(setup.decals);
   if (boxes.empty()) return;
-  const std::vector<float> depth = session.renderer().read_depth();
-  for_each_truth({.view = setup.view,
-                  .depth = depth,
-                  .lights = {},
-                  .rows = setup.view.height(),
-                  .boxes = boxes,
-                  .first_id = static_cast<std::uint32_t>(setup.lights.size())},
-                 [&](const Truth& truth) { visit_decals(session, truth, candidates); });
+  for_each_sample(session.renderer(), [&](std::span<const float> depth) {
+    const View& view = session.renderer().view();
+    for_each_truth({.view = view,
+                    .depth = depth,
+                    .lights = {},
+                    .rows = view.height(),
+                    .boxes = boxes,
+                    .first_id = static_cast<std::uint32_t>(setup.lights.size())},
+                   [&](const Truth& truth) { visit_decals(session, truth, candidates); });
+  });
 }
 
 /// Makes lists again and again, and counts how often they are not the first's.
@@ -150,7 +165,7 @@ Stats make_row(const VerifyOptions& o, Session& session, const Setup& setup, Can
   if (o.runs > 1) candidate.findings.changed_runs = changed_runs(session, candidate, o.runs);
   progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
   session.renderer().wake(candidate.lighting);
-  Rendered rendered = session.renderer().render(candidate.lighting);
+  Rendered rendered = render_samples(session.renderer(), candidate.lighting, setup.lights, setup.decals, {});
   const Plan& plan = candidate.lighting.runner().plan();
   std::optional<PictureDifference> difference;
   if (reference)
@@ -219,16 +234,18 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
   print_table(rows);
 }
 
-std::uint64_t pairs_of(const Setup& setup) {
-  return std::uint64_t{setup.view.width()} * setup.view.height() * setup.lights.size();
+std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
+  return std::uint64_t{setup.view.width()} * setup.view.height() * samples * setup.lights.size();
 }
 
-/// The GPU verifier knows of lights alone.
+/// The GPU verifier knows of lights alone, and of one sample a pixel.
 Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& context) {
   const VerifierChoice choice = parse_verifier(o.verifier, context);
-  if (setup.decals.empty()) return chosen(choice, pairs_of(setup));
+  const bool several = o.request.depth_samples > 1;
+  if (setup.decals.empty() && !several) return chosen(choice, pairs_of(setup));
   if (choice == VerifierChoice::gpu)
-    throw Error("--verifier gpu: decals are checked by the oracle alone; use --verifier oracle");
+    throw Error(fmt::format("--verifier gpu: {} are checked by the oracle alone; use --verifier oracle",
+                            several ? "several samples a pixel" : "decals"));
   return Verifier::oracle;
 }
 
@@ -237,7 +254,7 @@ Exit verify(const VerifyOptions& o) {
   const std::vector<std::string> wanted = wanted_methods(o);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
-  const std::uint64_t pairs = pairs_of(setup);
+  const std::uint64_t pairs = pairs_of(setup, o.request.depth_samples);
   const Verifier verifier = verifier_of(o, setup, session.context());
 
   std::vector<Stats> refused;
@@ -247,7 +264,7 @@ Exit verify(const VerifyOptions& o) {
   const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
   if (possible && (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context()))) {
     Lighting brute = session.lighting(parse_method("all"), {}, path);
-    reference = session.renderer().render(brute).image;
+    reference = render_samples(session.renderer(), brute, setup.lights, setup.decals, {}).image;
   } else {
     static_cast<void>(session.renderer().render(candidates.front().lighting));  // for its depth
   }
@@ -278,6 +295,7 @@ Run add_verify(CLI::App& app) {
   o->request.size = "640x360";
   o->request.lights = 1024;
   add_common_options(*command, o->request);
+  add_depth_options(*command, o->request);
   add_decal_option(*command, o->request);
   add_method_option(*command, o->methods, "method to check");
   add_option_option(*command, o->request);

@@ -41,6 +41,8 @@ void for_each_field(Fields&& at, State& s) {
   at.moment("light_frame", r.light_frame);
   at.camera("free_camera", r.free_camera);
   at.text("projection", r.projection);
+  at.text("depth", r.depth);
+  at.whole("depth_samples", r.depth_samples, 1, 8);
   at.flag("grow", r.grow);
   at.text("exposure", s.exposure);
   at.whole("samples", s.samples, 1, 1024);

@@ -43,15 +43,23 @@ View shifted(const View& view, glm::dvec2 offset_px) {
 Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
                         std::span<const gpu::DecalData> decals, const Sampling& sampling) {
   const View view = renderer.view();
+  const std::uint32_t of_depth = renderer.depth().samples;
+  const std::uint32_t samples = of_depth > 1 ? of_depth : sampling.samples;
+  const auto turn_to = [&](std::uint32_t i) {
+    if (of_depth > 1)
+      renderer.set_sample(i);
+    else if (samples > 1)
+      renderer.set_frame(shifted(view, sample_offset(i)), lights, decals);
+  };
   HdrImage sum;
-  for (std::uint32_t i = 1; i < sampling.samples; ++i) {
-    renderer.set_frame(shifted(view, sample_offset(i)), lights, decals);
+  for (std::uint32_t i = 1; i < samples; ++i) {
+    turn_to(i);
     add(sum, renderer.render(lighting).image);
   }
-  if (sampling.samples > 1) renderer.set_frame(view, lights, decals);
+  turn_to(0);
   Rendered rendered = renderer.render(lighting, sampling.frames, sampling.warm_up);
   add(sum, std::move(rendered.image));
-  for (glm::vec4& pixel : sum.pixels) pixel /= static_cast<float>(sampling.samples);
+  for (glm::vec4& pixel : sum.pixels) pixel /= static_cast<float>(samples);
   rendered.image = std::move(sum);
   return rendered;
 }

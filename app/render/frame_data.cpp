@@ -53,6 +53,14 @@ void FrameData::set(const View& view, std::span<const shared::Light> lights, std
   put(sizeof(host_frame_) + lights_.bytes() + spheres_.bytes(), std::as_bytes(decals));
 }
 
+void FrameData::set_view(const View& view) {
+  const std::uint32_t boxes = host_frame_.box_count;
+  host_frame_ = view.frame(host_frame_.light_count, host_frame_.light_capacity);
+  host_frame_.box_count = boxes;
+  std::memcpy(staging_.mapped().data(), &host_frame_, sizeof(host_frame_));
+  changed_ = true;
+}
+
 void FrameData::record_upload(vulkan::Recorder& recorder) {
   if (!std::exchange(changed_, false)) return;
   recorder.barrier({copies_to(frame()), copies_to(lights()), copies_to(spheres()), copies_to(decals())});

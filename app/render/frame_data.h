@@ -18,6 +18,8 @@ class FrameData {
 
   /// Host side; the copies are recorded by the next `record_upload`.
   void set(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
+  /// The same lights and decals, seen otherwise.
+  void set_view(const View& view);
   /// Nothing if it was recorded before, and nothing has been set since.
   void record_upload(vulkan::Recorder& recorder);
 

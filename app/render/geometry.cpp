@@ -14,13 +14,13 @@ std::vector<vulkan::Use> with_frame(std::vector<vulkan::Use> uses, const FrameDa
 
 }  // namespace
 
-Geometry::Geometry(const vulkan::Device& device, const ShaderLibrary& shaders) {
+Geometry::Geometry(const vulkan::Device& device, const ShaderLibrary& shaders, const HostDepth& depth) : depth_(depth) {
   const auto make = [&](const char* name, const char* fragment, std::vector<VkFormat> colors) {
     const vulkan::PipelineInfo info{.name = name, .bindings = mesh_bindings()};
     const std::vector<std::uint32_t> code =
         fragment == nullptr ? std::vector<std::uint32_t>() : shaders.spirv(fragment);
     return take(vulkan::Pipeline::graphics(device, info, shaders.spirv("mesh"), code,
-                                           mesh_state(VK_COMPARE_OP_GREATER, std::move(colors))));
+                                           mesh_state(depth.nearer(), std::move(colors))));
   };
   depth_opaque_ = make("depth, opaque", nullptr, {});
   depth_masked_ = make("depth, masked", "depth", {});
@@ -31,7 +31,7 @@ Geometry::Geometry(const vulkan::Device& device, const ShaderLibrary& shaders) {
 void Geometry::record_depth(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
                             const Targets& targets) const {
   if (scene.captured() != nullptr) return scene.captured()->record(recorder, targets);
-  const Attachments attachments{.depth = &targets.depth};
+  const Attachments attachments{.depth = &targets.depth, .sky = depth_.sky()};
   recorder.begin_pass("depth pre-pass", with_frame(attachment_uses(attachments), frame));
   begin_rendering(recorder.commands(), attachments, targets);
   draw_meshes(recorder, {.scene = &scene,
@@ -48,7 +48,8 @@ void Geometry::record_gbuffer(vulkan::Recorder& recorder, const GpuScene& scene,
   if (scene.captured() != nullptr) return scene.captured()->record(recorder, targets);
   const Attachments attachments{
       .colors = {{&targets.base_color, Load::clear}, {&targets.surface, Load::clear}, {&targets.emission, Load::clear}},
-      .depth = &targets.depth};
+      .depth = &targets.depth,
+      .sky = depth_.sky()};
   recorder.begin_pass("g-buffer", with_frame(attachment_uses(attachments), frame));
   begin_rendering(recorder.commands(), attachments, targets);
   draw_meshes(recorder, {.scene = &scene, .frame = &frame, .draws = scene.opaque(), .pipeline = &gbuffer_});

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "render/host_depth.h"
 #include "render/mesh_pass.h"
 
 namespace lamp::app {
 
 class Geometry {
  public:
-  Geometry(const vulkan::Device& device, const ShaderLibrary& shaders);
+  Geometry(const vulkan::Device& device, const ShaderLibrary& shaders, const HostDepth& depth = {});
 
   void record_depth(vulkan::Recorder& recorder, const GpuScene& scene, const FrameData& frame,
                     const Targets& targets) const;
@@ -18,6 +19,7 @@ class Geometry {
   [[nodiscard]] std::vector<vulkan::Pipeline> pipelines() const { return {depth_opaque_, depth_masked_, gbuffer_}; }
 
  private:
+  HostDepth depth_;
   vulkan::Pipeline depth_opaque_;
   vulkan::Pipeline depth_masked_;
   vulkan::Pipeline gbuffer_;

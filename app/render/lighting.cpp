@@ -52,7 +52,7 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
     : info_(info), traits_(device.traits) {
   runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(info, device), shaders.source()));
   shade_ = shading_pipeline(device, shaders, info, runner_.plan());
-  if (info.path == ShadingPath::standard_deferred) volumes_ = volumes_pipeline(device, shaders, info.brdf);
+  if (info.path == ShadingPath::standard_deferred) volumes_ = volumes_pipeline(device, shaders, info);
   if (info.transparency) {
     if (std::optional<Plan> any_depth = any_depth_plan(info, runner_.plan(), device))
       any_depth_runner_ = take(vulkan::PlanRunner::create(device, std::move(*any_depth), shaders.source()));
@@ -91,7 +91,7 @@ bool Lighting::is_cull_pass(std::string_view name) const {
 }
 
 void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  static_cast<void>(take(runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()))));
+  static_cast<void>(take(runner_.record(recorder, frame.inputs)));
 }
 
 void Lighting::finish() {
@@ -106,8 +106,7 @@ void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
     frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
   if (!decals_) return;
   record_cull(recorder, frame);
-  const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
-  decals_->record(recorder, frame.data, frame.targets, runner_.lookup(inputs));
+  decals_->record(recorder, frame.data, frame.targets, runner_.lookup(frame.inputs));
 }
 
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
@@ -117,8 +116,7 @@ void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
     record_surfaces(recorder, frame);
 
   if (fused())
-    static_cast<void>(
-        take(runner_.record(recorder, frame.data.plan_inputs(frame.targets.depth.sampled()), Passes::fused)));
+    static_cast<void>(take(runner_.record(recorder, frame.inputs, Passes::fused)));
   else if (info_.path != ShadingPath::standard_deferred && !decals_)
     record_cull(recorder, frame);
 
@@ -136,7 +134,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}},
                                 .depth = &frame.targets.depth,
                                 .depth_use = Attachments::Depth::test};
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.data.plan_inputs(frame.targets.depth.sampled()));
+  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
@@ -155,7 +153,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
 
 void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame) {
   const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}}};
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.data.plan_inputs(frame.targets.depth.sampled()));
+  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
@@ -173,8 +171,7 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
 
 void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
-  const vulkan::BoundLookUp lookup = runner_.lookup(inputs, fused() ? Passes::fused : Passes::separate);
+  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame_constants()},
                  {2, frame.targets.hdr.storage()},
@@ -218,12 +215,11 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
 }
 
 void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  const vulkan::PlanInputs inputs = frame.data.plan_inputs(frame.targets.depth.sampled());
   vulkan::PlanRunner& runner = any_depth_runner_ ? *any_depth_runner_ : runner_;
   const bool walked = info_.path != ShadingPath::standard_deferred || decals_;
   const bool culled = !any_depth_runner_ && walked && !fused();
   recorder.name_group("transparent");
-  if (!culled) static_cast<void>(take(runner.record(recorder, inputs)));
+  if (!culled) static_cast<void>(take(runner.record(recorder, frame.inputs)));
   recorder.name_group("");
 
   std::vector<Draw> far_to_near(frame.scene.blended().begin(), frame.scene.blended().end());
@@ -233,7 +229,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   });
   const Attachments attachments{
       .colors = {{&frame.targets.hdr}}, .depth = &frame.targets.depth, .depth_use = Attachments::Depth::test};
-  const vulkan::BoundLookUp lookup = runner.lookup(inputs);
+  const vulkan::BoundLookUp lookup = runner.lookup(frame.inputs);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),

@@ -18,6 +18,7 @@ struct LightingFrame {
   const FrameData& data;
   const Targets& targets;
   const Geometry& geometry;
+  vulkan::PlanInputs inputs;               ///< what is culled: `data` and `targets.depth`, or more samples than those
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   glm::vec3 eye{0.0F};
   bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none

@@ -93,7 +93,8 @@ Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
           .height = info.height,
           .light_capacity = info.light_capacity,
           .options = info.options,
-          .traits = traits};
+          .traits = traits,
+          .depth_samples = info.depth.samples};
 }
 
 Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
@@ -126,23 +127,24 @@ vulkan::Pipeline shading_pipeline(const vulkan::Device& device, const ShaderLibr
                           "forward+");
 }
 
-vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, Brdf brdf) {
+vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                  const LightingInfo& info) {
   const vulkan::GraphicsState additive{.cull = VK_CULL_MODE_FRONT_BIT,
                                        .colors = {VK_FORMAT_R32G32B32A32_SFLOAT},
                                        .depth = VK_FORMAT_D32_SFLOAT,
                                        .depth_clamp = true,
-                                       .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                       .depth_compare = info.depth.not_nearer(),
                                        .blend = vulkan::GraphicsState::Blend::add};
   return take(vulkan::Pipeline::graphics(device,
                                          {.name = "light volumes",
-                                          .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(brdf)}},
+                                          .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}},
                                           .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)},
                                          shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
 }
 
 vulkan::Pipeline transparent_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
                                       const LightingInfo& info, const Plan& any_depth) {
-  vulkan::GraphicsState state = mesh_state(VK_COMPARE_OP_GREATER, {VK_FORMAT_R32G32B32A32_SFLOAT});
+  vulkan::GraphicsState state = mesh_state(info.depth.nearer(), {VK_FORMAT_R32G32B32A32_SFLOAT});
   state.depth_write = false;
   state.blend = vulkan::GraphicsState::Blend::over;
   return forward_pipeline(device, shaders, info, any_depth, state, "transparent");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lamplight/method.h"
+#include "render/host_depth.h"
 #include "render/shader_library.h"
 
 namespace lamp::app {
@@ -39,6 +40,7 @@ struct LightingInfo {
   std::uint32_t light_capacity = 0;  ///< decals included
   ShadingPath path = ShadingPath::deferred;
   Brdf brdf = Brdf::ggx;
+  HostDepth depth;            ///< of the frames
   bool transparency = false;  ///< the scene has blended surfaces
   bool captured = false;      ///< the scene is a captured frame
   bool decals = false;        ///< the frames have decals
@@ -65,7 +67,8 @@ struct LightingInfo {
 [[nodiscard]] vulkan::Pipeline shading_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
                                                 const LightingInfo& info, const Plan& plan);
 /// Of standard deferred shading's light volumes.
-[[nodiscard]] vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders, Brdf brdf);
+[[nodiscard]] vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                                const LightingInfo& info);
 /// Of surfaces that are blended over the opaque ones.
 [[nodiscard]] vulkan::Pipeline transparent_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
                                                     const LightingInfo& info, const Plan& any_depth);

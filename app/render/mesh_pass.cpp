@@ -29,7 +29,7 @@ void begin_rendering(VkCommandBuffer commands, const Attachments& attachments, c
     depth.imageLayout = clear ? attachments.depth->attachment().layout : attachments.depth->sampled().layout;
     depth.loadOp = clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     depth.storeOp = clear ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
-    depth.clearValue.depthStencil.depth = 0.0F;
+    depth.clearValue.depthStencil.depth = attachments.sky;
   }
   const VkRect2D area{.extent = {targets.width, targets.height}};
   const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
@@ -59,7 +59,7 @@ vulkan::GraphicsState mesh_state(VkCompareOp compare, std::vector<VkFormat> colo
           .dynamic_cull = true,
           .colors = std::move(colors),
           .depth = VK_FORMAT_D32_SFLOAT,
-          .depth_write = compare == VK_COMPARE_OP_GREATER,
+          .depth_write = compare != VK_COMPARE_OP_EQUAL,
           .depth_compare = compare};
 }
 

@@ -23,6 +23,7 @@ struct Attachments {
   std::vector<Color> colors;
   const GpuImage* depth = nullptr;
   enum class Depth : std::uint8_t { clear, test } depth_use = Depth::clear;
+  float sky = 0.0F;  ///< what depth is cleared to
 };
 
 /// The uses that attachments declare.
@@ -32,7 +33,7 @@ void begin_rendering(VkCommandBuffer commands, const Attachments& attachments, c
 /// Bindings 0 .. 9 that mesh.vert and material.glsl read (frame, materials, instances, lights, surroundings, textures).
 [[nodiscard]] std::vector<vulkan::DescriptorBinding> mesh_bindings();
 
-/// Vertex layout, culling and depth of a mesh pipeline.
+/// Vertex layout, culling and depth of a mesh pipeline. Depth is written unless it is compared for equality.
 [[nodiscard]] vulkan::GraphicsState mesh_state(VkCompareOp compare, std::vector<VkFormat> colors);
 
 /// Draws meshes with one pipeline for all materials, or another for opaque ones.

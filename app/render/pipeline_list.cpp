@@ -25,8 +25,10 @@ class PipelineLister {
     // A driver without hardware has no memory. Its plans are those of a device that has enough.
     if (device_.traits.memory_bytes == 0) device_.traits.memory_bytes = DeviceTraits().memory_bytes;
     for (const vulkan::Pipeline& pipeline : Geometry(device_, shaders).pipelines()) add("", pipeline);
-    for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong})
-      add(use_of({.path = ShadingPath::standard_deferred, .brdf = brdf}), volumes_pipeline(device_, shaders, brdf));
+    for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong}) {
+      const LightingInfo info{.path = ShadingPath::standard_deferred, .brdf = brdf};
+      add(use_of(info), volumes_pipeline(device_, shaders, info));
+    }
   }
 
   void add_defaults(const Method& method) {

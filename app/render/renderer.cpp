@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 
 #include "gpu/check.h"
+#include "render/antialias.h"
 #include "render/gbuffer_texels.h"
 
 namespace lamp::app {
@@ -64,24 +66,70 @@ void add_counts(Rendered& rendered, const Plan& plan, const vulkan::Buffer& coun
 }  // namespace
 
 Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
-                   std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity)
+                   std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity,
+                   const HostDepth& depth)
     : context_(context),
       shaders_(shaders),
       scene_(scene),
+      depth_(depth),
       targets_(make_targets(context.device(), width, height)),
       data_(context.device(), light_capacity, decal_capacity),
-      geometry_(context.device(), shaders),
-      timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {}
+      geometry_(context.device(), shaders, depth),
+      timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {
+  if (depth.samples == 1) return;
+  check_depth_samples(context.device(), depth.samples);
+  all_samples_ = AllSamples{
+      .data = FrameData(context.device(), light_capacity, decal_capacity),
+      .depth = SampledDepth(context.device(), shaders, {.samples = depth.samples, .width = width, .height = height})};
+}
 
 void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
-  if (view != view_) {
-    surfaces_drawn_ = false;
-    if (kept_) std::ranges::for_each(kept_->buffers(), [&](const vulkan::Buffer* buffer) { forget(*buffer); });
-    kept_.reset();
-  }
+  assert(view.reversed_depth() == depth_.reversed && "make a Renderer for the other direction");
+  const bool moves = view != view_;
   view_ = view;
+  if (moves || depth_.samples > 1) forget_surfaces();
+  sample_view_ = view;
   data_.set(view, lights, decals);
+  if (!all_samples_) return;
+  all_samples_->data.set(view, lights, decals);
+  if (moves) draw_samples();
+  set_sample(0);
+}
+
+void Renderer::set_sample(std::uint32_t sample) {
+  if (!all_samples_) return;
+  forget_surfaces();
+  sample_view_ = shifted(view_, sample_places(depth_.samples)[sample] - 0.5);
+  data_.set_view(sample_view_);
+}
+
+void Renderer::forget_surfaces() {
+  surfaces_drawn_ = false;
+  if (kept_) std::ranges::for_each(kept_->buffers(), [&](const vulkan::Buffer* buffer) { forget(*buffer); });
+  kept_.reset();
+}
+
+void Renderer::draw_samples() {
+  for (std::uint32_t i = 0; i < depth_.samples; ++i) {
+    set_sample(i);
+    submit(nullptr, [&](VkCommandBuffer commands) {
+      vulkan::Recorder recorder(context_.device(), commands, tracker_);
+      record_upload(recorder);
+      geometry_.record_depth(recorder, scene_, data_, *targets_);
+      all_samples_->depth.record(recorder, targets_->depth, i);
+    });
+  }
+}
+
+vulkan::PlanInputs Renderer::plan_inputs() const {
+  return all_samples_ ? all_samples_->data.plan_inputs(all_samples_->depth.image().sampled())
+                      : data_.plan_inputs(targets_->depth.sampled());
+}
+
+void Renderer::record_upload(vulkan::Recorder& recorder) {
+  data_.record_upload(recorder);
+  if (all_samples_) all_samples_->data.record_upload(recorder);
 }
 
 LightingFrame Renderer::lighting_frame() const {
@@ -89,8 +137,9 @@ LightingFrame Renderer::lighting_frame() const {
           .data = data_,
           .targets = *targets_,
           .geometry = geometry_,
+          .inputs = plan_inputs(),
           .kept = kept_ ? &*kept_ : nullptr,
-          .eye = glm::vec3(view_.world_from_view()[3])};
+          .eye = glm::vec3(sample_view_.world_from_view()[3])};
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
@@ -99,7 +148,7 @@ void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuff
 }
 
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
-  data_.record_upload(recorder);
+  record_upload(recorder);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
   lighting.record(recorder, frame);
@@ -176,7 +225,7 @@ vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    data_.record_upload(recorder);
+    record_upload(recorder);
     lighting.record_cull(recorder, lighting_frame());
     lighting.runner().record_counts(recorder, counts);
   });
@@ -235,7 +284,7 @@ std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->
 void Renderer::draw_surfaces(Lighting* decals) {
   submit(decals, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    data_.record_upload(recorder);
+    record_upload(recorder);
     if (decals != nullptr)
       decals->record_surfaces(recorder, lighting_frame());
     else
@@ -265,10 +314,10 @@ std::vector<float> Renderer::draw_depth() {
 
 CapturedFrame Renderer::capture(Lighting* decals) {
   draw_surfaces(decals);
-  return decode(view_, {.depth = read_depth(),
-                        .base_color = read_texels<glm::u8vec4>(targets_->base_color),
-                        .surface = read_texels<glm::uvec2>(targets_->surface),
-                        .emission = read_texels<glm::u16vec4>(targets_->emission)});
+  return decode(sample_view_, {.depth = read_depth(),
+                               .base_color = read_texels<glm::u8vec4>(targets_->base_color),
+                               .surface = read_texels<glm::uvec2>(targets_->surface),
+                               .emission = read_texels<glm::u16vec4>(targets_->emission)});
 }
 
 vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
@@ -294,11 +343,11 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const glm::uvec2 group_px = group_of(pass);
   const std::uint32_t rows = is_fused(pass) || pass.rows.count == 0 ? targets_->height : pass.rows.count;
-  const vulkan::PlanInputs inputs = data_.plan_inputs(targets_->depth.sampled());
+  const vulkan::PlanInputs inputs = plan_inputs();
 
   submit(pass.lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    if (pass.prepares) data_.record_upload(recorder);
+    if (pass.prepares) record_upload(recorder);
     if (pass.prepares && pass.lighting != nullptr)
       static_cast<void>(take(pass.lighting->runner().record(recorder, inputs, pass.which)));
     for (const PixelPass::Storage& storage : pass.storage) {

@@ -13,6 +13,7 @@
 #include "oracle/reference.h"
 #include "render/frame_times.h"
 #include "render/lighting.h"
+#include "render/sample_depth.h"
 #include "render/visit.h"
 
 namespace lamp::app {
@@ -58,12 +59,19 @@ struct PixelPass {
 
 class Renderer {
  public:
-  /// Throws Error when a size is 0 or beyond the device's limits.
+  /// Throws Error when a size is 0 or beyond the device's limits, and where the device has no such depth images.
   Renderer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, std::uint32_t width,
-           std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0);
+           std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0,
+           const HostDepth& depth = {});
 
-  /// Camera, lights and decals of the next frames. A Lighting shows decals only if it was made for them.
+  /// Camera, lights and decals of the next frames; depth runs as the renderer was told. A Lighting shows decals only if
+  /// it was made for them.
   void set_frame(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
+
+  /// Where depth has several samples a pixel, lights are culled with all of them, and frames draw and shade one: the
+  /// pixels are seen through that sample's place. The first, unless another is chosen, until the next `set_frame`.
+  void set_sample(std::uint32_t sample);
+  [[nodiscard]] const HostDepth& depth() const { return depth_; }
 
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
@@ -101,7 +109,7 @@ class Renderer {
   /// the deferred paths copy that into the G-buffer instead of drawing, in less time.
   void keep_surfaces();
 
-  /// The depth of the last frame, device depth, row by row; 0 is sky.
+  /// The depth of the last frame, device depth, row by row.
   [[nodiscard]] std::vector<float> read_depth();
 
   /// Draws the surfaces of a frame, of a scene that has any, and reads their depth back.
@@ -133,7 +141,8 @@ class Renderer {
   [[nodiscard]] const FrameData& data() const { return data_; }
   [[nodiscard]] Context& context() { return context_; }
   [[nodiscard]] const vulkan::Device& device() const { return context_.device(); }
-  [[nodiscard]] const View& view() const { return view_; }
+  /// Through the sample that is drawn.
+  [[nodiscard]] const View& view() const { return sample_view_; }
   [[nodiscard]] EntityRanges entities() const { return data_.entities(); }
 
  private:
@@ -144,18 +153,30 @@ class Renderer {
   /// Records, submits and waits; then tells the lighting, if there is one.
   void submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record);
   [[nodiscard]] LightingFrame lighting_frame() const;
+  [[nodiscard]] vulkan::PlanInputs plan_inputs() const;
+  void record_upload(vulkan::Recorder& recorder);
+  void forget_surfaces();
+  void draw_samples();
   template <class Texel>
   [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);
 
   Context& context_;
   const ShaderLibrary& shaders_;
   const GpuScene& scene_;
+  HostDepth depth_;
   std::unique_ptr<Targets> targets_;
   FrameData data_;
   Geometry geometry_;
   View view_;
-  bool surfaces_drawn_ = false;           ///< the G-buffer has those of view_, without decals
-  std::optional<CapturedSurfaces> kept_;  ///< of view_
+  View sample_view_;
+  /// What lights are culled with where depth has several samples a pixel.
+  struct AllSamples {
+    FrameData data;  ///< of view_
+    SampledDepth depth;
+  };
+  std::optional<AllSamples> all_samples_;
+  bool surfaces_drawn_ = false;           ///< the G-buffer has those of sample_view_, without decals
+  std::optional<CapturedSurfaces> kept_;  ///< of sample_view_
   vulkan::AccessTracker tracker_;
   vulkan::Timestamps timestamps_;
 };

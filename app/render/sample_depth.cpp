@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/sample_depth.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cassert>
-#include <glm/gtc/matrix_access.hpp>
 
+#include "error.h"
+#include "gpu/check.h"
 #include "render/pass_uses.h"
 
 namespace lamp::app {
@@ -57,55 +60,56 @@ std::span<const glm::dvec2> sample_places(std::uint32_t samples) {
   }
 }
 
-View view_through(const View& view, glm::dvec2 at) {
-  const glm::dvec2 shift = 2.0 * (0.5 - at) / glm::dvec2(view.width(), view.height());
-  glm::dmat4 projection = view.clip_from_view();
-  const glm::dvec4 w = glm::row(projection, 3);
-  projection = glm::row(projection, 0, glm::row(projection, 0) + shift.x * w);
-  projection = glm::row(projection, 1, glm::row(projection, 1) + shift.y * w);
-  return take(View::create(view.width(), view.height(), projection, view.view_from_world()));
+SampledDepth::SampledDepth(const vulkan::Device& device, const ShaderLibrary& shaders, const SampledDepthInfo& info)
+    : info_(info),
+      image_(device, {.name = "sampled depth",
+                      .width = info.width,
+                      .height = info.height,
+                      .samples = static_cast<VkSampleCountFlagBits>(info.samples),
+                      .format = info.format,
+                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}) {
+  for (std::uint32_t i = 0; i < info.samples; ++i)
+    pipelines_.push_back(sample_pipeline(device, shaders, image_.info(), i));
 }
 
-GpuImage sampled_depth(Context& context, const ShaderLibrary& shaders, std::span<const GpuImage* const> of_samples,
-                       const SampledDepthInfo& info) {
-  const vulkan::Device& device = context.device();
-  GpuImage image(device, {.name = "sampled depth",
-                          .width = info.width,
-                          .height = info.height,
-                          .samples = static_cast<VkSampleCountFlagBits>(of_samples.size()),
-                          .format = info.format,
-                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
-  std::vector<vulkan::Pipeline> pipelines;
-  for (std::uint32_t i = 0; i < of_samples.size(); ++i)
-    pipelines.push_back(sample_pipeline(device, shaders, image.info(), i));
-  context.submit([&](VkCommandBuffer commands) {
-    vulkan::AccessTracker tracker;
-    vulkan::Recorder recorder(device, commands, tracker);
-    for (const GpuImage* one : of_samples) tracker.assume(one->sampled());
-    recorder.barrier({draws_depth(image, Load::clear)});
-    const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                          .imageView = image.view(),
-                                          .imageLayout = image.attachment().layout,
-                                          .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                          .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
-    const VkRect2D area{.extent = {info.width, info.height}};
-    const VkRenderingInfo rendering{
-        .sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1, .pDepthAttachment = &depth};
-    const VkViewport viewport{
-        .width = static_cast<float>(info.width), .height = static_cast<float>(info.height), .maxDepth = 1.0F};
-    vkCmdBeginRendering(commands, &rendering);
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &area);
-    for (std::size_t i = 0; i < of_samples.size(); ++i) {
-      const Push push{.offset_px = {info.offset.x, info.offset.y}, .beyond = info.beyond};
-      recorder.bind(pipelines[i], std::array{vulkan::Bound{0, of_samples[i]->sampled()}});
-      vkCmdPushConstants(commands, pipelines[i].layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
-      vkCmdDraw(commands, 3, 1, 0, 0);
-    }
-    vkCmdEndRendering(commands);
-    recorder.barrier({reads(image.sampled(), VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
-  });
-  return image;
+void SampledDepth::record(vulkan::Recorder& recorder, const GpuImage& picture, std::uint32_t sample) const {
+  const VkCommandBuffer commands = recorder.commands();
+  const Load load = sample == 0 ? Load::clear : Load::keep;
+  recorder.barrier({draws_depth(image_, load), reads(picture.sampled(), VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT)});
+  const VkRenderingAttachmentInfo depth{
+      .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+      .imageView = image_.view(),
+      .imageLayout = image_.attachment().layout,
+      .loadOp = load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+      .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+  const VkRect2D area{.extent = {info_.width, info_.height}};
+  const VkRenderingInfo rendering{
+      .sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1, .pDepthAttachment = &depth};
+  const VkViewport viewport{
+      .width = static_cast<float>(info_.width), .height = static_cast<float>(info_.height), .maxDepth = 1.0F};
+  vkCmdBeginRendering(commands, &rendering);
+  vkCmdSetViewport(commands, 0, 1, &viewport);
+  vkCmdSetScissor(commands, 0, 1, &area);
+  const Push push{.offset_px = {info_.offset.x, info_.offset.y}, .beyond = info_.beyond};
+  const vulkan::Pipeline& pipeline = pipelines_[sample];
+  recorder.bind(pipeline, std::array{vulkan::Bound{0, picture.sampled()}});
+  vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
+  vkCmdDraw(commands, 3, 1, 0, 0);
+  vkCmdEndRendering(commands);
+}
+
+void check_depth_samples(const vulkan::Device& device, std::uint32_t samples) {
+  VkPhysicalDeviceProperties properties{};
+  vkGetPhysicalDeviceProperties(device.physical, &properties);
+  const VkSampleCountFlags has =
+      properties.limits.framebufferDepthSampleCounts & properties.limits.sampledImageDepthSampleCounts;
+  if ((has & samples) != 0) return;
+  std::vector<std::uint32_t> counts;
+  for (const std::uint32_t count : {1U, 2U, 4U, 8U})
+    if ((has & count) != 0) counts.push_back(count);
+  throw Error(fmt::format("depth of {} samples a pixel: device {} has depth images of {}", samples,
+                          properties.deviceName, fmt::join(counts, ", ")),
+              Exit::no_device);
 }
 
 }  // namespace lamp::app

@@ -1,12 +1,11 @@
-// Depth images of several samples a pixel, made of one image for each sample; and where samples lie.
+// Depth images of several samples a pixel, each sample drawn as a picture of its own; and where samples lie.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "gpu/context.h"
 #include "gpu/image.h"
-#include "lamplight/view.h"
 #include "render/shader_library.h"
 
 namespace lamp::app {
@@ -15,10 +14,8 @@ namespace lamp::app {
 /// Vulkan specification, "Multisampling", standard sample locations.
 [[nodiscard]] std::span<const glm::dvec2> sample_places(std::uint32_t samples);
 
-/// The view whose pixels' centres are where `view` has the places `at` of its pixels.
-[[nodiscard]] View view_through(const View& view, glm::dvec2 at);
-
 struct SampledDepthInfo {
+  std::uint32_t samples = 1;
   std::uint32_t width = 1;   ///< of the image, pixels
   std::uint32_t height = 1;  ///< likewise
   VkFormat format = VK_FORMAT_D32_SFLOAT;
@@ -26,9 +23,23 @@ struct SampledDepthInfo {
   float beyond = 0.0F;  ///< depth around the picture
 };
 
-/// Draws the images, each into its sample. They must be in the layout of `GpuImage::sampled`, and so is the result, for
-/// compute shaders. Throws Error where the device has no such image.
-[[nodiscard]] GpuImage sampled_depth(Context& context, const ShaderLibrary& shaders,
-                                     std::span<const GpuImage* const> of_samples, const SampledDepthInfo& info);
+/// The image, and what draws pictures into its samples.
+class SampledDepth {
+ public:
+  /// Throws Error where the device has no such image.
+  SampledDepth(const vulkan::Device& device, const ShaderLibrary& shaders, const SampledDepthInfo& info);
+
+  /// Draws a picture into a sample; sample 0 clears the others. Take each in turn.
+  void record(vulkan::Recorder& recorder, const GpuImage& picture, std::uint32_t sample) const;
+  [[nodiscard]] const GpuImage& image() const { return image_; }
+
+ private:
+  SampledDepthInfo info_;
+  GpuImage image_;
+  std::vector<vulkan::Pipeline> pipelines_;  ///< one a sample
+};
+
+/// Throws Error where the device draws or reads no depth images of so many samples.
+void check_depth_samples(const vulkan::Device& device, std::uint32_t samples);
 
 }  // namespace lamp::app

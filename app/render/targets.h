@@ -11,7 +11,7 @@ struct Targets {
 
   std::uint32_t width;
   std::uint32_t height;
-  GpuImage depth;       ///< D32, reversed
+  GpuImage depth;       ///< D32
   GpuImage base_color;  ///< RGBA8 sRGB
   GpuImage surface;     ///< RG32 unsigned: normal; metallic, roughness, occlusion
   GpuImage emission;    ///< RGBA16F

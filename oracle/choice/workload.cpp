@@ -129,8 +129,8 @@ Tile tile_of(const View& view, std::span<const float> depth, std::uint32_t px, g
       ++tile.sampled;
       // Without depth: surfaces from 1 m to 100 m, each nine tenths nearer than the next but one.
       const double guess = std::pow(10.0, 2.0 * (j * SAMPLES_A_SIDE + i) / (SAMPLES_A_SIDE * SAMPLES_A_SIDE - 1.0));
-      const float d = depth.empty() ? 1.0F : depth[std::size_t{pixel.y} * view.width() + pixel.x];
-      if (d > 0.0F) add_pixel(tile, view, pixel, depth.empty() ? guess : view.z_view(d));
+      const float d = depth.empty() ? 0.5F : depth[std::size_t{pixel.y} * view.width() + pixel.x];
+      if (d != view.sky_depth()) add_pixel(tile, view, pixel, depth.empty() ? guess : view.z_view(d));
     }
   }
   for (Pixel& pixel : tile.pixels) {

@@ -63,15 +63,24 @@ vulkan::CullerFrame with_depth(const EngineFrame& frame, const GpuImage& depth, 
 }
 
 /// The frames' depth, each as a sample, in a larger image of surfaces that are nearer than any.
-GpuImage in_larger_image(std::span<const EngineFrame> of_samples, VkFormat format, VkOffset2D offset = OFFSET) {
-  std::vector<const GpuImage*> images;
-  for (const EngineFrame& frame : of_samples) images.push_back(&frame.depth_image);
-  return sampled_depth(test_context(), shader_library(), images,
-                       {.width = LARGER.width,
-                        .height = LARGER.height,
-                        .format = format,
-                        .offset = offset,
-                        .beyond = of_samples.front().view.reversed_depth() ? 1.0F : 0.0F});
+SampledDepth in_larger_image(std::span<const EngineFrame> of_samples, VkFormat format, VkOffset2D offset = OFFSET) {
+  SampledDepth depth(test_context().device(), shader_library(),
+                     {.samples = static_cast<std::uint32_t>(of_samples.size()),
+                      .width = LARGER.width,
+                      .height = LARGER.height,
+                      .format = format,
+                      .offset = offset,
+                      .beyond = of_samples.front().view.reversed_depth() ? 1.0F : 0.0F});
+  test_context().submit([&](VkCommandBuffer commands) {
+    vulkan::AccessTracker tracker;
+    vulkan::Recorder recorder(test_context().device(), commands, tracker);
+    for (const EngineFrame& frame : of_samples) tracker.assume(frame.depth_image.sampled());
+    for (std::uint32_t i = 0; i < of_samples.size(); ++i) depth.record(recorder, of_samples[i].depth_image, i);
+    recorder.barrier({{.resource = depth.image().sampled(),
+                       .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       .access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}});
+  });
+  return depth;
 }
 
 class DepthImages : public GpuTest {};
@@ -104,13 +113,13 @@ TEST_F(DepthImages, AnyFormatAtAnyPlace) {
       if (!can_be(format, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
         continue;
       ++tried;
-      const GpuImage depth = in_larger_image(frames, format);
-      const GpuImage at_the_corner = in_larger_image(frames, format, {});
+      const SampledDepth depth = in_larger_image(frames, format);
+      const SampledDepth at_the_corner = in_larger_image(frames, format, {});
       for (const CullerCandidate& candidate : rows()) {
         SCOPED_TRACE(fmt::format("{} {} {}", name, reversed ? "reversed" : "standard", candidate.method));
         vulkan::Culler culler = culler_of_samples(candidate, 1);
-        const Masks masks = cull_and_walk(culler, frames[0], with_depth(frames[0], depth, OFFSET));
-        EXPECT_EQ(masks, cull_and_walk(culler, frames[0], with_depth(frames[0], at_the_corner)));
+        const Masks masks = cull_and_walk(culler, frames[0], with_depth(frames[0], depth.image(), OFFSET));
+        EXPECT_EQ(masks, cull_and_walk(culler, frames[0], with_depth(frames[0], at_the_corner.image())));
         if (format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D32_SFLOAT_S8_UINT) {
           EXPECT_EQ(masks, masks_alone(candidate, frames[0]));
           expect_no_miss(frames[0], masks);
@@ -153,11 +162,11 @@ TEST_F(DepthImages, ALightThatReachesAnySampleIsListed) {
     const bool reversed = samples != 4;
     const std::vector<EngineFrame> frames = frames_of_samples(samples, reversed);
     const EngineFrame centred = engine_frame({.reversed_depth = reversed});
-    const GpuImage depth = in_larger_image(frames, VK_FORMAT_D32_SFLOAT);
+    const SampledDepth depth = in_larger_image(frames, VK_FORMAT_D32_SFLOAT);
     for (const CullerCandidate& candidate : ways()) {
       SCOPED_TRACE(fmt::format("{} samples {} {}", samples, candidate.method, fmt::join(candidate.options, " ")));
       vulkan::Culler culler = culler_of_samples(candidate, samples);
-      const vulkan::CullerFrame told = with_depth(centred, depth, OFFSET);
+      const vulkan::CullerFrame told = with_depth(centred, depth.image(), OFFSET);
       for (const EngineFrame& frame : frames) expect_no_miss(frame, cull_and_walk(culler, frame, told));
     }
   }
@@ -171,11 +180,11 @@ TEST_F(DepthImages, SamplesThatAreAlikeGiveTheListsOfOne) {
     for (int i = 0; i < 4; ++i) alike.push_back(engine_frame());
     return alike;
   }();
-  const GpuImage depth = in_larger_image(frames, VK_FORMAT_D32_SFLOAT);
+  const SampledDepth depth = in_larger_image(frames, VK_FORMAT_D32_SFLOAT);
   for (const CullerCandidate& candidate : ways()) {
     SCOPED_TRACE(fmt::format("{} {}", candidate.method, fmt::join(candidate.options, " ")));
     vulkan::Culler culler = culler_of_samples(candidate, 4);
-    const Masks masks = cull_and_walk(culler, frames[0], with_depth(frames[0], depth, OFFSET));
+    const Masks masks = cull_and_walk(culler, frames[0], with_depth(frames[0], depth.image(), OFFSET));
     const Masks one = masks_alone(candidate, frames[0]);
     const Options options = take(resolve_options(*take(find_method(candidate.method)), candidate.options));
     const auto is = [&](const char* option, const char* value) {

@@ -7,7 +7,8 @@
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
-#include "render/sample_depth.h"
+#include "render/antialias.h"
+#include "render/host_depth.h"
 #include "scene/flight.h"
 
 namespace lamp::app {
@@ -23,10 +24,6 @@ vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup, glm::uvec2 gro
       vulkan::Pipeline::compute(test_context().device(), info, test_shader("walk@" + std::string(lookup.name))));
 }
 
-View flipped(const View& view) {
-  return take(View::create(view.width(), view.height(), flip_depth(view.clip_from_view()), view.view_from_world()));
-}
-
 float device_depth(const View& view, double z_view) {
   const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(0.0, 0.0, -z_view, 1.0);
   return static_cast<float>(clip.z / clip.w);
@@ -37,13 +34,13 @@ float device_depth(const View& view, double z_view) {
 EngineFrame engine_frame(const EngineFrameInfo& info) {
   const TestScene& scene = builtin_test_scene("corridor");
   const View centred = view_of(find_camera(scene.scene, ""), ENGINE_WIDTH, ENGINE_HEIGHT, info.projection);
-  const View drawn = view_through(centred, info.at);
+  const View drawn = shifted(centred, info.at - 0.5);
   Renderer renderer(test_context(), shader_library(), scene.gpu, ENGINE_WIDTH, ENGINE_HEIGHT, ENGINE_LIGHTS);
   const LitCase lit =
       make_case(renderer, drawn, test_lights(scene.air, centred, {.count = info.lights, .seed = info.seed}));
   std::vector<shared::Light> padded = lit.lights;
   padded.resize(ENGINE_LIGHTS);
-  const View view = info.reversed_depth ? drawn : flipped(drawn);
+  const View view = info.reversed_depth ? drawn : with_standard_depth(drawn);
   std::vector<float> depth = lit.depth;
   if (!info.reversed_depth)
     for (float& one : depth) one = one == 0.0F ? 1.0F : device_depth(view, drawn.z_view(one));

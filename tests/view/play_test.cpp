@@ -83,7 +83,7 @@ TEST_F(Play, EndsWhereAnExpectationIsNotMet) {
 /// A picture that is saved, a state that is saved, and what `lamp render` makes of that state and of the options.
 TEST_F(Play, SavesThePictureOfLampRender) {
   const nlohmann::json state = nlohmann::json::parse(R"({"scene": "posts", "lights": 90, "seed": 4, "light_frame": 17,
-    "exposure": "0.7", "method": "clustered", "free_camera": {"eye": [0.5, 2, 6], "yaw": 0.25, "pitch": -0.125,
+    "depth": "standard", "depth_samples": 4, "exposure": "0.7", "method": "clustered", "free_camera": {"eye": [0.5, 2, 6], "yaw": 0.25, "pitch": -0.125,
     "near": 0.05, "far": 0, "fov_y": 1}, "edits": [{"light": 3, "type": "spot", "position": [0, 3, 0],
     "color": [1, 0.2, 0.1], "intensity": 80, "range": 9, "direction": [0, -1, 0.1], "inner_angle": 0.3,
     "outer_angle": 0.6}]})");

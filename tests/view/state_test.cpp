@@ -29,6 +29,8 @@ ViewState full_state() {
   r.light_frame = 12;
   r.free_camera = FreeCamera{.eye = {0.1, 1.0 / 3.0, -7e-9}, .yaw = 2.1, .pitch = -0.7, .fov_y = 0.9F};
   r.projection = "infinite";
+  r.depth = "standard";
+  r.depth_samples = 4;
   r.grow = true;
   state.exposure = "0.25";
   state.samples = 4;

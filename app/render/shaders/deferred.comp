@@ -28,7 +28,7 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy + uvec2(0u, FIRST_ROW));
   const bool inside = all(lessThan(uvec2(pixel), frame.size_px));
   const float depth = inside ? texelFetch(depth_image, pixel, 0).x : 0.0;
-  const bool lit = !is_sky(frame, depth);
+  const bool lit = inside && !is_sky(frame, depth);
   const float z_view = z_view_of(frame, depth);
   vec3 sum = surroundings.sky;
   Reflector r;

@@ -21,8 +21,8 @@ const uint FACES[60] = uint[](0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1
                               8, 1);
 const float WHOLE_SCREEN_M = 1e6;  // beyond this a sphere's corners would lose their precision
 
-vec4 whole_screen(uint corner) {
-  return vec4(corner == 1u ? 3.0 : -1.0, corner == 2u ? 3.0 : -1.0, 0.0, 1.0);
+vec4 whole_screen(uint corner) {  // behind all surfaces
+  return vec4(corner == 1u ? 3.0 : -1.0, corner == 2u ? 3.0 : -1.0, uintBitsToFloat(frame.sky_bits), 1.0);
 }
 
 void main() {
