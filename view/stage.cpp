@@ -25,10 +25,15 @@ std::string lights_key(const Request& r) {
                      r.light_frame);
 }
 
+std::string shadows_key(const Request& r) {
+  return fmt::format("{} {} {} {} {}", r.shadows, r.point_shadows, r.shadow_lights, r.shadow_budget, r.atlas);
+}
+
 std::string key_of(const LightingInfo& info, bool grow) {
-  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
+  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
                      info.width, info.height, info.light_capacity, static_cast<int>(info.path),
-                     static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed, grow);
+                     static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed,
+                     info.shadows ? static_cast<int>(*info.shadows) : -1, grow);
 }
 
 }  // namespace
@@ -100,14 +105,16 @@ void Stage::need_frame(const ViewState& state) {
   const auto lights = static_cast<std::uint32_t>(lights_->lights->size());
   const auto decals = static_cast<std::uint32_t>(lights_->decals.size());
   const HostDepth depth = parse_depth(state.request.depth, state.request.depth_samples);
-  std::string key =
-      fmt::format("{}x{} {} {} {} {}", view.width(), view.height(), lights, decals, depth.samples, depth.reversed);
+  const std::optional<ShadowSettings> shadows = requested_shadows(state.request);
+  std::string key = fmt::format("{}x{} {} {} {} {} {}", view.width(), view.height(), lights, decals, depth.samples,
+                                depth.reversed, shadows_key(state.request));
   if (key != renderer_key_) {
     display_.reset();
     renderer_.reset();
     renderer_key_.clear();
     renderer_ = std::make_unique<Renderer>(context_, shaders_, *scene_->gpu, view.width(), view.height(), lights,
                                            decals, depth);
+    if (shadows) renderer_->cast_shadows(*shadows);
     display_ = std::make_unique<Display>(context_.device(), shaders_, view.width(), view.height());
     renderer_key_ = std::move(key);
     made_anew_ = true;
@@ -143,6 +150,7 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
                     .transparency = !scene_->gpu->blended().empty(),
                     .captured = scene_->scene.captured.has_value(),
                     .decals = !lights_->decals.empty()};
+  if (const Shadows* shadows = renderer_->shadows()) info.shadows = shadows->settings().filter;
   std::string key = key_of(info, request.grow);
   const auto found = std::ranges::find(lightings_, key, &KeptLighting::key);
   if (found != lightings_.end()) {

@@ -70,6 +70,7 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
   if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
+  if (stats.shadows) line("shadows", shadow_words(*stats.shadows));
   for (const std::string& note : stats.notes) line("note", note);
   if (stats.findings)
     line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",

@@ -199,6 +199,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_path(request.path));
   static_cast<void>(parse_brdf(request.brdf));
   static_cast<void>(parse_depth(request.depth, request.depth_samples));
+  static_cast<void>(requested_shadows(request));
 }
 
 Scene load_scene(const std::string& name) {
@@ -254,6 +255,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
     : setup_(setup),
       brdf_(parse_brdf(request.brdf)),
       depth_(parse_depth(request.depth, request.depth_samples)),
+      shadows_(requested_shadows(request)),
       grow_(request.grow),
       shaders_(request.shader_dir) {
   context_ = std::make_unique<Context>(ContextInfo{
@@ -262,6 +264,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
                                          static_cast<std::uint32_t>(setup.lights.size()),
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
+  if (shadows_) renderer_->cast_shadows(*shadows_);
   renderer_->set_frame(setup.view, setup.lights, setup.decals);
 }
 
@@ -277,7 +280,8 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
                         .depth = depth_,
                         .transparency = !gpu_scene_->blended().empty(),
                         .captured = setup_.scene.captured.has_value(),
-                        .decals = !setup_.decals.empty()},
+                        .decals = !setup_.decals.empty(),
+                        .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt},
                        grow_);
 }
 

@@ -37,6 +37,11 @@ struct Request {
   std::vector<std::string> options;
   std::string path = "deferred";
   std::string brdf = "ggx";
+  std::string shadows = "off";          ///< filter
+  std::string point_shadows = "faces";  ///< or octahedron
+  std::string shadow_lights = "all";    ///< how many of the first lights
+  std::string shadow_budget = "all";    ///< texels drawn in a frame
+  std::uint32_t atlas = 4096;           ///< texels a side
   std::string camera;
   int frame = -1;                         ///< of the flight; -1: the camera
   int light_frame = -1;                   ///< of the generated lights' paths; -1: as the flight's
@@ -69,6 +74,8 @@ void add_path_option(CLI::App& command, Request& request);
 void add_grow_option(CLI::App& command, Request& request);
 /// Adds `--explain` and `--calibration`.
 void add_auto_options(CLI::App& command, Request& request);
+/// Adds `--shadows` and what goes with it.
+void add_shadow_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
@@ -115,6 +122,10 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] Brdf parse_brdf(const std::string& text);
 /// "reversed" or "standard"; 1, 2, 4 or 8 samples.
 [[nodiscard]] HostDepth parse_depth(const std::string& text, std::uint32_t samples);
+/// Of `--shadows` and what goes with it; nothing if they are off.
+[[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request);
+/// As `--shadows` takes it.
+[[nodiscard]] std::string_view shadow_filter_name(ShadowFilter filter);
 /// "oracle", "gpu" or "auto": by the number of pairs where the device has double precision, else the oracle. Throws
 /// Error for `gpu` where it has not.
 [[nodiscard]] VerifierChoice parse_verifier(const std::string& text, const Context& context);
@@ -150,6 +161,7 @@ class Session {
   const Setup& setup_;
   Brdf brdf_;
   HostDepth depth_;
+  std::optional<ShadowSettings> shadows_;
   bool grow_;
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;

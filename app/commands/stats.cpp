@@ -74,13 +74,15 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
 
 Stats make_stats(const Request& request, Session& session, Lighting& lighting, const Setup& setup, Rendered rendered,
                  std::uint32_t frames) {
-  return make_stats({.device = session.context().row(),
-                     .scene = request.scene,
-                     .view = setup.view,
-                     .lights = setup.lights.size(),
-                     .frames = frames,
-                     .decals = setup.decals.size()},
-                    lighting, std::move(rendered));
+  Stats stats = make_stats({.device = session.context().row(),
+                            .scene = request.scene,
+                            .view = setup.view,
+                            .lights = setup.lights.size(),
+                            .frames = frames,
+                            .decals = setup.decals.size()},
+                           lighting, std::move(rendered));
+  stats.shadows = shadow_stats(session.renderer().shadows());
+  return stats;
 }
 
 void set_walked(Stats& stats, std::span<const Visit> visits) {
@@ -153,6 +155,7 @@ nlohmann::json to_json(const Stats& s) {
     }
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
+  if (s.shadows) json["shadows"] = to_json(*s.shadows);
   if (s.judgement) json.update({{"verdict", name_of(s.judgement->verdict)}, {"reason", s.judgement->reason}});
   if (s.decal_findings)
     json.update({{"decals_missed", s.decal_findings->missed},

@@ -12,6 +12,14 @@
 
 namespace lamp::app {
 
+/// Of the last frame.
+struct ShadowStats {
+  ShadowSettings settings;
+  ShadowCounts counts;
+  std::vector<std::uint32_t> waiting;  ///< lights
+  std::vector<std::uint32_t> without;
+};
+
 struct Stats {
   std::string device, driver, scene, method;
   Options options;
@@ -21,7 +29,8 @@ struct Stats {
   std::size_t lights = 0;
   std::size_t decals = 0;
   std::uint32_t frames = 0;
-  Rendered rendered;  ///< its picture is not kept
+  std::optional<ShadowStats> shadows;  ///< where lights cast them
+  Rendered rendered;                   ///< its picture is not kept
   std::vector<std::pair<std::string, std::uint64_t>> bytes;
   std::uint64_t cells = 0;
   std::vector<std::pair<std::string, std::string>> fits_with;  ///< options with which all lists of the frame fit
@@ -59,6 +68,11 @@ void set_walked(Stats& stats, std::span<const Visit> visits);
 
 /// "3 cells did not fit and walked more lights; there is room with mean_capacity=40". Of a frame with overflow.
 [[nodiscard]] std::string overflow_words(const Stats& stats);
+
+/// "pcf: 60 of 64 lights in view have one, 4 wait; 1.2 million texels of 4096 x 4096"
+[[nodiscard]] std::string shadow_words(const ShadowStats& shadows);
+[[nodiscard]] std::optional<ShadowStats> shadow_stats(const Shadows* shadows);
+[[nodiscard]] nlohmann::json to_json(const ShadowStats& shadows);
 
 [[nodiscard]] nlohmann::json to_json(const Stats& stats);
 

@@ -36,6 +36,11 @@ void for_each_field(Fields&& at, State& s) {
   at.settings("options", r.options);
   at.text("path", r.path);
   at.text("brdf", r.brdf);
+  at.text("shadows", r.shadows);
+  at.text("point_shadows", r.point_shadows);
+  at.text("shadow_lights", r.shadow_lights);
+  at.text("shadow_budget", r.shadow_budget);
+  at.whole("atlas", r.atlas, 1, 32768);
   at.text("camera", r.camera);
   at.moment("frame", r.frame);
   at.moment("light_frame", r.light_frame);

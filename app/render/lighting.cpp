@@ -18,9 +18,20 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-std::vector<vulkan::Bound> with_decals(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
-  bound.push_back({BINDING_DECALS, frame.data.decals()});
+std::vector<vulkan::Bound> with_shadows(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
+  bound.insert(bound.end(), frame.shadows.begin(), frame.shadows.end());
   return bound;
+}
+
+std::vector<vulkan::Bound> with_decals_and_shadows(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
+  bound.push_back({BINDING_DECALS, frame.data.decals()});
+  return with_shadows(std::move(bound), frame);
+}
+
+std::vector<vulkan::Use> shadow_uses(const LightingFrame& frame, VkPipelineStageFlags2 stages) {
+  std::vector<vulkan::Use> uses;
+  for (const vulkan::Bound& b : frame.shadows) uses.push_back(reads(b.resource, stages));
+  return uses;
 }
 
 /// The G-buffer at the bindings of common/deferred_surface.glsl.
@@ -139,6 +150,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS)});
+  append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
@@ -146,7 +158,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
                          .frame = &frame.data,
                          .draws = frame.scene.opaque(),
                          .pipeline = &shade_,
-                         .more = with_decals(lookup.resources, frame)});
+                         .more = with_decals_and_shadows(lookup.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }
@@ -156,6 +168,7 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
   const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
+  bound = with_shadows(std::move(bound), frame);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
@@ -187,6 +200,8 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
   if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup.buffer_uses(COMPUTE));
   append(bound, lookup.resources);
+  bound = with_shadows(std::move(bound), frame);
+  append(uses, shadow_uses(frame, COMPUTE));
   const glm::uvec2 group = shade_group(info_, runner_.plan());
 
   recorder.begin_pass(fused() ? "cull and shade" : "deferred shading", uses);
@@ -201,6 +216,7 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
       .colors = {{&frame.targets.hdr}}, .depth = &frame.targets.depth, .depth_use = Attachments::Depth::test};
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}});
+  bound = with_shadows(std::move(bound), frame);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   for (const vulkan::Bound& b : bound)
     if (b.binding != 1) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
@@ -234,6 +250,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS)});
+  append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
   recorder.begin_pass("transparent", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
@@ -241,7 +258,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
                          .frame = &frame.data,
                          .draws = far_to_near,
                          .pipeline = &transparent_,
-                         .more = with_decals(lookup.resources, frame)});
+                         .more = with_decals_and_shadows(lookup.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }

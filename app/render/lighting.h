@@ -9,6 +9,7 @@
 #include "render/decal_pass.h"
 #include "render/geometry.h"
 #include "render/lighting_pipelines.h"
+#include "render/shadows.h"
 
 namespace lamp::app {
 
@@ -21,6 +22,7 @@ struct LightingFrame {
   vulkan::PlanInputs inputs;               ///< what is culled: `data` and `targets.depth`, or more samples than those
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   glm::vec3 eye{0.0F};
+  ShadowBound shadows{};        ///< what look-ups of shadows bind
   bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none
 };
 

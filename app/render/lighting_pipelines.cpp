@@ -8,6 +8,7 @@
 #include "gpu/check.h"
 #include "render/decal_pass.h"
 #include "render/mesh_pass.h"
+#include "render/shadows.h"
 
 namespace lamp::app {
 namespace {
@@ -43,6 +44,7 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
                               {CONSTANT_BOXES, info.decals ? 1U : 0U},
                               {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U}});
   pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  add_shadows(pipeline, info.shadows);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),
                                          shaders.spirv(variant("forward", plan.lookup.name)), state));
@@ -55,6 +57,7 @@ vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLib
                                 .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
   pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
   pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  add_shadows(pipeline, info.shadows);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("full_screen"),
                                          shaders.spirv(variant("forward_captured", plan.lookup.name)),
@@ -76,6 +79,7 @@ vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLib
                         {CONSTANT_WALK, walks ? 1U : 0U},
                         {CONSTANT_FIRST_ROW, info.shaded.first},
                         {CONSTANT_BOXES, info.decals ? 1U : 0U}};
+  add_shadows(pipeline, info.shadows);
   append(pipeline.constants, vulkan::lookup_constants(lookup));
   append(pipeline.bindings, vulkan::lookup_bindings(lookup));
   return take(vulkan::Pipeline::compute(device, pipeline, shaders.spirv(variant("deferred", lookup.name))));
@@ -135,11 +139,12 @@ vulkan::Pipeline volumes_pipeline(const vulkan::Device& device, const ShaderLibr
                                        .depth_clamp = true,
                                        .depth_compare = info.depth.not_nearer(),
                                        .blend = vulkan::GraphicsState::Blend::add};
-  return take(vulkan::Pipeline::graphics(device,
-                                         {.name = "light volumes",
-                                          .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}},
-                                          .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)},
-                                         shaders.spirv("volume_proxy"), shaders.spirv("volume_light"), additive));
+  vulkan::PipelineInfo pipeline{.name = "light volumes",
+                                .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}},
+                                .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+  add_shadows(pipeline, info.shadows);
+  return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("volume_proxy"), shaders.spirv("volume_light"),
+                                         additive));
 }
 
 vulkan::Pipeline transparent_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lamplight/method.h"
+#include "lamplight/shadow_atlas.h"
 #include "render/host_depth.h"
 #include "render/shader_library.h"
 
@@ -40,10 +41,11 @@ struct LightingInfo {
   std::uint32_t light_capacity = 0;  ///< decals included
   ShadingPath path = ShadingPath::deferred;
   Brdf brdf = Brdf::ggx;
-  HostDepth depth;            ///< of the frames
-  bool transparency = false;  ///< the scene has blended surfaces
-  bool captured = false;      ///< the scene is a captured frame
-  bool decals = false;        ///< the frames have decals
+  HostDepth depth;                      ///< of the frames
+  bool transparency = false;            ///< the scene has blended surfaces
+  bool captured = false;                ///< the scene is a captured frame
+  bool decals = false;                  ///< the frames have decals
+  std::optional<ShadowFilter> shadows;  ///< lights cast shadows, filtered so
   /// Of the options, those that room was made with, for what did not fit with the ones asked for.
   std::vector<std::pair<std::string, std::string>> grown;
   /// What is shaded: a reference picture may need a part alone. `first` is a multiple of 8; not with a fused look-up.

@@ -75,12 +75,19 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
       targets_(make_targets(context.device(), width, height)),
       data_(context.device(), light_capacity, decal_capacity),
       geometry_(context.device(), shaders, depth),
+      no_shadows_(context.device()),
+      light_capacity_(light_capacity),
       timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {
   if (depth.samples == 1) return;
   check_depth_samples(context.device(), depth.samples);
   all_samples_ = AllSamples{
       .data = FrameData(context.device(), light_capacity, decal_capacity),
       .depth = SampledDepth(context.device(), shaders, {.samples = depth.samples, .width = width, .height = height})};
+}
+
+void Renderer::cast_shadows(const ShadowSettings& settings) {
+  assert(!shadows_ && "once");
+  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_);
 }
 
 void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
@@ -91,6 +98,7 @@ void Renderer::set_frame(const View& view, std::span<const shared::Light> lights
   if (moves || depth_.samples > 1) forget_surfaces();
   sample_view_ = view;
   data_.set(view, lights, decals);
+  if (shadows_) shadows_->schedule(view, lights);
   if (!all_samples_) return;
   all_samples_->data.set(view, lights, decals);
   if (moves) draw_samples();
@@ -139,7 +147,8 @@ LightingFrame Renderer::lighting_frame() const {
           .geometry = geometry_,
           .inputs = plan_inputs(),
           .kept = kept_ ? &*kept_ : nullptr,
-          .eye = glm::vec3(sample_view_.world_from_view()[3])};
+          .eye = glm::vec3(sample_view_.world_from_view()[3]),
+          .shadows = shadow_bound()};
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
@@ -149,6 +158,7 @@ void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuff
 
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
   record_upload(recorder);
+  if (shadows_) shadows_->record(recorder);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
   lighting.record(recorder, frame);

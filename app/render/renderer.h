@@ -64,6 +64,13 @@ class Renderer {
            std::uint32_t height, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0,
            const HostDepth& depth = {});
 
+  /// Lights of all frames cast shadows. Once, before the first `set_frame`. Throws Error for what the device cannot do.
+  void cast_shadows(const ShadowSettings& settings);
+  /// Null: no light casts a shadow.
+  [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
+  /// What shading binds for them.
+  [[nodiscard]] ShadowBound shadow_bound() const { return shadows_ ? shadows_->bound() : no_shadows_.bound(); }
+
   /// Camera, lights and decals of the next frames; depth runs as the renderer was told. A Lighting shows decals only if
   /// it was made for them.
   void set_frame(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
@@ -177,6 +184,9 @@ class Renderer {
   std::optional<AllSamples> all_samples_;
   bool surfaces_drawn_ = false;           ///< the G-buffer has those of sample_view_, without decals
   std::optional<CapturedSurfaces> kept_;  ///< of sample_view_
+  NoShadows no_shadows_;
+  std::optional<Shadows> shadows_;
+  std::uint32_t light_capacity_;
   vulkan::AccessTracker tracker_;
   vulkan::Timestamps timestamps_;
 };

@@ -135,6 +135,8 @@ void Shadows::schedule(const View& view, std::span<const shared::Light> lights) 
   const ShadowFrame frame = take(
       schedule_.schedule({.views = std::span(&view, 1), .lights = shadowed, .budget_texels = settings_.budget_texels}));
   counts_ = frame.counts;
+  waiting_.assign(frame.waiting.begin(), frame.waiting.end());
+  without_.assign(frame.without.begin(), frame.without.end());
   maps_.assign(frame.maps.begin(), frame.maps.end());
   maps_.resize(lights.size());
   view_count_ = static_cast<std::uint32_t>(frame.views.size());

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,6 +24,27 @@ struct ShadowSettings {
   std::uint64_t budget_texels = ALL_TEXELS;  ///< drawn in a frame
 };
 
+/// What shading binds for its look-up (lib/shaders/shadow), and the constant that says which filter.
+inline constexpr std::uint32_t BINDING_SHADOW_MAPS = 11;
+inline constexpr std::uint32_t BINDING_SHADOW_ATLAS = 12;
+inline constexpr std::uint32_t CONSTANT_SHADOW_FILTER = 15;
+using ShadowBound = std::array<vulkan::Bound, 2>;
+
+[[nodiscard]] vulkan::Constant shadow_constant(std::optional<ShadowFilter> filter);
+/// Adds bindings and constant to those of a pipeline that shades. Without a filter everything is lit.
+void add_shadows(vulkan::PipelineInfo& pipeline, std::optional<ShadowFilter> filter);
+
+/// In place of shadows where there are none: something to bind.
+class NoShadows {
+ public:
+  explicit NoShadows(const vulkan::Device& device);
+  [[nodiscard]] ShadowBound bound() const;
+
+ private:
+  GpuImage atlas_;
+  vulkan::Buffer maps_;
+};
+
 class Shadows {
  public:
   /// Throws Error for an atlas that the device cannot have, and for a device that cannot draw it.
@@ -36,9 +58,11 @@ class Shadows {
 
   [[nodiscard]] const ShadowSettings& settings() const { return settings_; }
   [[nodiscard]] const ShadowCounts& counts() const { return counts_; }
+  [[nodiscard]] std::span<const std::uint32_t> waiting() const { return waiting_; }  ///< lights, as counted
+  [[nodiscard]] std::span<const std::uint32_t> without() const { return without_; }
   [[nodiscard]] std::span<const shared::ShadowMap> maps() const { return maps_; }
   [[nodiscard]] const GpuImage& atlas() const { return atlas_; }
-  [[nodiscard]] vulkan::Resource map_buffer() const { return vulkan::Resource::storage(map_buffer_.handle()); }
+  [[nodiscard]] ShadowBound bound() const;
 
  private:
   void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
@@ -68,6 +92,8 @@ class Shadows {
 
   bool changed_ = false;  ///< since the last `record`
   ShadowCounts counts_;
+  std::vector<std::uint32_t> waiting_;
+  std::vector<std::uint32_t> without_;
   std::vector<shared::ShadowMap> maps_;
   std::vector<VkClearRect> clears_;
   std::uint32_t view_count_ = 0;

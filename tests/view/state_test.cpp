@@ -44,6 +44,11 @@ ViewState full_state() {
                             .inner_angle = 0.1F,
                             .outer_angle = 0.2F}},
                  {.light = 1, .value = {.position = {1.0F, 2.0F, 3.0F}}}};
+  state.request.shadows = "pcf";
+  state.request.point_shadows = "octahedron";
+  state.request.shadow_lights = "5";
+  state.request.shadow_budget = "65536";
+  state.request.atlas = 1024;
   state.resolution = 0.5F;
   state.paused = true;
   state.speed = -2.0F;

@@ -26,6 +26,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
 void main() {
   lookup_prepare();
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy + uvec2(0u, FIRST_ROW));
+  shadow_seed = seed_of_pixel(uvec2(pixel));
   const bool inside = all(lessThan(uvec2(pixel), frame.size_px));
   const float depth = inside ? texelFetch(depth_image, pixel, 0).x : 0.0;
   const bool lit = inside && !is_sky(frame, depth);

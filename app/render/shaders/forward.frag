@@ -27,6 +27,7 @@ void main() {
   const vec3 emission = material_emission();
   if (is_cut_out(color.a)) discard;
 
+  shadow_seed = seed_of_pixel(uvec2(gl_FragCoord.xy));
   const float z_view = z_view_of(frame, gl_FragCoord.z);
   const vec3 position = world_position(frame, gl_FragCoord.xy, z_view);
   Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);

@@ -23,6 +23,7 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float depth = texelFetch(depth_image, pixel, 0).x;
   if (is_sky(frame, depth)) discard;
+  shadow_seed = seed_of_pixel(uvec2(pixel));
   const float z_view = z_view_of(frame, depth);
   const Surface s = read_surface(pixel, z_view);
   const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;

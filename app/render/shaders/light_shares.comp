@@ -25,6 +25,7 @@ layout(push_constant) uniform Push {
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i > count) return;
+  shadow_seed = seed_of_pixel(pixel);
   const Surface s = read_surface(ivec2(pixel), z_view_of(frame, texelFetch(depth_image, ivec2(pixel), 0).x));
   const Reflector r = reflector(s);
   vec3 term = vec3(0.0);

@@ -17,6 +17,7 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float depth = texelFetch(depth_image, pixel, 0).x;
   if (is_sky(frame, depth)) discard;
+  shadow_seed = seed_of_pixel(uvec2(pixel));
   const Surface s = read_surface(pixel, z_view_of(frame, depth));
   vec3 sum = vec3(0.0);
   add_light(sum, reflector(s), in_light);

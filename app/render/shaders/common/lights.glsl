@@ -5,6 +5,7 @@
 #define LAMP_LIGHTS
 #include "common/punctual.glsl"
 #include "lamplight/shared/light.h"
+#include "shadow/shadow.glsl"
 
 // A Light is four of these words.
 layout(set = 0, binding = 3, std430) readonly buffer LightBuffer { uvec4 light_words[]; };
@@ -45,9 +46,27 @@ Emitter emitter_at(uint light) {
   return e;
 }
 
+// Turns the taps of shadow filters: who shades a picture sets it to a number of the pixel.
+uint shadow_seed = 0u;
+uint seed_of_pixel(uvec2 pixel) { return pixel.x + 0x10000u * pixel.y; }
+
+// What the light's shadow leaves of it at a surface.
+bool is_lit(inout Emitter e, Reflector r, uint light) {
+  if (SHADOW_FILTER == SHADOW_OFF) return true;
+  const float lit = shadow_of(light, r.position, r.normal, shadow_seed);
+  precise const vec3 intensity = e.intensity * lit;
+  e.intensity = intensity;
+  return lit > 0.0;
+}
+
+void add_light(inout vec3 sum, Reflector r, uint light, Emitter e, bool spot) {
+  Way way;
+  if (way_to(r, e.position, e.inverse_range2, way) && is_lit(e, r, light)) add_light_along(sum, r, way, e, spot);
+}
+
 void add_light(inout vec3 sum, Reflector r, uint light) {
   const Emitter e = emitter_at(light);
-  add_light(sum, r, e, is_spot(e));
+  add_light(sum, r, light, e, is_spot(e));
 }
 
 #endif

@@ -52,9 +52,4 @@ void add_light_along(inout vec3 sum, Reflector r, Way way, Emitter e, bool spot)
   sum = fma(reflect_light(r, halfway, n_l, arriving), e.intensity, sum);
 }
 
-void add_light(inout vec3 sum, Reflector r, Emitter e, bool spot) {
-  Way way;
-  if (way_to(r, e.position, e.inverse_range2, way)) add_light_along(sum, r, way, e, spot);
-}
-
 #endif

@@ -25,9 +25,9 @@ void add_cell(inout vec3 sum, Reflector r, uvec2 pixel, float z_view) {
   uint light;
   for (Walk walk = walk_begin_points(pixel, z_view); walk_next(walk, light);) {
     if (BOXES && light >= first_box(frame)) continue;  // boxes are culled as points
-    add_light(sum, r, point_at(light), false);
+    add_light(sum, r, light, point_at(light), false);
   }
-  for (Walk walk = walk_begin_spots(pixel, z_view); walk_next(walk, light);) add_light(sum, r, spot_at(light), true);
+  for (Walk walk = walk_begin_spots(pixel, z_view); walk_next(walk, light);) add_light(sum, r, light, spot_at(light), true);
 }
 #else
 void add_cell(inout vec3 sum, Reflector r, uvec2 pixel, float z_view) { add_mixed(sum, r, pixel, z_view); }

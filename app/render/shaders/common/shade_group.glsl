@@ -13,11 +13,13 @@ const uint GROUP_LIGHTS = 64u;  // a group's threads
 shared vec4 s_places[GROUP_LIGHTS];       // position, inverse_range2
 shared vec4 s_intensities[GROUP_LIGHTS];  // intensity, edge
 shared vec3 s_axes[GROUP_LIGHTS];
+shared uint s_lights[GROUP_LIGHTS];  // their numbers, where they have shadows
 
-void share(uint place, Emitter e) {
+void share(uint place, uint light, Emitter e) {
   s_places[place] = vec4(e.position, e.inverse_range2);
   s_intensities[place] = vec4(e.intensity, e.edge);
   if (is_spot(e)) s_axes[place] = e.axis;
+  if (SHADOW_FILTER != SHADOW_OFF) s_lights[place] = light;
 }
 
 void add_shared(inout vec3 sum, Reflector r, uint place) {
@@ -28,6 +30,7 @@ void add_shared(inout vec3 sum, Reflector r, uint place) {
   e.intensity = s_intensities[place].xyz;
   e.edge = s_intensities[place].w;
   if (is_spot(e)) e.axis = s_axes[place];
+  if (SHADOW_FILTER != SHADOW_OFF && !is_lit(e, r, s_lights[place])) return;
   add_light_along(sum, r, way, e, is_spot(e));
 }
 
@@ -41,7 +44,7 @@ void add_group(inout vec3 sum, Reflector r, bool lit, uvec2 pixel, float z_view)
   Walk walk = walk_begin(pixel, z_view);
   uint count = walk_take(walk, GROUP_LIGHTS, thread, light);
   while (count > 0u) {
-    if (thread < count) share(thread, emitter_at(light));
+    if (thread < count) share(thread, light, emitter_at(light));
     barrier();  // all are there
     for (uint i = 0u; lit && i < count; ++i) add_shared(sum, r, i);
     if (count + 32u <= GROUP_LIGHTS) break;  // a whole word of bits would have had room: that was all

@@ -22,6 +22,7 @@ LAMP_CONST SHADOW_HARD = 0u;
 LAMP_CONST SHADOW_PCF = 1u;
 LAMP_CONST SHADOW_VSM = 2u;
 LAMP_CONST SHADOW_EVSM = 3u;
+LAMP_CONST SHADOW_OFF = 4u;  // of a shader: no light has a map, none is looked up
 
 LAMP_CONST LEAST_SQUARE = 16u;  // texels a side
 LAMP_CONST MOST_SQUARE = 2048u;

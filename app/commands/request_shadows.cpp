@@ -1,0 +1,79 @@
+// The options of shadows.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <charconv>
+#include <limits>
+
+#include "commands/command_line.h"
+#include "commands/request.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::string_view ALL = "all";
+constexpr std::array<std::string_view, 3> FILTERS{"off", "hard", "pcf"};  // then in the order of ShadowFilter
+constexpr std::array<std::string_view, 2> POINTS{"faces", "octahedron"};  // in the order of PointShadows
+
+/// A whole number, or all.
+template <class Number>
+Number parse_count(const char* option, const std::string& text, Number all) {
+  if (text == ALL) return all;
+  Number number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw Error(fmt::format("{} '{}': expected a whole number, 0 or more, or all", option, text));
+  return number;
+}
+
+std::size_t parse_name(const char* option, const std::string& text, std::span<const std::string_view> names) {
+  const auto found = std::ranges::find(names, text);
+  if (found == names.end()) throw unknown_name(option, text, names);
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+std::string_view shadow_filter_name(ShadowFilter filter) { return FILTERS[static_cast<std::size_t>(filter) + 1]; }
+
+std::optional<ShadowSettings> requested_shadows(const Request& request) {
+  const std::size_t filter = parse_name("--shadows", request.shadows, FILTERS);
+  const ShadowSettings settings{
+      .filter = filter == 0 ? ShadowFilter::hard : static_cast<ShadowFilter>(filter - 1),
+      .points = static_cast<PointShadows>(parse_name("--point-shadows", request.point_shadows, POINTS)),
+      .atlas_size = request.atlas,
+      .lights = parse_count("--shadow-lights", request.shadow_lights, ~0U),
+      .budget_texels = parse_count("--shadow-budget", request.shadow_budget, ALL_TEXELS)};
+  if (filter == 0) return std::nullopt;
+  return settings;
+}
+
+void add_shadow_options(CLI::App& command, Request& r) {
+  command.add_option("--shadows", r.shadows, "how shadows are filtered: off, hard or pcf")
+      ->type_name("FILTER")
+      ->group("Shadows")
+      ->capture_default_str();
+  command.add_option("--shadow-lights", r.shadow_lights, "how many lights cast shadows, the first so many, or all")
+      ->type_name("N")
+      ->group("Shadows")
+      ->capture_default_str();
+  command
+      .add_option("--shadow-budget", r.shadow_budget,
+                  "texels of shadow maps that are drawn in a frame, or all; what waits is counted")
+      ->type_name("TEXELS")
+      ->group("Shadows")
+      ->capture_default_str();
+  command.add_option("--atlas", r.atlas, "side of the image that holds all shadow maps, texels, a power of two")
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()))
+      ->type_name("SIZE")
+      ->group("Shadows")
+      ->capture_default_str();
+  command.add_option("--point-shadows", r.point_shadows, "a point light's map: six faces or one octahedron")
+      ->type_name("NAME")
+      ->group("Shadows")
+      ->capture_default_str();
+}
+
+}  // namespace lamp::app

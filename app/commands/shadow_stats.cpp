@@ -1,0 +1,53 @@
+// What a frame's shadows came to, as JSON and in words.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/stats.h"
+
+namespace lamp::app {
+
+std::optional<ShadowStats> shadow_stats(const Shadows* shadows) {
+  if (shadows == nullptr) return std::nullopt;
+  const auto copy = [](std::span<const std::uint32_t> lights) {
+    return std::vector<std::uint32_t>(lights.begin(), lights.end());
+  };
+  return ShadowStats{.settings = shadows->settings(),
+                     .counts = shadows->counts(),
+                     .waiting = copy(shadows->waiting()),
+                     .without = copy(shadows->without())};
+}
+
+std::string shadow_words(const ShadowStats& shadows) {
+  const ShadowCounts& c = shadows.counts;
+  std::string words = fmt::format("{}: {} of {} lights in view have one", shadow_filter_name(shadows.settings.filter),
+                                  c.shadowed, c.seen);
+  if (c.no_room != 0) words += fmt::format(", {} fit nowhere", c.no_room);
+  if (c.waiting != 0) words += fmt::format(", {} wait to be drawn", c.waiting);
+  if (c.smaller != 0) words += fmt::format(", {} are smaller than asked for", c.smaller);
+  return words +
+         fmt::format("; {} texels of {} x {}", c.used_texels, shadows.settings.atlas_size, shadows.settings.atlas_size);
+}
+
+nlohmann::json to_json(const ShadowStats& shadows) {
+  const ShadowCounts& c = shadows.counts;
+  return {{"filter", shadow_filter_name(shadows.settings.filter)},
+          {"points", shadows.settings.points == PointShadows::faces ? "faces" : "octahedron"},
+          {"atlas", shadows.settings.atlas_size},
+          {"seen", c.seen},
+          {"shadowed", c.shadowed},
+          {"without", c.without},
+          {"without_lights", shadows.without},
+          {"no_room", c.no_room},
+          {"waiting", c.waiting},
+          {"waiting_lights", shadows.waiting},
+          {"smaller", c.smaller},
+          {"redrawn", c.redrawn},
+          {"redrawn_texels", c.redrawn_texels},
+          {"moved", c.moved},
+          {"evicted", c.evicted},
+          {"used_texels", c.used_texels}};
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,29 @@
+// The shadow look-up: how much of a light's light arrives at a point, from the maps of a ShadowAtlas. The filter is a
+// specialization constant.
+// Promise: 0 in full shadow, 1 where nothing is drawn before the point, 1 for a light without a map; the same bits in
+// every shader for the same arguments.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef SHADOW_LOOKUP
+#define SHADOW_LOOKUP
+#include "shadow/parts/offset.glsl"
+#include "shadow/parts/taps.glsl"
+
+// `light`: its index among the frame's. `position`: world, m. `normal`: unit, on the side that is lit. `seed` turns the
+// taps of pcf: a number of the pixel in pictures, a hash of the position elsewhere.
+float shadow_of(uint light, vec3 position, vec3 normal, uint seed) {
+  if (shadow_maps[light].kind == SHADOW_NONE) return 1.0;
+  precise const vec3 rel = position - shadow_maps[light].position;
+  ShadowPlace place = shadow_place(light, rel);
+  if (!(place.w > 0.0)) return 1.0;
+  float taps = 0.0;
+  if (SHADOW_FILTER == SHADOW_PCF) taps = shadow_pcf_radius(light);
+  const float offset = shadow_normal_offset(light, place, rel, normal, taps);
+  precise const vec3 moved = vec3(LAMP_FMA(normal.x, offset, rel.x), LAMP_FMA(normal.y, offset, rel.y),
+                                  LAMP_FMA(normal.z, offset, rel.z));
+  place = shadow_place(light, moved);
+  if (!(place.w > 0.0)) return 1.0;
+  if (SHADOW_FILTER == SHADOW_PCF) return shadow_pcf(light, place, seed);
+  return shadow_hard(light, place);
+}
+
+#endif

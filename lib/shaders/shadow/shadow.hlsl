@@ -1,0 +1,4 @@
+// shadow.glsl for HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#define LAMP_HLSL
+#include "shadow/shadow.glsl"

@@ -1,0 +1,195 @@
+// Shadow look-ups in GLSL and in HLSL against each other, and against the same filters on the CPU.
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <random>
+
+#include "gpu/dispatch.h"
+#include "gpu/shaders/shadow_case.h"
+#include "lamplight/light.h"
+#include "lamplight/shadow_atlas.h"
+
+namespace lamp::app {
+namespace {
+
+using shared::ShadowCase;
+using shared::ShadowMap;
+
+constexpr std::uint32_t ATLAS = 512;
+constexpr std::uint32_t CASES = 64 * 256;
+
+class Random {
+ public:
+  float in(float low, float high) { return std::uniform_real_distribution(low, high)(engine_); }
+  glm::vec3 direction() {
+    glm::vec3 v;
+    do v = {in(-1, 1), in(-1, 1), in(-1, 1)};
+    while (glm::dot(v, v) > 1.0F || glm::dot(v, v) < 0.01F);
+    return glm::normalize(v);
+  }
+  std::uint32_t below(std::uint32_t count) {
+    return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(engine_);
+  }
+
+ private:
+  std::mt19937 engine_{3};
+};
+
+/// Maps of every kind, in squares that lie anywhere, and a light without one.
+std::vector<ShadowMap> some_maps(ShadowFilter filter) {
+  const Light point{.position = {1.0F, 2.0F, -3.0F}, .range = 8.0F};
+  const Light spot{.type = LightType::spot,
+                   .position = {-4.0F, 0.5F, 2.0F},
+                   .range = 8.0F,
+                   .direction = {0.2F, -1.0F, 0.5F},
+                   .outer_angle = 0.7F};
+  const auto map = [&](const Light& light, PointShadows points, std::uint32_t side, glm::uvec2 corner) {
+    const ShadowAtlasInfo info{.size = ATLAS, .points = points, .filter = filter};
+    std::vector<glm::uvec2> corners;
+    for (std::uint32_t i = 0; i < shadow_squares(pack(light), points); ++i)
+      corners.push_back(corner + glm::uvec2(i % 3, i / 3) * side);
+    return shadow_map(pack(light), info, side, corners);
+  };
+  return {map(point, PointShadows::faces, 64, {0, 0}),
+          map(point, PointShadows::faces, 16, {192, 0}),
+          map(point, PointShadows::octahedron, 128, {0, 128}),
+          map(point, PointShadows::octahedron, 16, {256, 0}),
+          map(spot, PointShadows::faces, 128, {128, 128}),
+          map(spot, PointShadows::faces, 16, {272, 0}),
+          ShadowMap{}};
+}
+
+std::vector<ShadowCase> some_cases(std::span<const ShadowMap> maps, Random& random) {
+  std::vector<ShadowCase> cases(CASES);
+  for (ShadowCase& c : cases) {
+    c.light = random.below(static_cast<std::uint32_t>(maps.size()));
+    c.position = maps[c.light].position + random.direction() * random.in(0.05F, 7.0F);
+    c.normal = random.direction();
+    c.seed = random.below(~0U);
+  }
+  cases[0] = {.position = maps[0].position, .light = 0, .normal = {0.0F, 1.0F, 0.0F}};
+  return cases;
+}
+
+/// Depths at which about half of the cases are lit, smooth over some texels.
+std::vector<float> some_depths(Random& random) {
+  std::vector<float> depths(std::size_t{ATLAS} * ATLAS);
+  for (std::uint32_t y = 0; y < ATLAS; ++y)
+    for (std::uint32_t x = 0; x < ATLAS; ++x)
+      depths[y * ATLAS + x] =
+          0.01F / (3.0F + 2.0F * std::sin(0.4F * static_cast<float>(x)) * std::cos(0.3F * static_cast<float>(y))) *
+          random.in(0.9F, 1.1F);
+  return depths;
+}
+
+/// The filters, in double precision and written apart from the shaders. How far a place may be off by rounding decides
+/// nothing in most cases; where it does, the answer is not asked for.
+class Reference {
+ public:
+  Reference(std::span<const ShadowMap> maps, const std::vector<float>& depths) : maps_(maps), depths_(depths) {}
+
+  [[nodiscard]] double shadow_of(const ShadowCase& c, ShadowFilter filter) const {
+    const ShadowMap& map = maps_[c.light];
+    if (map.kind == shared::SHADOW_NONE) return 1.0;
+    const double radius = filter == ShadowFilter::hard ? 0.0 : map.side >= 64 ? 2.0 : 1.0;
+    ShadowPlace place = shadow_place(map, c.position);
+    if (!(place.w > 0.0F)) return 1.0;
+    const double offset = normal_offset(map, place, c, radius + 0.75);
+    place = shadow_place(map, glm::vec3(glm::dvec3(c.position) + glm::dvec3(c.normal) * offset));
+    if (!(place.w > 0.0F)) return 1.0;
+    if (filter == ShadowFilter::hard) return is_lit(map, place, glm::dvec2(place.texel));
+    double lit = 0.0;
+    const double turn = angle_of(c.seed);
+    for (int i = 0; i < 16; ++i) {
+      const double angle = turn + i * (3.0 - std::sqrt(5.0)) * 3.14159265358979;
+      const double from_middle = radius * std::sqrt((i + 0.5) / 16.0);
+      lit += is_lit(map, place, glm::dvec2(place.texel) + from_middle * glm::dvec2(std::cos(angle), std::sin(angle)));
+    }
+    return lit / 16.0;
+  }
+
+ private:
+  static glm::dvec3 axis_of(const ShadowMap& map, const ShadowPlace& place, const glm::dvec3& rel) {
+    if (map.kind == shared::SHADOW_SPOT) return map.axis_z;
+    if (map.kind == shared::SHADOW_OCTAHEDRON)
+      return glm::normalize(glm::mix(glm::dvec3(1.0), glm::dvec3(-1.0), glm::lessThan(rel, glm::dvec3(0.0))));
+    glm::dvec3 axis(0.0);
+    axis[static_cast<int>(place.square / 2)] = place.square % 2 == 0 ? 1.0 : -1.0;
+    return axis;
+  }
+  static double normal_offset(const ShadowMap& map, const ShadowPlace& place, const ShadowCase& c, double reach) {
+    const glm::dvec3 rel = glm::dvec3(c.position) - glm::dvec3(map.position);
+    const glm::dvec3 n(c.normal);
+    const double along = glm::dot(n, axis_of(map, place, rel));
+    const double sine = std::max(std::sqrt(std::max(1.0 - along * along, 0.0)), 0.3);
+    const double m = reach * (map.kind == shared::SHADOW_OCTAHEDRON ? std::sqrt(3.0) : 1.0) * sine / double{map.scale};
+    const double a = std::abs(glm::dot(n, rel)) / double{place.w};
+    return double{place.w} * m * (2.0 * m < a ? a / (a - m) : 2.0);
+  }
+  static double angle_of(std::uint32_t seed) {
+    std::uint32_t x = seed;
+    x = (x ^ (x >> 16U)) * 0x7feb352dU;
+    x = (x ^ (x >> 15U)) * 0x846ca68bU;
+    x ^= x >> 16U;
+    return 2.0 * std::atan((x >> 9U) / 4194304.0 - 1.0) + ((x & 1U) != 0 ? 3.14159265358979 : 0.0);
+  }
+  [[nodiscard]] double is_lit(const ShadowMap& map, const ShadowPlace& place, const glm::dvec2& at) const {
+    glm::ivec2 t(glm::floor(at) - glm::dvec2(corner(map, place.square)));
+    const int side = static_cast<int>(map.side);
+    if (map.kind == shared::SHADOW_OCTAHEDRON) {
+      if (t.x < 0 || t.x >= side) t = {(t.x < 0 ? -1 : 2 * side - 1) - t.x, side - 1 - t.y};
+      if (t.y < 0 || t.y >= side) t = {side - 1 - t.x, (t.y < 0 ? -1 : 2 * side - 1) - t.y};
+    }
+    t = glm::clamp(t, glm::ivec2(0), glm::ivec2(side - 1)) + glm::ivec2(corner(map, place.square));
+    return double{depths_[static_cast<std::size_t>(t.y) * ATLAS + t.x]} <= double{map.near_m} * 1.0005 / double{place.w}
+               ? 1.0
+               : 0.0;
+  }
+  static glm::uvec2 corner(const ShadowMap& map, std::uint32_t square) {
+    return glm::uvec2(map.squares[square] & 0xffffU, map.squares[square] >> 16U) * 16U;
+  }
+
+  std::span<const ShadowMap> maps_;
+  const std::vector<float>& depths_;
+};
+
+class ShadowLookUp : public GpuTest, public ::testing::WithParamInterface<ShadowFilter> {};
+
+TEST_P(ShadowLookUp, IsThatOfTheCpuInBothLanguages) {
+  Random random;
+  const std::vector<ShadowMap> maps = some_maps(GetParam());
+  const std::vector<ShadowCase> cases = some_cases(maps, random);
+  const std::vector<float> depths = some_depths(random);
+  const GpuImage atlas = depth_image(ATLAS, ATLAS, depths);
+  const vulkan::Buffer case_buffer = host_buffer_of("cases", cases);
+  const vulkan::Buffer map_buffer = host_buffer_of("maps", maps);
+  const auto run = [&](const char* shader) {
+    const vulkan::Buffer lit = host_buffer("lit", CASES * sizeof(float));
+    dispatch({.shader = shader,
+              .constants = {static_cast<std::uint32_t>(GetParam())},
+              .resources = {vulkan::Resource::storage(case_buffer.handle()), vulkan::Resource::storage(lit.handle()),
+                            vulkan::Resource::storage(map_buffer.handle()), atlas.sampled()},
+              .groups = {CASES / 64, 1, 1}});
+    return contents<float>(lit);
+  };
+  const std::vector<float> glsl = run("shadow_lookup");
+  EXPECT_EQ(glsl, run("shadow_lookup.hlsl"));
+
+  const Reference reference(maps, depths);
+  std::uint32_t other = 0;
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < CASES; ++i) {
+    other += std::abs(reference.shadow_of(cases[i], GetParam()) - double{glsl[i]}) > 1e-6 ? 1 : 0;
+    sum += glsl[i];
+  }
+  EXPECT_EQ(glsl[0], 1.0F) << "at the light";
+  EXPECT_GT(sum, CASES * 0.3);
+  EXPECT_LT(sum, CASES * 0.8);
+  // Where a place lies within rounding of a texel's edge, or a depth within rounding of what is stored.
+  EXPECT_LE(other, CASES / 200) << other << " of " << CASES;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ShadowLookUp, ::testing::Values(ShadowFilter::hard, ShadowFilter::pcf),
+                         [](const auto& test) { return test.param == ShadowFilter::hard ? "hard" : "pcf"; });
+
+}  // namespace
+}  // namespace lamp::app
