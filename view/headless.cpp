@@ -51,7 +51,7 @@ class HeadlessScreen {
 
 }  // namespace
 
-void run_headless(Context& context, const HeadlessInfo& info) {
+void run_headless(Context& context, const HeadlessInfo& info, const std::function<void(Player&)>& use) {
   const Request& request = info.state.request;
   const ShaderLibrary shaders(request.shader_dir);
   {
@@ -69,7 +69,7 @@ void run_headless(Context& context, const HeadlessInfo& info) {
       player.size = size;
     };
     screen.frame();
-    play(player, info.script);
+    use(player);
   }
   for (const std::string& message : context.take_messages()) throw Error("validation: " + message, Exit::check_failed);
 }

@@ -1,9 +1,8 @@
-// lamp-view --headless: plays a script on a screen that nobody sees, with a fixed step of time.
+// lamp-view --headless: plays on a screen that nobody sees, with a fixed step of time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <vector>
+#include <functional>
 
 #include "gpu/context.h"
 #include "view/script.h"
@@ -12,11 +11,10 @@ namespace lamp::app {
 
 struct HeadlessInfo {
   ViewState state;
-  std::vector<ScriptLine> script;
   glm::uvec2 screen{1280, 720};
 };
 
-/// Throws Error; with Exit::check_failed where the script expects something else, or validation says something.
-void run_headless(Context& context, const HeadlessInfo& info);
+/// Draws a first frame, then lets `use` play. Throws Error; with Exit::check_failed where validation says something.
+void run_headless(Context& context, const HeadlessInfo& info, const std::function<void(Player&)>& use);
 
 }  // namespace lamp::app

@@ -105,7 +105,10 @@ void apply_keys(const Input& input, ViewState& state, const Shown& shown, Wishes
     if (focus) continue;
     if (key == "tab") state.panels = !state.panels;
     if (key == "space") state.paused = !state.paused;
-    if (key == "escape" && !state.help) state.picked.reset();
+    if (key == "escape" && !state.help) {
+      state.picked.reset();
+      state.light.reset();
+    }
     if (key == "escape") state.help = false;
   }
 }

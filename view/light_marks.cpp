@@ -86,7 +86,8 @@ std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& pos
 }
 
 void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& picture) {
-  if (which == LightMarks::none || shown.number == 0) return;
+  const bool one = shown.state.light && *shown.state.light < shown.lights->size();
+  if (which == LightMarks::none && !one) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({static_cast<float>(picture.min.x), static_cast<float>(picture.min.y)},
                     {static_cast<float>(picture.max.x), static_cast<float>(picture.max.y)});
@@ -98,6 +99,11 @@ void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& pi
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < shown.lights->size() && drawn < MOST_MARKS; ++i)
       drawn += draw_light(marks, (*shown.lights)[i], shown.lights->size() <= MOST_OUTLINED) ? 1 : 0;
+  }
+  if (one) {
+    const shared::Light& light = (*shown.lights)[*shown.state.light];
+    draw_light(marks, light, true);
+    if (const auto at = marks.at(light.position)) draw.AddCircle(*at, 3.0F * DOT_PX, IM_COL32_WHITE, 16, 2.0F);
   }
   draw.PopClipRect();
 }

@@ -7,7 +7,8 @@
 
 namespace lamp::app {
 
-/// Onto the picture's rectangle of the screen. Of very many lights, the first MOST_MARKS that are in sight.
+/// Onto the picture's rectangle of the screen, of a state that is shown; and the light that it looks at. Of very many
+/// lights, the first MOST_MARKS that are in sight.
 void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& picture);
 inline constexpr std::size_t MOST_MARKS = 20000;
 

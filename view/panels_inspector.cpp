@@ -4,21 +4,14 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "view/panels.h"
 
 namespace lamp::app {
 namespace {
 
-void draw_lights(const Inspection& found) {
-  constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
-  const float height =
-      ImGui::GetFontSize() * 1.4F * static_cast<float>(std::clamp<std::size_t>(found.lights.size() + 2, 3, 14));
-  if (!ImGui::BeginTable("lights of the cell", 6, FLAGS, {0.0F, height})) return;
-  ImGui::TableSetupScrollFreeze(0, 1);
-  for (const char* title : {"light", "type", "dist.", "range", "share", "why it is listed"})
-    ImGui::TableSetupColumn(title);
-  ImGui::TableHeadersRow();
+void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(found.lights.size()));
   while (clipper.Step()) {
@@ -28,7 +21,8 @@ void draw_lights(const Inspection& found) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(text.c_str());
       };
-      cell(fmt::format("{}", light.light));
+      ImGui::TableNextColumn();
+      if (widgets.pick(fmt::format("{}", light.light), state.light == light.light)) state.light = light.light;
       cell(light.spot ? "spot" : "point");
       cell(fmt::format("{:.2f}", light.distance_m));
       cell(fmt::format("{:.2f}", light.range_m));
@@ -36,10 +30,57 @@ void draw_lights(const Inspection& found) {
       cell(why_listed(light));
     }
   }
-  ImGui::EndTable();
 }
 
-void draw_inspection(const Inspection& found, const Stats& stats) {
+/// In a part of its own that scrolls: a table that scrolls by itself ends the program (an assertion of ImGui 1.86)
+/// where nothing of it is in sight.
+void draw_lights(const Inspection& found, ViewState& state, Widgets& widgets) {
+  constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  const float height = ImGui::GetTextLineHeightWithSpacing() *
+                       static_cast<float>(std::clamp<std::size_t>(found.lights.size() + 2, 3, 16));
+  if (ImGui::BeginChild("lights", {0.0F, height}) && ImGui::BeginTable("lights of the cell", 6, FLAGS)) {
+    for (const char* title : {"light", "type", "dist.", "range", "share", "why it is listed"})
+      ImGui::TableSetupColumn(title);
+    ImGui::TableHeadersRow();
+    draw_rows(found, state, widgets);
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+}
+
+/// The light that was picked: what is changed becomes an edit of the state.
+void edit_light(const Shown& shown, ViewState& state, Widgets& widgets) {
+  if (!state.light || *state.light >= shown.lights->size()) return;
+  const std::uint32_t number = *state.light;
+  const auto found = std::ranges::find(state.edits, number, &LightEdit::light);
+  Light light = found != state.edits.end() ? found->value : unpacked((*shown.lights)[number]);
+  const float step = 0.01F * std::clamp(light.range, 0.1F, 100.0F);
+  Widgets::text(fmt::format("light {}, a {} light", number, light.type == LightType::spot ? "spot" : "point"));
+  bool changed = widgets.move("position", light.position, step, "Where it is, metres. Drag a number.");
+  if (std::isfinite(light.range))
+    changed = widgets.slide("its range", light.range, {.min = 0.01, .max = 1000.0, .logarithmic = true},
+                            "How far it reaches, metres.") ||
+              changed;
+  changed = widgets.color("color", light.color, "Its colour, linear.") || changed;
+  changed = widgets.slide("intensity", light.intensity, {.min = 0.001, .max = 1e5, .logarithmic = true},
+                          "How bright it is, candela.") ||
+            changed;
+  if (light.type == LightType::spot) {
+    changed = widgets.move("direction", light.direction, 0.01F, "Where it looks.") || changed;
+    if (widgets.slide("outer angle", light.outer_angle, {.min = 0.01, .max = 1.57},
+                      "Half of its cone's angle, radians.")) {
+      light.inner_angle = std::min(light.inner_angle, light.outer_angle);
+      changed = true;
+    }
+  }
+  if (light.direction == glm::vec3(0.0F)) return;
+  if (changed && found != state.edits.end()) found->value = light;
+  if (changed && found == state.edits.end()) state.edits.push_back({.light = number, .value = light});
+}
+
+void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
+  const Inspection& found = *shown.inspection;
+  const Stats& stats = shown.first.stats;
   if (found.sky) {
     Widgets::text(fmt::format("Pixel ({}, {}) shows the sky, which no light reaches.", found.pixel.x, found.pixel.y));
     return;
@@ -52,7 +93,8 @@ void draw_inspection(const Inspection& found, const Stats& stats) {
                                    found.cell_pixels, found.cell_near_m, found.cell_far_m));
   Widgets::row("lights", fmt::format("{} listed, {} reach the pixel", found.lights.size(), reaching));
   Widgets::row("the cell", words_of(found.proof));
-  draw_lights(found);
+  draw_lights(found, state, widgets);
+  edit_light(shown, state, widgets);
 }
 
 }  // namespace
@@ -66,7 +108,7 @@ void inspector_window(const Shown& shown, Widgets& widgets, ViewState& state, co
   ImGui::SetNextWindowBgAlpha(0.9F);
   constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("Inspector", nullptr, FLAGS)) {
-    draw_inspection(*shown.inspection, shown.first.stats);
+    draw_inspection(shown, state, widgets);
     if (widgets.button("look away", "Forgets the pixel. Escape does the same.")) state.picked.reset();
   }
   ImGui::End();

@@ -60,6 +60,7 @@ void scene_panel(PanelFrame& p) {
     r.frame = -1;
     p.state.edits.clear();
     p.state.picked.reset();
+    p.state.light.reset();
   }
   for (const std::string& note : p.shown.notes) Widgets::note(note);
 }
@@ -93,7 +94,7 @@ void camera_panel(PanelFrame& p) {
 void lights_panel(PanelFrame& p) {
   if (!p.widgets.header("Lights", true)) return;
   Request& r = p.state.request;
-  if (p.widgets.slide("lights", r.lights, {.min = 0, .max = 1'000'000, .logarithmic = true},
+  if (p.widgets.slide("number", r.lights, {.min = 0, .max = 1'000'000, .logarithmic = true},
                       "Generated lights, besides the scene's own."))
     r.lights_given = true;
   p.widgets.slide("spots", r.spots, {}, "Which part of the generated lights are spots.");

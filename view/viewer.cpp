@@ -231,6 +231,7 @@ void Viewer::open(const std::string& file) {
     opened.request.frame = -1;
     opened.edits.clear();
     opened.picked.reset();
+    opened.light.reset();
     state_ = std::move(opened);
   } catch (const Error& error) {
     complain(error.what());

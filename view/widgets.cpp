@@ -82,6 +82,7 @@ void Widgets::done(const std::string& label, const std::string& tip, const std::
 
 bool Widgets::header(const std::string& label, bool open) {
   before(label);
+  section_ = label;
   const bool is_open = ImGui::CollapsingHeader(label.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   done(label, "");
   return is_open;
@@ -90,7 +91,7 @@ bool Widgets::header(const std::string& label, bool open) {
 bool Widgets::button(const std::string& label, const std::string& tip, const std::string& reason) {
   before(label);
   const Greyed greyed(!reason.empty());
-  const bool clicked = ImGui::Button(label.c_str());
+  const bool clicked = ImGui::Button(unique(label).c_str());
   done(label, tip, reason);
   return clicked;
 }
@@ -98,7 +99,7 @@ bool Widgets::button(const std::string& label, const std::string& tip, const std
 bool Widgets::check(const std::string& label, bool& value, const std::string& tip, const std::string& reason) {
   before(label);
   const Greyed greyed(!reason.empty());
-  const bool changed = ImGui::Checkbox(label.c_str(), &value);
+  const bool changed = ImGui::Checkbox(unique(label).c_str(), &value);
   done(label, tip, reason);
   return changed;
 }
@@ -107,7 +108,7 @@ bool Widgets::choose(const std::string& label, std::string& value, std::span<con
                      const std::string& tip, const std::function<std::string(std::string_view)>& reason_of) {
   before(label);
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
-  const bool open = ImGui::BeginCombo(label.c_str(), value.c_str(), ImGuiComboFlags_HeightLargest);
+  const bool open = ImGui::BeginCombo(unique(label).c_str(), value.c_str(), ImGuiComboFlags_HeightLargest);
   done(label, tip);
   if (!open) return false;
   bool changed = false;
@@ -129,7 +130,7 @@ bool Widgets::slide(const std::string& label, float& value, const Limits& limits
   before(label);
   const Greyed greyed(!reason.empty());
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
-  const bool changed = ImGui::SliderFloat(label.c_str(), &value, static_cast<float>(limits.min),
+  const bool changed = ImGui::SliderFloat(unique(label).c_str(), &value, static_cast<float>(limits.min),
                                           static_cast<float>(limits.max), limits.format, flags_of(limits));
   done(label, tip, reason);
   return changed;
@@ -143,15 +144,38 @@ bool Widgets::slide(const std::string& label, std::uint32_t& value, const Limits
   const auto min = static_cast<std::uint32_t>(limits.min);
   const auto max = static_cast<std::uint32_t>(limits.max);
   const bool changed =
-      ImGui::SliderScalar(label.c_str(), ImGuiDataType_U32, &value, &min, &max, "%u", flags_of(limits));
+      ImGui::SliderScalar(unique(label).c_str(), ImGuiDataType_U32, &value, &min, &max, "%u", flags_of(limits));
   done(label, tip, reason);
   return changed;
+}
+
+bool Widgets::move(const std::string& label, glm::vec3& value, float step, const std::string& tip) {
+  before(label);
+  ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
+  const bool changed = ImGui::DragFloat3(unique(label).c_str(), &value.x, step);
+  done(label, tip);
+  return changed;
+}
+
+bool Widgets::color(const std::string& label, glm::vec3& value, const std::string& tip) {
+  before(label);
+  ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
+  const bool changed = ImGui::ColorEdit3(unique(label).c_str(), &value.x, ImGuiColorEditFlags_Float);
+  done(label, tip);
+  return changed;
+}
+
+bool Widgets::pick(const std::string& label, bool picked) {
+  before(label);
+  const bool clicked = ImGui::Selectable(label.c_str(), picked, ImGuiSelectableFlags_SpanAllColumns);
+  done(label, "");
+  return clicked;
 }
 
 bool Widgets::write(const std::string& label, std::string& value, const std::string& tip) {
   before(label);
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
-  ImGui::InputText(label.c_str(), &value);
+  ImGui::InputText(unique(label).c_str(), &value);
   const bool left = ImGui::IsItemDeactivatedAfterEdit();
   done(label, tip);
   return left;

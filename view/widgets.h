@@ -41,7 +41,7 @@ class Widgets {
  public:
   explicit Widgets(Places& places) : places_(places) {}
 
-  /// A section that opens and closes.
+  /// A section that opens and closes. Widgets of two sections may have one label.
   [[nodiscard]] bool header(const std::string& label, bool open);
   /// True when it was clicked. A `reason` greys it.
   bool button(const std::string& label, const std::string& tip, const std::string& reason = "");
@@ -69,6 +69,11 @@ class Widgets {
              const std::string& reason = "");
   bool slide(const std::string& label, std::uint32_t& value, const Limits& limits, const std::string& tip,
              const std::string& reason = "");
+  /// Three numbers that are dragged, `step` a pixel.
+  bool move(const std::string& label, glm::vec3& value, float step, const std::string& tip);
+  bool color(const std::string& label, glm::vec3& value, const std::string& tip);
+  /// A row of a table, by its first cell. True when it was clicked.
+  bool pick(const std::string& label, bool picked);
   /// True when the text was changed and the widget left.
   bool write(const std::string& label, std::string& value, const std::string& tip);
 
@@ -81,8 +86,11 @@ class Widgets {
   /// Of the widget that was drawn last.
   void done(const std::string& label, const std::string& tip, const std::string& reason = "");
   void before(const std::string& label);
+  /// With what tells it from one of that label in another section: ImGui takes widgets of one name for one.
+  [[nodiscard]] std::string unique(const std::string& label) const { return label + "##" + section_; }
 
   Places& places_;
+  std::string section_;
 };
 
 }  // namespace lamp::app

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -65,6 +66,18 @@ void apply_edits(const ViewState& state, std::span<shared::Light> lights) {
       throw Error(fmt::format("edits: light {}: {}", edit.light, error->message));
     lights[edit.light] = pack(edit.value);
   }
+}
+
+Light unpacked(const shared::Light& light) {
+  const float intensity = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+  return {.type = static_cast<LightType>(light.type),
+          .position = light.position,
+          .range = light.range,
+          .color = intensity > 0.0F ? light.intensity / intensity : glm::vec3(1.0F),
+          .intensity = intensity,
+          .direction = light.direction,
+          .inner_angle = light.inner_angle,
+          .outer_angle = light.outer_angle};
 }
 
 Setup make_setup(const ViewState& state) {

@@ -61,7 +61,8 @@ struct ViewState {
   Overlay overlay = Overlay::none;
   Palette palette = Palette::rainbow;
   LightMarks light_marks = LightMarks::none;
-  std::optional<glm::uvec2> picked;  ///< pixel that is looked into, of the size asked for
+  std::optional<glm::uvec2> picked;    ///< pixel that is looked into, of the size asked for
+  std::optional<std::uint32_t> light;  ///< that is looked at: its marks stand out
   std::optional<Against> against;
   bool panels = true;
   bool help = false;
@@ -84,6 +85,8 @@ void save_state(const std::filesystem::path& file, const ViewState& state);
 
 /// As `make_setup` of the request, with the lights that were changed.
 [[nodiscard]] Setup make_setup(const ViewState& state);
+/// A light of a frame as a user describes it.
+[[nodiscard]] Light unpacked(const shared::Light& light);
 /// Puts the changed lights into those of a frame. Throws Error for a light that there is not, or that no light can be.
 void apply_edits(const ViewState& state, std::span<shared::Light> lights);
 

@@ -59,6 +59,7 @@ void for_each_field(Fields&& at, State& s) {
   at.word("palette", s.palette, palette_names());
   at.word("light_marks", s.light_marks, light_mark_names());
   at.pixel("picked", s.picked);
+  at.maybe("light", s.light, MAX_LIGHTS - 1);
   at.against("against", s.against);
   at.flag("panels", s.panels);
   at.flag("help", s.help);
@@ -81,6 +82,7 @@ struct Keys {
   void flag(std::string_view key, const auto& v) { text(key, v); }
   void edits(std::string_view key, const auto& v) { text(key, v); }
   void pixel(std::string_view key, const auto& v) { text(key, v); }
+  void maybe(std::string_view key, const auto& v, std::uint32_t) { text(key, v); }
   void against(std::string_view key, const auto& v) { text(key, v); }
 };
 
@@ -144,6 +146,9 @@ struct Writer {
   }
   void pixel(std::string_view key, const std::optional<glm::uvec2>& value) {
     json[key] = value ? nlohmann::json{value->x, value->y} : nlohmann::json();
+  }
+  void maybe(std::string_view key, const std::optional<std::uint32_t>& value, std::uint32_t) {
+    json[key] = value ? nlohmann::json(*value) : nlohmann::json();
   }
   void against(std::string_view key, const std::optional<Against>& value) {
     json[key] = nullptr;
@@ -242,6 +247,9 @@ class Reader {
         o_.fail(
             fmt::format("{} is {}, expected two whole numbers 0 .. {}", key, shown(o_.json[key]), MAX_IMAGE_SIZE - 1));
     value = glm::uvec2(xy[0], xy[1]);
+  }
+  void maybe(std::string_view key, std::optional<std::uint32_t>& value, std::uint32_t max) {
+    if (present(key, value)) value = o_.whole(key, 0, max);
   }
   void against(std::string_view key, std::optional<Against>& value) {
     if (!present(key, value)) return;

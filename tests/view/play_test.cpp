@@ -8,7 +8,7 @@
 
 #include "system/run_program.h"
 #include "temporary_folder.h"
-#include "view/headless.h"
+#include "view/view_test.h"
 
 namespace lamp::app {
 namespace {
@@ -24,11 +24,6 @@ std::vector<std::string> script_names() {
   return names;
 }
 
-Context& test_context() {
-  static Context context({.validation = ContextInfo::Validation::on});
-  return context;
-}
-
 std::string bytes_of_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -41,15 +36,7 @@ class Play : public ::testing::Test {
   ~Play() override { fs::current_path(was_); }
 
   static void play_script(const std::vector<ScriptLine>& script) {
-    HeadlessInfo info{.script = script, .screen = {720, 480}};
-    info.state.request.scene = "plane";
-    info.state.request.size = "96x54";
-    info.state.request.size_given = true;
-    info.state.request.lights = 32;
-    info.state.request.lights_given = true;
-    info.state.request.method = "tiled";
-    info.state.paused = true;
-    run_headless(test_context(), info);
+    run_headless(test_context(), small_viewer(), [&](Player& player) { play(player, script); });
   }
 
  private:

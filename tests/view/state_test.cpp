@@ -56,6 +56,7 @@ ViewState full_state() {
   state.palette = Palette::grey;
   state.light_marks = LightMarks::cell;
   state.picked = glm::uvec2(7, 9);
+  state.light = 3;
   state.against = Against{.method = "clustered", .options = {"tile=64"}, .divider = 0.25F};
   state.panels = false;
   state.help = true;

@@ -70,7 +70,7 @@ Exit run(int argc, char** argv) {
   const glm::uvec2 screen = parse_size(o.screen);
   if (o.headless) {
     Context context({.device = o.state.request.device, .validation = validation});
-    run_headless(context, {.state = o.state, .script = script, .screen = screen});
+    run_headless(context, {.state = o.state, .screen = screen}, [&](Player& player) { play(player, script); });
   } else {
     run_window(
         {.state = o.state, .script = script, .plays = !o.script.empty(), .size = screen, .validation = validation});
