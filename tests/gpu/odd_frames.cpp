@@ -28,6 +28,11 @@ glm::dmat4 leaning(glm::dmat4 clip_from_view) {
   return clip_from_view;
 }
 
+/// A host whose viewport is turned over.
+glm::dmat4 turned_over(const glm::dmat4& clip_from_view) {
+  return glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, -1.0, 1.0)) * clip_from_view;
+}
+
 glm::dmat4 pose() {
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, -0.5)));
   return glm::translate(turn, glm::dvec3(3.0, -20.0, 7.5));
@@ -142,6 +147,7 @@ std::vector<OddFrame> odd_frames() {
           frame_of("leaning, behind the eye", leaning(looks_behind_the_eye()), pose()),
           frame_of("larger", usual, glm::scale(pose(), glm::dvec3(1.000049))),
           frame_of("smaller, mirrored", usual, mirror * pose()),
+          frame_of("turned over", turned_over(usual), pose()),
           frame_of("after many turns", usual, after_many_turns()),
           frame_of("stretched and sheared", usual, stretched_and_sheared()),
           frame_of("larger, orthographic", looks_behind_the_eye(), glm::scale(pose(), glm::dvec3(1.000049))),
