@@ -40,6 +40,7 @@ void scene_panel(PanelFrame& p);
 void camera_panel(PanelFrame& p);
 void lights_panel(PanelFrame& p);
 void method_panel(PanelFrame& p);
+void shadow_panel(PanelFrame& p);
 void against_panel(PanelFrame& p);
 void look_panel(PanelFrame& p);
 void times_panel(PanelFrame& p);

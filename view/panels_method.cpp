@@ -127,6 +127,26 @@ void method_panel(PanelFrame& p) {
   if (stats.rendered.counters.overflowed_cells != 0) Widgets::text(overflow_words(stats));
 }
 
+void shadow_panel(PanelFrame& p) {
+  if (!p.widgets.header("Shadows and depth", false)) return;
+  Request& r = p.state.request;
+  p.widgets.choose("shadows", r.shadows, shadow_names(), "How shadows are filtered.");
+  if (r.shadows != shadow_names().front()) {
+    p.widgets.choose("point shadows", r.point_shadows, point_shadow_names(), "A point light's map.");
+    p.widgets.write("shadow lights", r.shadow_lights, "How many of the first lights cast shadows, or all.");
+    p.widgets.write("shadow budget", r.shadow_budget, "Texels of shadow maps that are drawn in a frame, or all.");
+    if (p.shown.first.stats.shadows) Widgets::note(shadow_words(*p.shown.first.stats.shadows));
+  }
+  p.widgets.choose("depth", r.depth, depth_names(), "Which way device depth runs.",
+                   [&](std::string_view) { return p.shown.captured ? "a capture has its own" : std::string(); });
+  constexpr std::array<std::string_view, 4> SAMPLES{"1", "2", "4", "8"};
+  std::string samples = fmt::format("{}", r.depth_samples);
+  if (p.widgets.choose(
+          "depth samples", samples, SAMPLES, "Samples of a pixel that lights are culled with.",
+          [&](std::string_view name) { return p.shown.captured && name != "1" ? "a capture has one" : std::string(); }))
+    r.depth_samples = number_of(samples);
+}
+
 void against_panel(PanelFrame& p) {
   if (!p.widgets.header("A against B", false)) return;
   bool compares = p.state.against.has_value();

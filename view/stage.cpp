@@ -164,15 +164,17 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
 }
 
 ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered rendered) const {
-  return {.stats = make_stats({.device = context_.row(),
-                               .scene = state.request.scene,
-                               .view = renderer_->view(),
-                               .lights = lights_->lights->size(),
-                               .frames = 1,
-                               .decals = lights_->decals.size()},
-                              chosen.lighting, std::move(rendered)),
-          .by_auto = chosen.by_auto,
-          .legend = {}};
+  ShownSide made{.stats = make_stats({.device = context_.row(),
+                                      .scene = state.request.scene,
+                                      .view = renderer_->view(),
+                                      .lights = lights_->lights->size(),
+                                      .frames = 1,
+                                      .decals = lights_->decals.size()},
+                                     chosen.lighting, std::move(rendered)),
+                 .by_auto = chosen.by_auto,
+                 .legend = {}};
+  made.stats.shadows = shadow_stats(renderer_->shadows());
+  return made;
 }
 
 Legend Stage::lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,

@@ -133,7 +133,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                  .proving = proving_,
                  .progress = progress};
     if (widgets.button("help", "All keys. H does the same.")) state_.help = !state_.help;
-    for (void (*panel)(PanelFrame&) : {proof_panel, scene_panel, camera_panel, lights_panel, method_panel,
+    for (void (*panel)(PanelFrame&) : {proof_panel, scene_panel, camera_panel, lights_panel, method_panel, shadow_panel,
                                        against_panel, look_panel, times_panel, save_panel})
       panel(p);
   }

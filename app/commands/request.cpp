@@ -149,13 +149,17 @@ Brdf parse_brdf(const std::string& text) {
   throw unknown_name("--brdf", text, NAMES);
 }
 
+std::span<const std::string_view> depth_names() {
+  static constexpr std::array<std::string_view, 2> NAMES{"reversed", "standard"};
+  return NAMES;
+}
+
 HostDepth parse_depth(const std::string& text, std::uint32_t samples) {
-  constexpr std::array<std::string_view, 2> NAMES{"reversed", "standard"};
-  if (std::ranges::find(NAMES, text) == NAMES.end()) throw unknown_name("--depth", text, NAMES);
+  if (std::ranges::find(depth_names(), text) == depth_names().end()) throw unknown_name("--depth", text, depth_names());
   constexpr std::array<std::uint32_t, 4> COUNTS{1, 2, 4, 8};
   if (std::ranges::find(COUNTS, samples) == COUNTS.end())
     throw Error(fmt::format("--depth-samples {}: expected 1, 2, 4 or 8", samples));
-  return {.samples = samples, .reversed = text == NAMES[0]};
+  return {.samples = samples, .reversed = text == depth_names()[0]};
 }
 
 VerifierChoice parse_verifier(const std::string& text, const Context& context) {

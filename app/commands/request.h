@@ -124,6 +124,10 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] HostDepth parse_depth(const std::string& text, std::uint32_t samples);
 /// Of `--shadows` and what goes with it; nothing if they are off.
 [[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request);
+/// What `--shadows`, `--point-shadows` and `--depth` take.
+[[nodiscard]] std::span<const std::string_view> shadow_names();
+[[nodiscard]] std::span<const std::string_view> point_shadow_names();
+[[nodiscard]] std::span<const std::string_view> depth_names();
 /// As `--shadows` takes it.
 [[nodiscard]] std::string_view shadow_filter_name(ShadowFilter filter);
 /// "oracle", "gpu" or "auto": by the number of pairs where the device has double precision, else the oracle. Throws

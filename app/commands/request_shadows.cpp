@@ -36,6 +36,9 @@ std::size_t parse_name(const char* option, const std::string& text, std::span<co
 
 }  // namespace
 
+std::span<const std::string_view> shadow_names() { return FILTERS; }
+std::span<const std::string_view> point_shadow_names() { return POINTS; }
+
 std::string_view shadow_filter_name(ShadowFilter filter) { return FILTERS[static_cast<std::size_t>(filter) + 1]; }
 
 std::optional<ShadowSettings> requested_shadows(const Request& request) {

@@ -88,6 +88,19 @@ TEST_F(Play, SavesThePictureOfLampRender) {
   }
 }
 
+/// With shadows, and depth of several samples.
+TEST_F(Play, SavesThePictureOfLampRenderWithShadows) {
+  const std::string states[] = {R"({"shadows": "pcf", "atlas": 512})", R"({"depth": "standard", "depth_samples": 4})"};
+  for (const std::string& set : states) {
+    play_script(parse_script("{\"set\": " + set + "}\n{\"wait\": \"idle\"}\n" + R"({"save_state": "state.json"}
+{"save_picture": "view.exr"})",
+                             "picture"));
+    const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "--state", "state.json", "-o", "lamp.exr"});
+    ASSERT_TRUE(run.succeeded) << run.err;
+    EXPECT_EQ(bytes_of_file("view.exr"), bytes_of_file("lamp.exr")) << set;
+  }
+}
+
 TEST_F(Play, SavesThePictureOfTheSameOptions) {
   play_script(parse_script("{\"wait\": \"idle\"}\n{\"save_picture\": \"view.exr\"}", "picture"));
   const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "plane", "--size", "96x54", "--lights", "32",

@@ -30,6 +30,7 @@ struct ViewOptions {
 void add_options(CLI::App& app, ViewOptions& o) {
   add_state_option(app, o.state);
   add_common_options(app, o.state.request);
+  add_depth_options(app, o.state.request);
   add_picture_options(app, o.state.request);
   add_exposure_option(app, o.state.exposure);
   app.add_flag("--headless", o.headless, "draw on a screen that nobody sees, for --script")->group("Window");
