@@ -14,7 +14,8 @@ namespace lamp::app {
 namespace {
 
 constexpr std::string_view ALL = "all";
-constexpr std::array<std::string_view, 3> FILTERS{"off", "hard", "pcf"};  // then in the order of ShadowFilter
+constexpr std::array<std::string_view, 5> FILTERS{"off", "hard", "pcf", "vsm",
+                                                  "evsm"};                // then in the order of ShadowFilter
 constexpr std::array<std::string_view, 2> POINTS{"faces", "octahedron"};  // in the order of PointShadows
 
 /// A whole number, or all.
@@ -54,7 +55,7 @@ std::optional<ShadowSettings> requested_shadows(const Request& request) {
 }
 
 void add_shadow_options(CLI::App& command, Request& r) {
-  command.add_option("--shadows", r.shadows, "how shadows are filtered: off, hard or pcf")
+  command.add_option("--shadows", r.shadows, "how shadows are filtered: off, hard, pcf, vsm or evsm")
       ->type_name("FILTER")
       ->group("Shadows")
       ->capture_default_str();

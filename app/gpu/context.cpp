@@ -189,7 +189,8 @@ void Context::create_device(const ContextInfo& info) {
   features.base.features.depthClamp = VK_TRUE;
   features.base.features.samplerAnisotropy = has.samplerAnisotropy;
   features.base.features.shaderFloat64 = has.shaderFloat64;
-  // Shadow maps need these three; who draws them asks whether they are there.
+  // Shadow maps need these; who draws them asks whether they are there.
+  features.base.features.shaderStorageImageExtendedFormats = has.shaderStorageImageExtendedFormats;
   features.base.features.shaderClipDistance = has.shaderClipDistance;
   features.base.features.multiDrawIndirect = has.multiDrawIndirect;
   features.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;

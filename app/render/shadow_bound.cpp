@@ -6,8 +6,11 @@
 namespace lamp::app {
 namespace {
 
-ShadowBound bound_of(const vulkan::Buffer& maps, const GpuImage& atlas) {
-  return {{{BINDING_SHADOW_MAPS, vulkan::Resource::storage(maps.handle())}, {BINDING_SHADOW_ATLAS, atlas.sampled()}}};
+/// Filters without moments bind depths in their place.
+ShadowBound bound_of(const vulkan::Buffer& maps, const GpuImage& atlas, const GpuImage& moments) {
+  return {{{BINDING_SHADOW_MAPS, vulkan::Resource::storage(maps.handle())},
+           {BINDING_SHADOW_ATLAS, atlas.sampled()},
+           {BINDING_SHADOW_MOMENTS, moments.sampled()}}};
 }
 
 }  // namespace
@@ -20,6 +23,7 @@ void add_shadows(vulkan::PipelineInfo& pipeline, std::optional<ShadowFilter> fil
   pipeline.constants.push_back(shadow_constant(filter));
   pipeline.bindings.push_back({BINDING_SHADOW_MAPS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   pipeline.bindings.push_back({BINDING_SHADOW_ATLAS, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE});
+  pipeline.bindings.push_back({BINDING_SHADOW_MOMENTS, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE});
 }
 
 NoShadows::NoShadows(const vulkan::Device& device)
@@ -30,8 +34,8 @@ NoShadows::NoShadows(const vulkan::Device& device)
                                                  .bytes = sizeof(shared::ShadowMap),
                                                  .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}))) {}
 
-ShadowBound NoShadows::bound() const { return bound_of(maps_, atlas_); }
+ShadowBound NoShadows::bound() const { return bound_of(maps_, atlas_, atlas_); }
 
-ShadowBound Shadows::bound() const { return bound_of(map_buffer_, atlas_); }
+ShadowBound Shadows::bound() const { return bound_of(map_buffer_, atlas_, moments_ ? moments_->image() : atlas_); }
 
 }  // namespace lamp::app

@@ -104,6 +104,9 @@ Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene&
                                                   .bytes = map_buffer_.bytes() + views_.bytes(),
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                   .memory = vulkan::MemoryUse::upload}));
+  if (ShadowMoments::has(settings.filter))
+    moments_.emplace(context, shaders, settings.filter, settings.atlas_size,
+                     std::uint64_t{settings.atlas_size} * settings.atlas_size);
   make_pipelines(device, shaders);
 }
 
@@ -144,6 +147,7 @@ void Shadows::schedule(const View& view, std::span<const shared::Light> lights) 
   for (const ShadowRedraw& redraw : frame.redraws)
     for (std::uint32_t i = 0; i < squares_of(maps_[redraw.light]); ++i)
       clears_.push_back(clear_rect(maps_[redraw.light], i));
+  if (moments_) moments_->set(maps_, frame.redraws);
   const std::span<std::byte> to = staging_.mapped();
   if (!maps_.empty()) std::memcpy(to.data(), maps_.data(), maps_.size() * sizeof(shared::ShadowMap));
   if (view_count_ != 0)
@@ -158,6 +162,7 @@ void Shadows::record(vulkan::Recorder& recorder) {
   cleared_ = true;
   for (std::uint32_t at = 0; at < view_count_ && !casters_.casters.empty(); at += views_a_batch_)
     record_batch(recorder, at, std::min(views_a_batch_, view_count_ - at));
+  if (moments_) moments_->record(recorder, vulkan::Resource::storage(map_buffer_.handle()), atlas_);
   recorder.end_pass();
 }
 

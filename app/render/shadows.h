@@ -13,6 +13,7 @@
 #include "render/pass_uses.h"
 #include "render/shader_library.h"
 #include "render/shadow_casters.h"
+#include "render/shadow_moments.h"
 
 namespace lamp::app {
 
@@ -27,8 +28,9 @@ struct ShadowSettings {
 /// What shading binds for its look-up (lib/shaders/shadow), and the constant that says which filter.
 inline constexpr std::uint32_t BINDING_SHADOW_MAPS = 11;
 inline constexpr std::uint32_t BINDING_SHADOW_ATLAS = 12;
+inline constexpr std::uint32_t BINDING_SHADOW_MOMENTS = 13;
 inline constexpr std::uint32_t CONSTANT_SHADOW_FILTER = 15;
-using ShadowBound = std::array<vulkan::Bound, 2>;
+using ShadowBound = std::array<vulkan::Bound, 3>;
 
 [[nodiscard]] vulkan::Constant shadow_constant(std::optional<ShadowFilter> filter);
 /// Adds bindings and constant to those of a pipeline that shades. Without a filter everything is lit.
@@ -62,6 +64,8 @@ class Shadows {
   [[nodiscard]] std::span<const std::uint32_t> without() const { return without_; }
   [[nodiscard]] std::span<const shared::ShadowMap> maps() const { return maps_; }
   [[nodiscard]] const GpuImage& atlas() const { return atlas_; }
+  /// Of vsm and evsm; else null.
+  [[nodiscard]] const ShadowMoments* moments() const { return moments_ ? &*moments_ : nullptr; }
   [[nodiscard]] ShadowBound bound() const;
 
  private:
@@ -90,6 +94,7 @@ class Shadows {
   vulkan::Pipeline opaque_;
   vulkan::Pipeline masked_;
 
+  std::optional<ShadowMoments> moments_;
   bool changed_ = false;  ///< since the last `record`
   ShadowCounts counts_;
   std::vector<std::uint32_t> waiting_;

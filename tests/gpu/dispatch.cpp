@@ -17,15 +17,10 @@ vulkan::Buffer host_buffer(const std::string& name, std::uint64_t bytes) {
   return buffer;
 }
 
-GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth,
-                     const DepthImageKind& kind) {
-  GpuImage image(test_context().device(), {.name = "test depth",
-                                           .width = width,
-                                           .height = height,
-                                           .layers = kind.layers,
-                                           .format = kind.format,
-                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-  const vulkan::Buffer staging = host_buffer_of("depth staging", depth);
+namespace {
+
+GpuImage sampled_image(const GpuImageInfo& info, const vulkan::Buffer& staging) {
+  GpuImage image(test_context().device(), info);
   test_context().submit([&](VkCommandBuffer commands) {
     vulkan::AccessTracker tracker;
     vulkan::Recorder recorder(test_context().device(), commands, tracker);
@@ -35,6 +30,28 @@ GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vecto
     recorder.barrier({reads(image.sampled(), VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
   });
   return image;
+}
+
+}  // namespace
+
+GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth,
+                     const DepthImageKind& kind) {
+  return sampled_image({.name = "test depth",
+                        .width = width,
+                        .height = height,
+                        .layers = kind.layers,
+                        .format = kind.format,
+                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                       host_buffer_of("depth staging", depth));
+}
+
+GpuImage float_image(std::uint32_t width, std::uint32_t height, const std::vector<glm::vec4>& texels) {
+  return sampled_image({.name = "test image",
+                        .width = width,
+                        .height = height,
+                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                       host_buffer_of("texel staging", texels));
 }
 
 void dispatch(const Dispatch& what) {

@@ -36,6 +36,9 @@ struct DepthImageKind {
 [[nodiscard]] GpuImage depth_image(std::uint32_t width, std::uint32_t height, const std::vector<float>& depth,
                                    const DepthImageKind& kind = {});
 
+/// An image of four floats a texel, ready to be sampled.
+[[nodiscard]] GpuImage float_image(std::uint32_t width, std::uint32_t height, const std::vector<glm::vec4>& texels);
+
 /// A test shader with specialization constants 0, 1, 2, ... and bindings 0, 1, 2, ...
 struct Dispatch {
   std::string_view shader;

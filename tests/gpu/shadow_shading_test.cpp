@@ -77,6 +77,20 @@ TEST_P(ShadowShading, IsTheSameThroughEveryMethod) {
   }
 }
 
+TEST_F(GpuTest, PicturesWithMomentsAreTheSameThroughEveryMethod) {
+  const Frame frame(builtin_test_scene("corridor"), "off-centre");
+  for (const ShadowFilter filter : {ShadowFilter::vsm, ShadowFilter::evsm}) {
+    Renderer renderer = frame.renderer(filter);
+    Lighting brute = frame.lighting("all", ShadingPath::deferred, filter);
+    const HdrImage reference = renderer.render(brute).image;
+    EXPECT_GT(renderer.shadows()->counts().shadowed, 5U);
+    for (const char* method : {"tight", "clustered", "lamplight"}) {
+      Lighting lighting = frame.lighting(method, ShadingPath::deferred, filter);
+      EXPECT_EQ(max_abs_difference(renderer.relight(lighting).image, reference), 0.0F) << method;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(On, ShadowShading,
                          ::testing::Values(ShadingPath::forward, ShadingPath::tiled_deferred, ShadingPath::deferred,
                                            ShadingPath::standard_deferred),

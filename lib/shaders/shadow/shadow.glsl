@@ -1,10 +1,11 @@
 // The shadow look-up: how much of a light's light arrives at a point, from the maps of a ShadowAtlas. The filter is a
 // specialization constant.
-// Promise: 0 in full shadow, 1 where nothing is drawn before the point, 1 for a light without a map; the same bits in
+// Promise: 0 in full shadow (of vsm and evsm: where less than their bleeding is left), 1 where nothing is drawn before the point, 1 for a light without a map; the same bits in
 // every shader for the same arguments.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef SHADOW_LOOKUP
 #define SHADOW_LOOKUP
+#include "shadow/parts/moments.glsl"
 #include "shadow/parts/offset.glsl"
 #include "shadow/parts/taps.glsl"
 
@@ -17,12 +18,16 @@ float shadow_of(uint light, vec3 position, vec3 normal, uint seed) {
   if (!(place.w > 0.0)) return 1.0;
   float taps = 0.0;
   if (SHADOW_FILTER == SHADOW_PCF) taps = shadow_pcf_radius(light);
+  // Of a blur the middle counts: on a plane its taps are as much before as behind.
+  if (SHADOW_FILTER == SHADOW_VSM || SHADOW_FILTER == SHADOW_EVSM) taps = 1.0;
   const float offset = shadow_normal_offset(light, place, rel, normal, taps);
   precise const vec3 moved = vec3(LAMP_FMA(normal.x, offset, rel.x), LAMP_FMA(normal.y, offset, rel.y),
                                   LAMP_FMA(normal.z, offset, rel.z));
   place = shadow_place(light, moved);
   if (!(place.w > 0.0)) return 1.0;
   if (SHADOW_FILTER == SHADOW_PCF) return shadow_pcf(light, place, seed);
+  if (SHADOW_FILTER == SHADOW_VSM) return shadow_vsm(light, place);
+  if (SHADOW_FILTER == SHADOW_EVSM) return shadow_evsm(light, place);
   return shadow_hard(light, place);
 }
 

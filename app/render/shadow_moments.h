@@ -1,0 +1,48 @@
+// Moments of shadow maps for vsm and evsm: two images as large as the atlas, and the two passes that blur what was
+// drawn. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gpu/context.h"
+#include "lamplight/shadow_atlas.h"
+#include "render/pass_uses.h"
+#include "render/shader_library.h"
+
+namespace lamp::app {
+
+class ShadowMoments {
+ public:
+  /// Throws Error for a device that cannot store such images. Of filters that have moments.
+  ShadowMoments(const Context& context, const ShaderLibrary& shaders, ShadowFilter filter, std::uint32_t atlas_size,
+                std::uint64_t most_texels);
+
+  /// Whether a filter reads moments.
+  [[nodiscard]] static bool has(ShadowFilter filter) {
+    return filter == ShadowFilter::vsm || filter == ShadowFilter::evsm;
+  }
+  /// Of the next `record`: all squares of these lights.
+  void set(std::span<const shared::ShadowMap> maps, std::span<const ShadowRedraw> redraws);
+  /// `maps`: the buffer of all maps; `atlas`: depths.
+  void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) const;
+
+  [[nodiscard]] const GpuImage& image() const { return second_; }
+
+ private:
+  void record_pass(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline,
+                   std::vector<vulkan::Bound> bound) const;
+
+  struct Block {
+    std::uint32_t light = 0;
+    std::uint32_t square = 0;
+    std::uint32_t block = 0;
+  };
+  GpuImage first_;
+  GpuImage second_;
+  vulkan::Buffer blocks_;
+  vulkan::Pipeline along_x_;
+  vulkan::Pipeline along_y_;
+  std::uint32_t block_count_ = 0;
+};
+
+}  // namespace lamp::app

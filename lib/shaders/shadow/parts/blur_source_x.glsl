@@ -1,0 +1,7 @@
+// What the first pass of the blur reads: depths.
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow/parts/moments.glsl"
+
+vec4 blur_source(uint light, ivec2 texel) {
+  return shadow_moments_of_depth(shadow_unit_depth_of_stored(light, SHADOW_TEXEL(shadow_atlas, texel).x));
+}
