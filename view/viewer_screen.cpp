@@ -37,6 +37,17 @@ float divider_x(const ScreenRect& picture, const Against& against) {
   return static_cast<float>(picture.min.x) + against.divider * static_cast<float>(picture.size().x);
 }
 
+/// The method and those of its options that are not its own.
+std::string words_of_side(const Stats& stats) {
+  std::string words = stats.method;
+  const auto method = find_method(stats.method);
+  if (!method.ok()) return words;
+  for (const OptionSpec& spec : method.value()->options)
+    if (stats.options.word(spec.key) != spec.fallback)
+      words += fmt::format(" {}={}", spec.key, stats.options.word(spec.key));
+  return words;
+}
+
 void draw_divider(const ScreenRect& picture, const Shown& shown) {
   if (!shown.state.against || !shown.second) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
@@ -44,10 +55,14 @@ void draw_divider(const ScreenRect& picture, const Shown& shown) {
   draw.AddLine({x, static_cast<float>(picture.min.y)}, {x, static_cast<float>(picture.max.y)},
                IM_COL32(255, 255, 255, 200), 2.0F);
   const float y = static_cast<float>(picture.min.y) + 6.0F;
-  const std::string a = shown.first.stats.method;
-  const std::string b = shown.second->stats.method;
-  draw.AddText({x - 8.0F - ImGui::CalcTextSize(a.c_str()).x, y}, IM_COL32_WHITE, a.c_str());
-  draw.AddText({x + 8.0F, y}, IM_COL32_WHITE, b.c_str());
+  const auto label = [&](float left, const std::string& words) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    draw.AddRectFilled({left - 4.0F, y - 2.0F}, {left + size.x + 4.0F, y + size.y + 2.0F}, IM_COL32(0, 0, 0, 160));
+    draw.AddText({left, y}, IM_COL32_WHITE, words.c_str());
+  };
+  const std::string a = words_of_side(shown.first.stats);
+  label(x - 10.0F - ImGui::CalcTextSize(a.c_str()).x, a);
+  label(x + 10.0F, words_of_side(shown.second->stats));
 }
 
 /// A frame around the pixel that is looked into.
@@ -152,10 +167,10 @@ void Viewer::draw_status(glm::uvec2 screen) const {
     std::string words = shown_.number == 0 ? "loading ..." : "";
     if (shown_.number != 0) {
       const Stats& stats = shown_.first.stats;
-      words = fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms  {:.1f} pictures/s",
-                          stats.scene, stats.width, stats.height, stats.lights, stats.method,
-                          shown_.first.by_auto ? " (auto)" : "", stats.rendered.cull_ms, stats.rendered.shade_ms,
-                          stats.rendered.frame_ms, picture_ms_ > 0.0 ? 1000.0 / picture_ms_ : 0.0);
+      words = fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms", stats.scene,
+                          stats.width, stats.height, stats.lights, stats.method, shown_.first.by_auto ? " (auto)" : "",
+                          stats.rendered.cull_ms, stats.rendered.shade_ms, stats.rendered.frame_ms);
+      if (picture_ms_ > 0.0) words += fmt::format("  {:.1f} pictures/s", 1000.0 / picture_ms_);
       if (busy_ && !idle_) words += "  ...";
       if (!said_.empty()) words += "  " + said_;
     }
