@@ -1,5 +1,6 @@
 // Which devices the library takes: what it says of instances that are too old and of features that nobody has filled
 // in. SPDX-License-Identifier: Apache-2.0
+#include <span>
 #include <string_view>
 
 #include "gpu/gpu_test.h"
@@ -9,18 +10,20 @@ namespace {
 
 class DeviceCheck : public GpuTest {};
 
-/// An instance of its own, and its first device.
-class OldInstance {
+/// An instance of its own, without extensions.
+class BareInstance {
  public:
-  explicit OldInstance(std::uint32_t version) {
+  explicit BareInstance(std::uint32_t version, std::span<const char* const> layers = {}) {
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = version};
     const VkInstanceCreateInfo create{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                      .pApplicationInfo = &application};
+                                      .pApplicationInfo = &application,
+                                      .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                                      .ppEnabledLayerNames = layers.data()};
     EXPECT_EQ(vkCreateInstance(&create, nullptr, &instance_), VK_SUCCESS);
   }
-  OldInstance(const OldInstance&) = delete;
-  OldInstance& operator=(const OldInstance&) = delete;
-  ~OldInstance() { vkDestroyInstance(instance_, nullptr); }
+  BareInstance(const BareInstance&) = delete;
+  BareInstance& operator=(const BareInstance&) = delete;
+  ~BareInstance() { vkDestroyInstance(instance_, nullptr); }
   [[nodiscard]] VkInstance handle() const { return instance_; }
 
  private:
@@ -31,7 +34,7 @@ TEST_F(DeviceCheck, InstancesBefore13AreRefused) {
   for (const auto& [version, text] :
        {std::pair(VK_API_VERSION_1_0, "1.0"), {VK_API_VERSION_1_1, "1.1"}, {VK_API_VERSION_1_2, "1.2"}, {0U, "1.0"}}) {
     SCOPED_TRACE(version);
-    const OldInstance instance(version);
+    const BareInstance instance(version);
     const Result<vulkan::Instance> loaded = vulkan::load_instance(vkGetInstanceProcAddr, instance.handle(), version);
     ASSERT_FALSE(loaded.ok());
     EXPECT_EQ(loaded.error().text(),
@@ -61,6 +64,37 @@ TEST_F(DeviceCheck, FunctionsThatAreNotThereAreNamed) {
   const auto made = vulkan::make_device(instance, device.physical, device.handle);
   ASSERT_FALSE(made.ok());
   EXPECT_EQ(made.error().text(), "device: does not know the function vkCmdDispatch; expected Vulkan 1.3");
+}
+
+// The validation layer gives out functions of debug utilities whether the host enabled them or not, and then complains
+// of their use.
+TEST_F(DeviceCheck, DebugUtilitiesThatAreNotEnabledAreNotUsed) {
+  const char* const layers[] = {"VK_LAYER_KHRONOS_validation"};
+  const BareInstance bare(VK_API_VERSION_1_3, layers);
+  const vulkan::Instance instance =
+      take(vulkan::load_instance(vkGetInstanceProcAddr, bare.handle(), VK_API_VERSION_1_3));
+  EXPECT_FALSE(instance.debug_utils);
+  EXPECT_TRUE(test_context().instance().debug_utils);
+  EXPECT_NE(test_context().device().vk.vkCmdBeginDebugUtilsLabelEXT, nullptr);
+
+  std::uint32_t count = 1;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  EXPECT_GE(vkEnumeratePhysicalDevices(bare.handle(), &count, &physical), VK_SUCCESS);
+  const vulkan::RequiredFeatures features;
+  const float priority = 1.0F;
+  const VkDeviceQueueCreateInfo queue{
+      .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+  const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features.base,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue};
+  VkDevice handle = VK_NULL_HANDLE;
+  ASSERT_EQ(vkCreateDevice(physical, &create, nullptr, &handle), VK_SUCCESS);
+  const vulkan::Device device = take(vulkan::make_device(instance, physical, handle));
+  EXPECT_EQ(device.vk.vkCmdBeginDebugUtilsLabelEXT, nullptr);
+  EXPECT_EQ(device.vk.vkCmdEndDebugUtilsLabelEXT, nullptr);
+  EXPECT_EQ(device.vk.vkSetDebugUtilsObjectNameEXT, nullptr);
+  vkDestroyDevice(handle, nullptr);
 }
 
 TEST_F(DeviceCheck, TheDeviceOfTheTestsPasses) {

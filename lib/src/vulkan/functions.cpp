@@ -54,6 +54,10 @@ Result<Instance> load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instanc
   loader.required("vkGetPhysicalDeviceProperties", vk.vkGetPhysicalDeviceProperties);
   loader.required("vkGetPhysicalDeviceProperties2", vk.vkGetPhysicalDeviceProperties2);
   if (loader.missing() != nullptr) return not_there("instance", loader.missing());
+  // Of a device, layers know the extension's functions whether it is enabled or not.
+  PFN_vkCreateDebugUtilsMessengerEXT create_messenger = nullptr;
+  loader.optional("vkCreateDebugUtilsMessengerEXT", create_messenger);
+  loaded.debug_utils = create_messenger != nullptr;
   return loaded;
 }
 
@@ -105,9 +109,11 @@ Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
   loader.optional("vkCmdPushDescriptorSetKHR", vk.vkCmdPushDescriptorSetKHR);
   loader.optional("vkGetPipelineExecutablePropertiesKHR", vk.vkGetPipelineExecutablePropertiesKHR);
   loader.optional("vkGetPipelineExecutableStatisticsKHR", vk.vkGetPipelineExecutableStatisticsKHR);
-  loader.optional("vkCmdBeginDebugUtilsLabelEXT", vk.vkCmdBeginDebugUtilsLabelEXT);
-  loader.optional("vkCmdEndDebugUtilsLabelEXT", vk.vkCmdEndDebugUtilsLabelEXT);
-  loader.optional("vkSetDebugUtilsObjectNameEXT", vk.vkSetDebugUtilsObjectNameEXT);
+  if (instance.debug_utils) {
+    loader.optional("vkCmdBeginDebugUtilsLabelEXT", vk.vkCmdBeginDebugUtilsLabelEXT);
+    loader.optional("vkCmdEndDebugUtilsLabelEXT", vk.vkCmdEndDebugUtilsLabelEXT);
+    loader.optional("vkSetDebugUtilsObjectNameEXT", vk.vkSetDebugUtilsObjectNameEXT);
+  }
   if (loader.missing() != nullptr) return not_there("device", loader.missing());
   return vk;
 }

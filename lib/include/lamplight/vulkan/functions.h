@@ -79,6 +79,7 @@ struct Instance {
   VkInstance handle = VK_NULL_HANDLE;
   std::uint32_t api_version = 0;  ///< VkApplicationInfo::apiVersion. A device does not know it, and one of 1.3 does no
                                   ///< more than 1.0 for an instance that asked for no more
+  bool debug_utils = false;       ///< VK_EXT_debug_utils is enabled: objects get names, and passes labels
   InstanceFunctions vk;
 };
 
