@@ -60,7 +60,7 @@ vulkan::Timestamps::PartOf parts_of(const Lighting& lighting, Timing timing) {
 }
 
 void FrameTimes::add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
-  for (const auto& [pass, ms] : lighting.runner().host_times()) add_sample(pass, /* host= */ true, ms);
+  for (const auto& [pass, ms] : lighting.runner().host_times()) add_sample(std::string(pass), /* host= */ true, ms);
   const bool has_passes = next() == Timing::passes;
   ++added_;
   if (has_passes)

@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform Push {
   mat4 world_from_clip;
   uvec2 size_px;
   uint light_count;
+  uint eye;
 };
 
 vec3 position_of(uvec2 pixel, float depth) {

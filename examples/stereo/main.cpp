@@ -1,5 +1,5 @@
-// Two eyes of a headset: both are drawn at once, by multiview, into layers of one image; each is culled with the depth
-// of its layer, and shaded by a compute shader. A Culler is for one view, so each eye has its own.
+// Two eyes of a headset: both are drawn at once, by multiview, into layers of one image, and culled together, each with
+// the depth of its layer. A compute shader shades an eye, and tells the look-up which.
 // SPDX-License-Identifier: Apache-2.0
 #include <lamplight/vulkan.h>  // lamplight
 
@@ -40,6 +40,7 @@ struct ShadePush {
   glm::mat4 world_from_clip;
   glm::uvec2 size_px;
   std::uint32_t light_count;
+  std::uint32_t eye;
 };
 
 struct Eye {
@@ -62,9 +63,9 @@ T value_of(lamp::Result<T> result) {
 }
 // }
 
-void shade(VkCommandBuffer commands, const Pipeline& pipeline, const Eye& eye) {
+void shade(VkCommandBuffer commands, const Pipeline& pipeline, const Eye& eye, std::uint32_t index) {
   const glm::mat4 world_from_clip = glm::inverse(eye.clip_from_eye * eye.eye_from_world);
-  bind(commands, pipeline, ShadePush{world_from_clip, {SIZE.width, SIZE.height}, LIGHTS});
+  bind(commands, pipeline, ShadePush{world_from_clip, {SIZE.width, SIZE.height}, LIGHTS, index});
   vkCmdDispatch(commands, (SIZE.width + 7) / 8, (SIZE.height + 7) / 8, 1);
 }
 
@@ -103,16 +104,18 @@ bool run(const Options& options) {
   auto device = value_of(lamp::vulkan::make_device(instance, gpu.physical, gpu.device));
   lamp::vulkan::PipelineStore store;
   device.pipelines = &store;
-  const lamp::vulkan::CullerInfo culler_info{
-      .width = SIZE.width,
-      .height = SIZE.height,
-      .light_capacity = LIGHTS,
-      .method = "tight",
-      .light_layout = {.form = lamp::LightForm::spots,
-                       .lights = {.offset = 0, .stride = sizeof(HostLight)},
-                       .cones = {.offset = offsetof(HostLight, direction), .stride = sizeof(HostLight)}}};
-  std::vector<lamp::View> views;
-  std::vector<lamp::vulkan::Culler> cullers;
+  auto culler = value_of(lamp::vulkan::Culler::create(
+      device, {.width = SIZE.width,
+               .height = SIZE.height,
+               .views = EYES,
+               .light_capacity = LIGHTS,
+               .method = "tight",
+               .light_layout = {.form = lamp::LightForm::spots,
+                                .lights = {.offset = 0, .stride = sizeof(HostLight)},
+                                .cones = {.offset = offsetof(HostLight, direction), .stride = sizeof(HostLight)}}}));
+  const lamp::vulkan::BoundLookUp lookup = culler.lookup();
+  std::vector<lamp::View> cameras;
+  std::vector<lamp::vulkan::CullerView> views;
   // }
   std::array eyes{make_eye(-1), make_eye(1)};
   for (std::uint32_t i = 0; i < EYES; ++i) {
@@ -128,14 +131,15 @@ bool run(const Options& options) {
     info.shaders = {{VK_SHADER_STAGE_COMPUTE_BIT, SHADE}};
     info.descriptors[3].buffer = eye.culled.handle;
     // lamplight {
-    views.push_back(value_of(lamp::View::create(SIZE.width, SIZE.height, eye.clip_from_eye, eye.eye_from_world)));
-    cullers.push_back(value_of(lamp::vulkan::Culler::create(device, culler_info)));
-    const lamp::vulkan::BoundLookUp lookup = cullers[i].lookup();
+    cameras.push_back(value_of(lamp::View::create(SIZE.width, SIZE.height, eye.clip_from_eye, eye.eye_from_world)));
     for (const auto& bound : lookup.resources) info.descriptors.push_back({bound.binding, bound.resource.buffer});
     for (const auto& constant : lookup.constants) info.constants.push_back({constant.id, constant.value});
     // }
     eye.shade = gpu.make_pipeline(info);
   }
+  // lamplight {
+  for (std::uint32_t i = 0; i < EYES; ++i) views.push_back({&cameras[i], depths.handle, depths.layer_views[i]});
+  // }
   const std::array<glm::mat4, EYES> clip_from_world{eyes[0].clip_from_eye * eyes[0].eye_from_world,
                                                     eyes[1].clip_from_eye * eyes[1].eye_from_world};
 
@@ -152,17 +156,13 @@ bool run(const Options& options) {
       for (const Image& image : {surfaces, depths})
         transition(commands, image, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
       // lamplight {
-      for (std::uint32_t i = 0; i < EYES; ++i)
-        value_of(cullers[i].record(commands, {.view = &views[i],
-                                              .lights = light_buffer.handle,
-                                              .cones = light_buffer.handle,
-                                              .light_count = LIGHTS,
-                                              .depth_image = depths.handle,
-                                              .depth_view = depths.layer_views[i]}));
+      value_of(culler.record(
+          commands,
+          {.lights = light_buffer.handle, .cones = light_buffer.handle, .light_count = LIGHTS, .views = views}));
       // }
-      for (const Eye& eye : eyes) {
-        shade(commands, eye.shade, eye);
-        shade(commands, eye.shade_all, eye);
+      for (std::uint32_t i = 0; i < EYES; ++i) {
+        shade(commands, eyes[i].shade, eyes[i], i);
+        shade(commands, eyes[i].shade_all, eyes[i], i);
       }
     });
     gpu.wait();

@@ -3,11 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "eye.glsl"
 // lamplight {
+#define LOOKUP_VIEW eye
 #include "lookup/tile_lists.glsl"
 #include "common/frame.glsl"
 // }
-#include "eye.glsl"
 
 void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy;

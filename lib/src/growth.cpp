@@ -10,7 +10,7 @@ namespace lamp {
 namespace {
 
 /// More of an option.
-struct Wish {
+struct Demand {
   std::string_view option;
   std::uint64_t now = 0;
   std::uint64_t more = 0;
@@ -22,9 +22,9 @@ std::uint64_t wanted_entries(const Capacity& capacity, std::uint64_t needed) {
   return std::max(needed + needed / 4, capacity.entries + capacity.entries / 2);
 }
 
-std::vector<Wish> wishes(const Method& method, const Options& options, const Plan& plan,
-                         std::span<const std::uint32_t> needed) {
-  std::vector<Wish> made;
+std::vector<Demand> demands(const Method& method, const Options& options, const Plan& plan,
+                            std::span<const std::uint32_t> needed) {
+  std::vector<Demand> made;
   for (std::size_t i = 0; i < plan.capacities.size(); ++i) {
     const Capacity& capacity = plan.capacities[i];
     const std::uint64_t entries = std::uint64_t{needed[i]} * capacity.entries_per_count;
@@ -39,13 +39,13 @@ std::vector<Wish> wishes(const Method& method, const Options& options, const Pla
   return made;
 }
 
-Options with_wishes(const Method& method, const Options& options, std::span<const Wish> wishes) {
+Options with_demands(const Method& method, const Options& options, std::span<const Demand> demands) {
   std::vector<std::string> settings;
   const auto set = [&](std::string setting, const std::string& value) {
     settings.push_back(setting.append("=").append(value));
   };
   for (const auto& [key, value] : options.all()) set(key, value);
-  for (const Wish& wish : wishes) set(std::string(wish.option), std::to_string(wish.now + wish.more));
+  for (const Demand& demand : demands) set(std::string(demand.option), std::to_string(demand.now + demand.more));
   return resolve_options(method, settings).value();
 }
 
@@ -60,16 +60,16 @@ bool has_more_room(const Plan& plan, const Plan& than) {
 std::optional<GrownPlan> grow_plan(const Method& method, const Problem& problem, const Plan& plan,
                                    std::span<const std::uint32_t> needed) {
   assert(needed.size() == plan.capacities.size() && "one count for each capacity of the plan");
-  std::vector<Wish> more = wishes(method, problem.options, plan, needed);
+  std::vector<Demand> more = demands(method, problem.options, plan, needed);
   // What a device refuses is asked for by halves.
-  while (std::ranges::any_of(more, [](const Wish& wish) { return wish.more != 0; })) {
+  while (std::ranges::any_of(more, [](const Demand& demand) { return demand.more != 0; })) {
     Problem larger = problem;
-    larger.options = with_wishes(method, problem.options, more);
+    larger.options = with_demands(method, problem.options, more);
     Result<Plan> grown = make_plan(method, larger);
     if (grown && has_more_room(grown.value(), plan))
       return GrownPlan{std::move(larger.options), std::move(grown.value())};
     if (grown) return std::nullopt;
-    for (Wish& wish : more) wish.more /= 2;
+    for (Demand& demand : more) demand.more /= 2;
   }
   return std::nullopt;
 }

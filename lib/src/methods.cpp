@@ -46,6 +46,23 @@ std::uint64_t most_walked(std::string_view lookup, const DeviceTraits& traits) {
   return rounds / WALK_ROUNDS;
 }
 
+/// Methods plan for one view. Each gets its share of a buffer.
+Problem of_a_view(Problem problem) {
+  problem.traits.max_storage_buffer_bytes /= problem.views;
+  problem.traits.memory_bytes /= problem.views;
+  return problem;
+}
+
+/// Tells the look-up where the parts of its buffers lie. plan_check refuses what 32 bits cannot say.
+void tell_views(Plan& plan) {
+  if (plan.views == 1) return;
+  for (const Binding& binding : plan.lookup.bindings) {
+    const bool is_buffer = binding.resource >= PLAN_BUFFER && binding.resource != NO_RESOURCE;
+    const std::uint64_t bytes = is_buffer ? plan.view_bytes(plan.buffers[binding.resource - PLAN_BUFFER]) : 0;
+    plan.lookup.view_words.push_back(static_cast<std::uint32_t>(bytes / 4));
+  }
+}
+
 /// A device that ends long loops cannot walk every light: an error where every pixel does, a note where one may.
 std::optional<Error> check_walks(const Problem& problem, Plan& plan) {
   if (problem.traits.max_loop_rounds == ~0U) return std::nullopt;
@@ -82,21 +99,25 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
                  "expected at most " + std::to_string(MAX_LIGHTS) + ", got " + std::to_string(problem.light_capacity)};
   if (!std::has_single_bit(problem.depth_samples) || problem.depth_samples > MAX_SAMPLES)
     return Error{"depth samples", "expected 1, 2, 4, 8, 16, 32 or 64, got " + std::to_string(problem.depth_samples)};
+  if (problem.views == 0 || problem.views > MAX_VIEWS)
+    return Error{"views", "expected 1 to " + std::to_string(MAX_VIEWS) + ", got " + std::to_string(problem.views)};
   if (problem.frames_in_flight == 0 || problem.frames_in_flight > MAX_FRAMES_IN_FLIGHT)
     return Error{"frames in flight", "expected 1 to " + std::to_string(MAX_FRAMES_IN_FLIGHT) + ", got " +
                                          std::to_string(problem.frames_in_flight)};
   if (auto error = problem.light_layout.check()) return *error;
   if (method.check != nullptr)
     if (auto error = method.check(problem)) return *error;
-  Plan plan = method.plan(problem);
+  Plan plan = method.plan(of_a_view(problem));
   plan.width = problem.width;
   plan.height = problem.height;
+  plan.views = problem.views;
   plan.light_capacity = problem.light_capacity;
   plan.frames_in_flight = problem.frames_in_flight;
   plan.light_layout = problem.light_layout;
   plan.depth_samples = problem.depth_samples;
   if (problem.depth_samples > 1) read_many_samples(plan);
   make_own_inputs(plan, problem);
+  tell_views(plan);
   std::optional<Error> error = plan_check(plan, problem.traits);
   if (!error) error = check_walks(problem, plan);
   if (error) {

@@ -24,11 +24,12 @@ Maker make_maker(Plan& plan, const Problem& problem, ResourceId input, std::stri
   const LightLayout& layout = problem.light_layout;
   const std::uint64_t lights = std::max(1U, plan.light_capacity);
   const std::uint32_t threads = std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
-  const ResourceId own = plan.add({.name = name, .bytes = lights * light_bytes});
+  const ResourceId own = plan.add({.name = name, .bytes = lights * light_bytes, .all_views = true});
   Pass pass{.name = std::move(name),
             .constants = {threads},
             .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {own, Access::write}},
-            .extent = {.lights_per_group = threads}};
+            .extent = {.lights_per_group = threads},
+            .once = true};
   if (!layout.is_standard()) {
     pass.constants.insert(pass.constants.end(),
                           {static_cast<std::uint32_t>(layout.form), layout.lights.offset / UNIT,

@@ -32,8 +32,18 @@ ResourceId Plan::add(BufferDesc buffer) {
   return PLAN_BUFFER + static_cast<ResourceId>(buffers.size() - 1);
 }
 
+std::uint64_t Plan::view_bytes(const BufferDesc& buffer) const {
+  // 256 is the largest alignment of descriptors; elements have 4, 8, 12, 16, 24, 32, 48 or 64 bytes.
+  constexpr std::uint64_t UNIT = 768;
+  return views == 1 || buffer.all_views ? buffer.bytes : divide_up(buffer.bytes, UNIT) * UNIT;
+}
+
+std::uint64_t Plan::all_bytes(const BufferDesc& buffer) const {
+  return view_bytes(buffer) * (buffer.all_views ? 1 : views);
+}
+
 std::uint64_t Plan::bytes_of(const BufferDesc& buffer) const {
-  return buffer.memory == BufferMemory::upload ? buffer.bytes * (1 + frames_in_flight) : buffer.bytes;
+  return all_bytes(buffer) * (buffer.memory == BufferMemory::upload ? 1 + frames_in_flight : 1);
 }
 
 std::uint64_t Plan::bytes() const {

@@ -45,7 +45,7 @@ std::optional<Error> check_buffer(const Plan& plan, const BufferDesc& buffer, co
   if (cells.px != 0 &&
       (buffer.cell_bytes % 4 != 0 || cells.count(plan.width, plan.height) * buffer.cell_bytes != buffer.bytes))
     return Error{source, "the cells that are zeroed must be all of it, in the largest picture"};
-  return check_bytes(source, buffer.bytes, traits);
+  return check_bytes(source, plan.all_bytes(buffer), traits);
 }
 
 std::optional<Error> check_shared(const std::string& source, std::uint32_t bytes, const DeviceTraits& traits) {
@@ -192,6 +192,7 @@ class PassChecker {
         if (is_buffer(plan_, binding.resource) && buffer_of(plan_, binding.resource).begins_at_zero())
           return Error{source, "is not recorded in every frame, but binds buffer " +
                                    buffer_of(plan_, binding.resource).name + ", which is zeroed in every frame"};
+    if (auto error = check_views(source, pass)) return error;
     if (auto error = check_extent(source, pass)) return error;
     if (auto error = check_storage_buffers(source, pass.bindings, traits_)) return error;
     if (!raster && pass.shared_bytes > traits_.shared_memory_bytes)
@@ -202,6 +203,19 @@ class PassChecker {
     if (auto error = check_raster(source, plan_, pass.raster, traits_)) return error;
     if (auto error = check_shader(source, pass.raster.vertex_shader, ".vert", {})) return error;
     return check_shader(source, pass.shader, ".frag", traits_.fragment_subgroups);
+  }
+
+  /// What runs once writes what is there once, and touches nothing that each view has its own of.
+  [[nodiscard]] std::optional<Error> check_views(const std::string& source, const Pass& pass) const {
+    for (const Binding& binding : pass.bindings) {
+      const bool of_views = binding.resource == INPUT_DEPTH ||
+                            (is_buffer(plan_, binding.resource) && !buffer_of(plan_, binding.resource).all_views);
+      if (pass.once && of_views) return Error{source, "runs once for all views, but binds what each has its own of"};
+      if (!pass.once && binding.access != Access::read && !of_views && is_buffer(plan_, binding.resource))
+        return Error{source, "runs for each view, but writes buffer " + buffer_of(plan_, binding.resource).name +
+                                 ", which is one for all"};
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] std::optional<Error> check_extent(const std::string& source, const Pass& pass) const {

@@ -14,11 +14,12 @@
 namespace lamp::app {
 namespace {
 
-vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup, glm::uvec2 group_px) {
+vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup, glm::uvec2 group_px, std::uint32_t view) {
   vulkan::PipelineInfo info{
       .name = "walk", .constants = lookup.constants, .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {2}}};
   info.constants.push_back({0, group_px.x});
   info.constants.push_back({1, group_px.y});
+  info.constants.push_back({2, view});
   for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
   return take(
       vulkan::Pipeline::compute(test_context().device(), info, test_shader("walk@" + std::string(lookup.name))));
@@ -73,10 +74,10 @@ Result<vulkan::Culler> engine_culler(std::string_view method, std::vector<std::s
                                                           .brings_spheres = brings_spheres});
 }
 
-MaskPass::MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px)
+MaskPass::MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px, std::uint32_t view)
     : frame_(frame),
       group_px_(group_px),
-      pipeline_(walk_pipeline(lookup, group_px)),
+      pipeline_(walk_pipeline(lookup, group_px, view)),
       frames_(host_buffer_of("engine frame", std::vector{frame.view.frame(
                                                  static_cast<std::uint32_t>(frame.lights.size()), ENGINE_LIGHTS)})),
       masks_(host_buffer("masks", frame.depth.size() * sizeof(glm::uvec2))),

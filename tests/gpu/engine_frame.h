@@ -48,8 +48,9 @@ using Masks = std::vector<glm::uvec2>;
 /// Asks the look-up for the lights of every pixel of a frame.
 class MaskPass {
  public:
-  /// `group_px`: of a fused look-up, its work group.
-  MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px = {8, 8});
+  /// `group_px`: of a fused look-up, its work group. `view`: which of several the frame is.
+  MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px = {8, 8},
+           std::uint32_t view = 0);
 
   /// The dispatch alone: nothing is ordered before or after.
   void record(VkCommandBuffer commands, const vulkan::BoundLookUp& lookup) const;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "gpu/lookup_cases.h"
 #include "gpu/method_check.h"
-#include "gpu/odd_frames.h"
 #include "gpu/over_depth.h"
 #include "gpu/test_scenes.h"
 
@@ -14,46 +14,8 @@ namespace {
 
 using Passes = vulkan::PlanRunner::Passes;
 
-constexpr std::uint32_t COUNT = 3 * ODD_LIGHTS;  // enough words of bits that scalar walks look for those with lights
-constexpr std::uint32_t WORDS = 11;              // of a pixel, in walks.comp
+constexpr std::uint32_t WORDS = 11;  // of a pixel, in walks.comp
 constexpr std::string_view PREFIX = "walks.hlsl@";
-
-struct Case {
-  std::string_view lookup;
-  std::string_view method;
-  std::vector<std::string> settings;
-  std::uint32_t max_loop_rounds = ~0U;
-};
-
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.method << " " << fmt::format("{}", fmt::join(c.settings, " "));
-}
-
-/// Every look-up, and what those of lists walk where lists do not fit.
-std::vector<Case> cases() {
-  return {{"all", "all", {}},
-          {"tile_lists", "tiled", {"bounds=half"}},
-          {"tile_lists", "tiled", {"capacity=8"}},
-          {"tile_lists_scalar", "tiled", {"walk=scalar-cell"}},
-          {"tile_typed", "tiled", {"order=type"}},
-          {"tile_typed", "tiled", {"order=type", "mean_capacity=8"}},
-          {"tile_bits", "tiled-bits", {}},
-          {"tile_bits_scalar", "tiled-bits", {"walk=scalar-entity"}},
-          {"tile_zbins", "drobot-zbin", {"walk=plain"}},
-          {"tile_zbins_scalar", "drobot-zbin", {"walk=scalar-entity"}},
-          {"cluster_lists", "clustered", {}},
-          {"cluster_lists", "clustered", {"mean_capacity=1"}},
-          {"cluster_lists_scalar", "clustered", {"walk=scalar-cell"}},
-          {"cluster_bits", "clustered", {"container=bits"}},
-          {"cluster_bits_scalar", "clustered", {"container=bits", "walk=scalar-entity"}},
-          {"cell_lists", "lamplight", {"container=list", "tile=8"}},
-          {"cell_lists", "lamplight", {"container=list", "depth=none"}},
-          {"cell_lists", "lamplight", {"container=list", "mean_cells=1", "mean_capacity=1"}},
-          {"cell_bits", "lamplight", {"container=bits", "tile=8"}},
-          {"cell_bits", "lamplight", {"container=bits", "depth=none"}},
-          {"cell_lists_stepped", "lamplight", {"container=list", "cells=list"}, COUNT},
-          {"cell_bits_stepped", "lamplight", {"container=bits", "cells=list"}, COUNT}};
-}
 
 std::vector<shared::Light> thrice(const std::vector<Light>& lights) {
   std::vector<Light> all;
@@ -72,20 +34,13 @@ std::vector<OverDepth>& frames() {
   return made;
 }
 
-vulkan::PlanRunner make_runner(const Case& c) {
-  const Method& method = *take(find_method(c.method));
-  DeviceTraits traits = test_context().device().traits;
-  traits.max_loop_rounds = c.max_loop_rounds;
-  Plan plan = take(make_plan(method, {.width = ODD_SIZE.x,
-                                      .height = ODD_SIZE.y,
-                                      .light_capacity = COUNT,
-                                      .options = take(resolve_options(method, c.settings)),
-                                      .traits = traits}));
+vulkan::PlanRunner make_runner(const LookUpCase& c) {
+  Plan plan = take(make_plan(*take(find_method(c.method)), problem_of(c, ODD_SIZE)));
   EXPECT_EQ(plan.lookup.name, c.lookup);
   return take(vulkan::PlanRunner::create(test_context().device(), std::move(plan), shader_library().source()));
 }
 
-class Hlsl : public GpuTest, public ::testing::WithParamInterface<Case> {};
+class Hlsl : public GpuTest, public ::testing::WithParamInterface<LookUpCase> {};
 
 TEST_P(Hlsl, WalksAsGlslDoes) {
   vulkan::PlanRunner runner = make_runner(GetParam());
@@ -100,7 +55,7 @@ TEST_P(Hlsl, WalksAsGlslDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Hlsl, ::testing::ValuesIn(cases()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(Of, Hlsl, ::testing::ValuesIn(lookup_cases()), [](const auto& test) {
   return test_name(fmt::format("{}_{}", test.param.lookup, test.index));
 });
 
@@ -109,7 +64,7 @@ TEST(HlslCases, HaveEveryLookUp) {
   for (const ShaderCode& code : test_shaders()) {
     if (!code.name.starts_with(PREFIX)) continue;
     ++lookups;
-    EXPECT_TRUE(std::ranges::count(cases(), code.name.substr(PREFIX.size()), &Case::lookup)) << code.name;
+    EXPECT_TRUE(std::ranges::count(lookup_cases(), code.name.substr(PREFIX.size()), &LookUpCase::lookup)) << code.name;
   }
   EXPECT_GE(lookups, 16);
 }

@@ -42,6 +42,7 @@ class LAMPLIGHT_API Options {
 
 inline constexpr std::uint32_t MAX_LIGHTS = 1U << 24;
 inline constexpr std::uint32_t MAX_FRAMES_IN_FLIGHT = 4;
+inline constexpr std::uint32_t MAX_VIEWS = 8;
 inline constexpr std::uint32_t MAX_IMAGE_SIZE = 1U << 16;  ///< pixels a side, whatever a device says
 
 /// What a method plans for: frames of up to a size, in pixels, 1 .. traits.max_image_size and MAX_IMAGE_SIZE;
@@ -49,6 +50,7 @@ inline constexpr std::uint32_t MAX_IMAGE_SIZE = 1U << 16;  ///< pixels a side, w
 struct Problem {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  std::uint32_t views = 1;  ///< that a frame has, 1 .. MAX_VIEWS: eyes, faces of a cube, parts of a split screen
   std::uint32_t light_capacity = 0;
   Options options;
   DeviceTraits traits;

@@ -23,7 +23,9 @@ namespace lamp {
 /// A resource of a plan: one of the inputs below, or `PLAN_BUFFER + i` for the plan's i-th buffer.
 using ResourceId = std::uint32_t;
 
-inline constexpr ResourceId INPUT_FRAME = 0;    ///< one shared::Frame: a uniform buffer in compute passes, else storage
+/// A view's shared::Frame, a uniform buffer in compute passes, else a storage buffer; a look-up sees those of all
+/// views.
+inline constexpr ResourceId INPUT_FRAME = 0;
 inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, what Plan::light_layout says of each light
 inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth; may be larger than the picture
 inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]
@@ -57,13 +59,14 @@ struct CellGrid {
 
 struct BufferDesc {
   std::string name;
-  std::uint64_t bytes = 0;  ///< > 0, a multiple of 4
+  std::uint64_t bytes = 0;  ///< of a view; > 0, a multiple of 4
   BufferMemory memory = BufferMemory::device;
   bool zeroed = false;           ///< filled with zeros at the start of every frame; device memory only
   CellGrid zeroed_cells;         ///< px not 0: only as far as the cells of the frame's picture reach,
   std::uint64_t cell_bytes = 0;  ///< of as many bytes each, a multiple of 4
   bool zeroed_by_pass = false;   ///< likewise, but by the first pass that binds it, which only writes it
   bool indirect = false;         ///< holds group or draw counts
+  bool all_views = false;        ///< one for all views, written by passes that run once (Pass::once)
 
   [[nodiscard]] bool begins_at_zero() const { return zeroed || zeroed_by_pass; }
 };
@@ -117,6 +120,7 @@ struct Pass {
   RasterState raster;                 ///< raster passes
   HostFunction host = nullptr;        ///< host passes; they run while recording, before every GPU pass
   std::string option;                 ///< host passes: the setting that asks for it ("sort=cpu"), for messages
+  bool once = false;                  ///< for all views together: reads lights alone; else once for each view
   bool on_projection_change = false;  ///< kept: not in frames of a projection with which it has run just before
   std::uint32_t shared_bytes = 0;     ///< shared memory of a work group, for plan_check
   std::uint32_t full_subgroups = 0;   ///< not 0: threads of a work group, all in x, whose subgroups must all be full
@@ -127,6 +131,8 @@ struct LookUp {
   std::string name;
   std::vector<std::uint32_t> constants;  ///< specialization constants LOOKUP_CONSTANT + 0, 1, ...
   std::vector<Binding> bindings;         ///< set 0, bindings LOOKUP_BINDING + 0, 1, ...; read
+  /// Of each binding, 32-bit words from one view's part of its buffer to the next one's; none where there is one view.
+  std::vector<std::uint32_t> view_words;
   /// Lights that a pixel surely can walk. Where a device ends loops and the method says nothing, `make_plan` does.
   std::uint64_t most_walked = ~0ULL;
 };
@@ -137,6 +143,7 @@ inline constexpr std::uint32_t WALK_ROUNDS = 3;
 /// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl, *.hlsl) and does
 /// not say otherwise (lookup/parts/resources.glsl).
 inline constexpr std::uint32_t LOOKUP_CONSTANT = 100;
+inline constexpr std::uint32_t LOOKUP_VIEW_CONSTANT = 120;  ///< + the place of a binding: its LookUp::view_words
 inline constexpr std::uint32_t LOOKUP_BINDING = 16;
 
 /// A compute shader that culls and shades in one dispatch includes this look-up, whose walk reads shared memory. It may
@@ -172,6 +179,7 @@ struct LAMPLIGHT_API Plan {
   bool any_depth = false;              ///< right for any depth of a pixel, not only the depth buffer's
   std::uint32_t width = 0;             ///< the problem's, pixels: of the largest frame
   std::uint32_t height = 0;            ///< likewise
+  std::uint32_t views = 1;             ///< likewise
   std::uint32_t light_capacity = 0;    ///< likewise
   LightLayout light_layout;            ///< likewise
   std::uint32_t depth_samples = 1;     ///< likewise
@@ -182,6 +190,10 @@ struct LAMPLIGHT_API Plan {
 
   /// Adds a buffer and returns its id.
   ResourceId add(BufferDesc buffer);
+  /// Bytes from one view's part of a buffer to the next one's, where a descriptor or an element of any kind may begin.
+  [[nodiscard]] std::uint64_t view_bytes(const BufferDesc& buffer) const;
+  /// Of the parts of all views.
+  [[nodiscard]] std::uint64_t all_bytes(const BufferDesc& buffer) const;
   /// Bytes that a buffer takes, with what it is filled from; of all buffers together.
   [[nodiscard]] std::uint64_t bytes_of(const BufferDesc& buffer) const;
   [[nodiscard]] std::uint64_t bytes() const;

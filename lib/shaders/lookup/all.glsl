@@ -11,17 +11,20 @@ struct Walk {
 #define LOOKUP_TOGETHER true
 void lookup_prepare() {}
 
-uint lookup_cell(uvec2 pixel, float z_view) { return 0u; }
+uint lookup_cell(uint view, uvec2 pixel, float z_view) { return 0u; }
 
 #define LOOKUP_RANGED
-Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
+Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
   Walk walk;
   walk.at = first;
-  walk.end = min(end, light_count_of(lookup_frame));
+  walk.end = min(end, lookup_light_count());
   return walk;
 }
 
-Walk walk_begin(uvec2 pixel, float z_view) { return walk_begin_in(pixel, z_view, 0u, light_count_of(lookup_frame)); }
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
+  return walk_begin_in(view, pixel, z_view, 0u, lookup_light_count());
+}
+#include "lookup/parts/of_view.glsl"
 
 uint lookup_light_at(Walk walk, uint place) { return place; }
 

@@ -6,6 +6,8 @@
 
 LOOKUP_BUFFER(2, LookupBits, uint, lookup_bits);
 LOOKUP_BUFFER(3, LookupPieceLists, uint, lookup_piece_lists);
+LOOKUP_VIEW_WORDS(2, LOOKUP_BITS_VIEW);
+LOOKUP_VIEW_WORDS(3, LOOKUP_PIECE_LISTS_VIEW);
 
 struct Walk {
   uint bits;   // of the word that was read last, those that are left
@@ -16,36 +18,40 @@ struct Walk {
   uint first;   // piece
   uint second;  // less one
   bool all;     // a word is 32 of all lights
+  uint view;
 };
 
-Walk walk_begin(uvec2 pixel, float z_view) {
-  const uint index = lookup_light_cell(pixel, z_view);
-  const LightCell cell = lookup_cells[index];
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
+  const uint index = lookup_light_cell(view, pixel, z_view);
+  const LightCell cell = lookup_cell_at(view, index);
   bool at_cell = LOOKUP_FIRST_AT_CELL != 0u;
   Walk walk;
+  walk.view = view;
   walk.all = cell.pieces == ALL_LIGHTS;
   walk.bits = 0u;
   walk.base = 0u;
   walk.word = 0u;
-  walk.words = ((walk.all ? light_count_of(lookup_frame) : cell.entries) + 31u) / 32u;
+  walk.words = ((walk.all ? lookup_light_count() : cell.entries) + 31u) / 32u;
   walk.row = lookup_row(pixel, z_view);
   walk.first = at_cell ? index : cell.first_piece;
   walk.second = at_cell ? cell.first_piece - 1u : cell.first_piece;
   return walk;
 }
+#include "lookup/parts/of_view.glsl"
 
 // Of all lights, each word is full but the last.
 void lookup_next_word(inout Walk walk) {
   const uint word = walk.word++;
   walk.base = 32u * word;
   if (walk.all) {
-    const uint left = light_count_of(lookup_frame) - walk.base;
+    const uint left = lookup_light_count() - walk.base;
     walk.bits = left < 32u ? (1u << left) - 1u : ~0u;
     return;
   }
   const uint piece = word / PIECE_WORDS;
   const uint place = piece == 0u ? walk.first : walk.second + piece;
-  walk.bits = lookup_bits[(place * LOOKUP_CELL_ROWS + walk.row) * PIECE_WORDS + word % PIECE_WORDS];
+  const uint row_word = (place * LOOKUP_CELL_ROWS + walk.row) * PIECE_WORDS + word % PIECE_WORDS;
+  walk.bits = lookup_bits[walk.view * LOOKUP_BITS_VIEW + row_word];
   walk.base += (place - piece) * PIECE;
 }
 
@@ -59,7 +65,7 @@ bool walk_word(inout Walk walk) {
 
 uint lookup_light_of(Walk walk, uint bit) {
   if (walk.all) return walk.base + bit;
-  return lookup_piece_lists[walk.base + bit];
+  return lookup_piece_lists[walk.view * LOOKUP_PIECE_LISTS_VIEW + walk.base + bit];
 }
 
 #include "lookup/parts/walk_words.glsl"

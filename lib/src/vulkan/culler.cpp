@@ -42,6 +42,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   culler.method_ = method.value();
   culler.problem_ = {.width = info.width,
                      .height = info.height,
+                     .views = info.views,
                      .light_capacity = info.light_capacity,
                      .options = std::move(options.value()),
                      .traits = device.traits,
@@ -56,7 +57,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   culler.runner_ = std::move(runner.value());
   Result<Buffer> frame =
       Buffer::create(device, {.name = "frame",
-                              .bytes = sizeof(shared::Frame),
+                              .bytes = info.views * sizeof(shared::Frame),
                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
   if (!frame) return frame.error();
@@ -71,66 +72,97 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   culler.counts_ = std::move(counts.value());
   culler.readers_ = info.readers;
   culler.slots_.assign(info.frames_in_flight, FREE);
+  culler.reserve();
   return culler;
 }
 
+/// For whatever a record touches.
+void Culler::reserve() {
+  tracker_.reserve(runner_.plan().buffers.size() + problem_.views + PLAN_BUFFER + 2, problem_.views);
+}
+
+Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
+  const CullerView only{frame.view, frame.depth_image, frame.depth_view, frame.depth_layout, frame.depth_offset};
+  const std::span<const CullerView> views = frame.views.empty() ? std::span(&only, 1) : frame.views;
+  if (views.size() != problem_.views)
+    return Error{"views", "expected " + std::to_string(problem_.views) + ", as many as the Culler was made for, got " +
+                              std::to_string(views.size())};
+  // Of lights that the GPU counts, passes are dispatched for as many as there is room for; shaders stop at the count.
+  const std::uint32_t capacity = problem_.light_capacity;
+  const std::uint32_t lights = frame.light_count_buffer != VK_NULL_HANDLE ? capacity : frame.light_count;
+  Views seen{};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const CullerView& view = views[i];
+    if (view.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
+    seen.records[i] = view.view->frame(lights, capacity);
+    if (view.depth_offset.x < 0 || view.depth_offset.y < 0)
+      return Error{"depth offset", "expected where the picture begins in the depth image, got " +
+                                       std::to_string(view.depth_offset.x) + ", " +
+                                       std::to_string(view.depth_offset.y)};
+    seen.records[i].depth_offset_px = {view.depth_offset.x, view.depth_offset.y};
+    seen.depths[i] = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                      .image = view.depth_image,
+                      .view = view.depth_view,
+                      .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                      .layout = view.depth_layout};
+  }
+  return seen;
+}
+
 Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
-  if (frame.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
   const bool gpu_counts = frame.light_count_buffer != VK_NULL_HANDLE;
   if (gpu_counts)
     if (auto error = check_gpu_count(frame, runner_.plan())) return *error;
-  // Of lights that the GPU counts, passes are dispatched for as many as there is room for; shaders stop at the count.
-  const std::uint32_t capacity = problem_.light_capacity;
-  shared::Frame record = frame.view->frame(gpu_counts ? capacity : frame.light_count, capacity);
-  if (frame.depth_offset.x < 0 || frame.depth_offset.y < 0)
-    return Error{"depth offset", "expected where the picture begins in the depth image, got " +
-                                     std::to_string(frame.depth_offset.x) + ", " + std::to_string(frame.depth_offset.y)};
-  record.depth_offset_px = {frame.depth_offset.x, frame.depth_offset.y};
+  const Result<Views> views = views_of(frame);
+  if (!views) return views.error();
+  const std::span<const Resource> depths = std::span(views.value().depths).first(problem_.views);
   PlanInputs inputs{.frame = frame_.handle(),
                     .lights = frame.lights,
                     .cones = frame.cones,
                     .spheres = frame.spheres,
-                    .depth = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                              .image = frame.depth_image,
-                              .view = frame.depth_view,
-                              .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                              .layout = frame.depth_layout},
+                    .depth = depths.front(),
                     .host_lights = frame.host_lights,
-                    .host_frame = &record};
+                    .host_frame = views.value().records.data()};
+  if (problem_.views > 1) inputs.depths = depths;
   if (auto error = runner_.check(inputs)) return *error;
   inputs.slot = last_slot_ = take_slot(++frames_);
-  // A tracker of this frame alone: it knows nothing of others, which may never run, and keeps nothing of the host's.
-  AccessTracker tracker;
-  tracker.assume(inputs.depth);
+  // It knows nothing of other frames, which may never run, and keeps nothing of the host's.
+  tracker_.reset();
+  for (const Resource& depth : depths)
+    if (depth.image != VK_NULL_HANDLE) tracker_.assume(depth);
   for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres})
-    if (part.buffer != VK_NULL_HANDLE) tracker.assume(Resource::storage(part));
-  Recorder recorder(device_, commands, tracker);
+    if (part.buffer != VK_NULL_HANDLE) tracker_.assume(Resource::storage(part));
+  Recorder recorder(device_, commands, tracker_);
   // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
   const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   recorder.order(stages | readers_, stages);
-  record_frame(recorder, record, frame);
+  record_frame(recorder, views.value(), frame);
   if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
   recorder.order(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_);
   record_counts(recorder, last_slot_ * slot_bytes(), gpu_counts);
   return frames_;
 }
 
-void Culler::record_frame(Recorder& recorder, const shared::Frame& record, const CullerFrame& frame) const {
+void Culler::record_frame(Recorder& recorder, const Views& views, const CullerFrame& frame) const {
   const Use written{.resource = Resource::storage(frame_.handle()),
                     .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                     .access = VK_ACCESS_2_TRANSFER_WRITE_BIT};
   recorder.barrier({written});
-  device_.vk.vkCmdUpdateBuffer(recorder.commands(), frame_.handle(), 0, sizeof(record), &record);
+  device_.vk.vkCmdUpdateBuffer(recorder.commands(), frame_.handle(), 0, problem_.views * sizeof(shared::Frame),
+                               views.records.data());
   if (frame.light_count_buffer == VK_NULL_HANDLE) return;
   recorder.barrier({written});
-  const VkBufferCopy count{.srcOffset = frame.light_count_offset,
-                           .dstOffset = offsetof(shared::Frame, light_count),
-                           .size = LIGHT_COUNT_BYTES};
-  device_.vk.vkCmdCopyBuffer(recorder.commands(), frame.light_count_buffer, frame_.handle(), 1, &count);
+  std::array<VkBufferCopy, MAX_VIEWS> counts{};
+  for (std::uint32_t view = 0; view < problem_.views; ++view)
+    counts[view] = {.srcOffset = frame.light_count_offset,
+                    .dstOffset = view * sizeof(shared::Frame) + offsetof(shared::Frame, light_count),
+                    .size = LIGHT_COUNT_BYTES};
+  device_.vk.vkCmdCopyBuffer(recorder.commands(), frame.light_count_buffer, frame_.handle(), problem_.views,
+                             counts.data());
 }
 
 /// What the plan counted, and behind it the lights that there were.
-void Culler::record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts) const {
+void Culler::record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts) {
   runner_.record_counts(recorder, counts_, slot_begin);
   if (!gpu_counts) return;
   const Resource to = Resource::storage(counts_.handle());
@@ -204,6 +236,7 @@ Result<Growth> Culler::grow(GrownPlan grown) {
   retired_.push_back({std::exchange(runner_, std::move(runner.value())), frames_});
   problem_.options = std::move(grown.options);
   first_frame_ = frames_ + 1;
+  reserve();
   return runner_.plan().lookup.constants == constants ? Growth::buffers : Growth::constants;
 }
 

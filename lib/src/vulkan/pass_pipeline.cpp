@@ -55,6 +55,8 @@ std::vector<Constant> lookup_constants(const LookUp& lookup) {
   std::vector<Constant> constants;
   for (std::uint32_t i = 0; i < lookup.constants.size(); ++i)
     constants.push_back({LOOKUP_CONSTANT + i, lookup.constants[i]});
+  for (std::uint32_t i = 0; i < lookup.view_words.size(); ++i)
+    constants.push_back({LOOKUP_VIEW_CONSTANT + i, lookup.view_words[i]});
   return constants;
 }
 

@@ -61,6 +61,18 @@ std::optional<Error> check_depth(const Resource& depth) {
   return std::nullopt;
 }
 
+Error of_view(Error error, std::uint32_t view) {
+  error.source = "view " + std::to_string(view) + ": " + error.source;
+  return error;
+}
+
+/// All views see the same lights.
+std::optional<Error> check_count_of_views(const shared::Frame& frame, const shared::Frame& first) {
+  if (frame.light_count == first.light_count && frame.box_count == first.box_count) return std::nullopt;
+  return Error{"light count", "expected " + std::to_string(first.light_count) + ", as in view 0, got " +
+                                  std::to_string(frame.light_count)};
+}
+
 bool has_host_pass(const std::vector<Pass>& passes) {
   return std::ranges::find(passes, PassKind::host, &Pass::kind) != passes.end();
 }
@@ -79,13 +91,28 @@ std::optional<Error> PlanRunner::check_lights(const PlanInputs& inputs) const {
   return std::nullopt;
 }
 
+std::optional<Error> PlanRunner::check_depths(const PlanInputs& inputs) const {
+  if (!plan_.binds(INPUT_DEPTH)) return std::nullopt;
+  if (plan_.views == 1 && inputs.depths.empty()) return check_depth(inputs.depth);
+  if (inputs.depths.size() != plan_.views)
+    return Error{"depth images", "expected " + std::to_string(plan_.views) + ", one a view, got " +
+                                     std::to_string(inputs.depths.size())};
+  for (std::uint32_t view = 0; view < plan_.views; ++view)
+    if (auto error = check_depth(inputs.depths[view])) return of_view(std::move(*error), view);
+  return std::nullopt;
+}
+
 std::optional<Error> PlanRunner::check(const PlanInputs& inputs) const {
   if (inputs.host_frame == nullptr) return Error{"host frame", "expected the frame's record, got none"};
-  if (auto error = check_record(plan_, *inputs.host_frame)) return error;
+  for (std::uint32_t view = 0; view < plan_.views; ++view) {
+    const shared::Frame& record = inputs.host_frame[view];
+    std::optional<Error> error = check_record(plan_, record);
+    if (!error) error = check_count_of_views(record, *inputs.host_frame);
+    if (error) return plan_.views == 1 ? error : of_view(std::move(*error), view);
+  }
   if (auto error = check_buffer("frame", inputs.frame)) return error;
   if (auto error = check_lights(inputs)) return error;
-  if (plan_.binds(INPUT_DEPTH))
-    if (auto error = check_depth(inputs.depth)) return error;
+  if (auto error = check_depths(inputs)) return error;
   if (inputs.slot >= plan_.frames_in_flight)
     return Error{"slot", "expected less than " + std::to_string(plan_.frames_in_flight) +
                              ", the frames in flight that the plan was made for, got " + std::to_string(inputs.slot)};

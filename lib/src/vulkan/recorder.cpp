@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <string>
 #include <utility>
 
 #include "lamplight/vulkan/descriptor_sets.h"
@@ -48,13 +49,31 @@ void for_each_writes(std::span<const Bound> resources, VkDescriptorSet set, Func
   }
 }
 
+/// "GROUP: NAME", on the heap only if it is long.
+class Label {
+ public:
+  Label(std::string_view group, std::string_view name) {
+    constexpr std::string_view BETWEEN = ": ";
+    const std::size_t length = name.size() + (group.empty() ? 0 : group.size() + BETWEEN.size());
+    if (length >= here_.size()) long_.resize(length);
+    char* at = long_.empty() ? here_.data() : long_.data();
+    for (const std::string_view part : {group, group.empty() ? group : BETWEEN, name})
+      at = std::ranges::copy(part, at).out;
+  }
+  [[nodiscard]] const char* c_str() const { return long_.empty() ? here_.data() : long_.c_str(); }
+
+ private:
+  std::array<char, 64> here_{};
+  std::string long_;
+};
+
 }  // namespace
 
 void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses) {
   VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-  std::vector<VkImageMemoryBarrier2> images;
+  images_.clear();
   for (const Use& use : uses) {
-    State& state = states_[key_of(use.resource)];
+    State& state = state_of(use.resource);
     const bool writes = (use.access & WRITES) != 0;
     const bool image = use.resource.image != VK_NULL_HANDLE;
     const bool changes_layout = image && (state.layout != use.resource.layout || use.discard);
@@ -63,7 +82,7 @@ void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands,
     const bool orders_reads = (writes || changes_layout) && state.read_stages != 0;
 
     if (changes_layout) {
-      images.push_back(
+      images_.push_back(
           {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
            .srcStageMask = state.write_stages | state.read_stages,
            .srcAccessMask = state.write_access,
@@ -97,18 +116,26 @@ void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands,
       state.visible_access |= use.access;
     }
   }
-  if (memory.srcStageMask == 0 && images.empty()) return;
+  if (memory.srcStageMask == 0 && images_.empty()) return;
   const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                     .memoryBarrierCount = memory.srcStageMask == 0 ? 0U : 1U,
                                     .pMemoryBarriers = &memory,
-                                    .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
-                                    .pImageMemoryBarriers = images.data()};
+                                    .imageMemoryBarrierCount = static_cast<std::uint32_t>(images_.size()),
+                                    .pImageMemoryBarriers = images_.data()};
   vk.vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-void AccessTracker::assume(const Resource& resource) { states_[key_of(resource)] = {.layout = resource.layout}; }
+AccessTracker::State& AccessTracker::state_of(const Resource& resource) {
+  const std::uint64_t key = key_of(resource);
+  const auto known = std::ranges::find(known_, key, &Known::key);
+  return known != known_.end() ? known->state : known_.emplace_back(key).state;
+}
 
-void AccessTracker::forget(VkBuffer buffer) { states_.erase(reinterpret_cast<std::uint64_t>(buffer)); }
+void AccessTracker::assume(const Resource& resource) { state_of(resource) = {.layout = resource.layout}; }
+
+void AccessTracker::forget(VkBuffer buffer) {
+  std::erase_if(known_, [&](const Known& known) { return known.key == reinterpret_cast<std::uint64_t>(buffer); });
+}
 
 Result<Timestamps> Timestamps::create(const Device& device, std::uint32_t max_passes) {
   Timestamps timestamps;
@@ -170,15 +197,15 @@ std::vector<Timestamps::Time> Timestamps::read() const {
   return times;
 }
 
-void Recorder::begin_pass(std::string_view name, const std::vector<Use>& uses) {
-  const std::string full = group_.empty() ? std::string(name) : group_ + ": " + std::string(name);
+void Recorder::begin_pass(std::string_view name, std::span<const Use> uses) {
+  const Label full(group_, name);
   if (device_.vk.vkCmdBeginDebugUtilsLabelEXT != nullptr) {
     const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = full.c_str()};
     device_.vk.vkCmdBeginDebugUtilsLabelEXT(commands_, &label);
   }
   // Before the barrier: what a pass waits for is its cost. And Mesa's llvmpipe takes a time only when something flushes
   // what was recorded, which a barrier does and a dispatch that reads no image does not.
-  if (timestamps_ != nullptr) timestamps_->begin(commands_, full);
+  if (timestamps_ != nullptr) timestamps_->begin(commands_, full.c_str());
   tracker_.barrier(device_.vk, commands_, uses);
 }
 

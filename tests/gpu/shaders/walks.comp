@@ -8,6 +8,8 @@
 #include "lamplight/shared/frame.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
+layout(constant_id = 2) const uint VIEW = 0;
+#define LOOKUP_VIEW VIEW
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) writeonly buffer WordBuffer { uint words[]; };
 #include "lookup.glsl"

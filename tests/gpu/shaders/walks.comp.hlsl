@@ -1,5 +1,8 @@
 // What walks.comp does, as an engine would say it in HLSL.
 // SPDX-License-Identifier: Apache-2.0
+[[vk::constant_id(2)]] const uint VIEW = 0;
+static uint view = 0;  // glslang ends where a specialization constant is an index
+#define LOOKUP_VIEW view
 #include "lookup.hlsl"
 #include "lookup/parts/each.glsl"
 #include "common/frame.hlsl"
@@ -11,6 +14,7 @@ static const uint WORDS = 11;
 
 [numthreads(8, 8, 1)]
 void main(uint3 thread : SV_DispatchThreadID) {
+  view = VIEW;
   lookup_prepare();
   const uint2 pixel = thread.xy;
   if (any(pixel >= lookup_frame.size_px)) return;

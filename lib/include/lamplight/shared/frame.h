@@ -1,5 +1,5 @@
 // What a frame's passes know of the camera and the entities: matrices, size, counts.
-// Promise: 240 bytes in C++ and in GLSL; bound as a storage buffer.
+// Promise: 256 bytes in C++ and in GLSL, so that a descriptor may begin at any view's.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_FRAME_H
 #define LAMPLIGHT_SHARED_FRAME_H
@@ -14,18 +14,22 @@ struct Frame {
   mat4 clip_from_view;   // Vulkan clip space (y down); no shear (see view.h)
   mat4 view_from_world;  // rigid, but for `stretch`
   mat4 world_from_view;
-  vec3 eye_world;       // m, world_from_view * (0,0,0)
-  uint light_count;     // lights of this frame; with boxes: all entities (entity.h)
-  uvec2 size_px;        // width, height
-  uint box_count;       // how many of them, the last ones, are boxes
-  uint light_capacity;  // what there is room for, at most the plan's; shaders take no more (light_count_of)
-  float stretch;        // the largest share by which view_from_world may change a length; 0: it is rigid
-  uint sky_bits;           // device depth of the sky, as bits: 0.0 where depth is reversed, else 1.0
-  uvec2 depth_offset_px;   // where the picture begins in the depth image
+  vec3 eye_world;         // m, world_from_view * (0,0,0)
+  uint light_count;       // lights of this frame; with boxes: all entities (entity.h)
+  uvec2 size_px;          // width, height
+  uint box_count;         // how many of them, the last ones, are boxes
+  uint light_capacity;    // what there is room for, at most the plan's; shaders take no more (light_count_of)
+  float stretch;          // the largest share by which view_from_world may change a length; 0: it is rigid
+  uint sky_bits;          // device depth of the sky, as bits: 0.0 where depth is reversed, else 1.0
+  uvec2 depth_offset_px;  // where the picture begins in the depth image
+  uint reserved0;
+  uint reserved1;
+  uint reserved2;
+  uint reserved3;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 240);
+static_assert(sizeof(Frame) == 256);
 }  // namespace lamp::shared
 #endif
 

@@ -27,6 +27,7 @@ using glm::vec4;
 #define vec3 float3
 #define vec4 float4
 #define uvec2 uint2
+#define uvec3 uint3
 #define uvec4 uint4
 #define mat4 row_major float4x4
 #define LAMP_CONST static const uint

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace lamp::vulkan {
 struct CullerInfo {
   std::uint32_t width = 0;   ///< pixels, of the largest frame
   std::uint32_t height = 0;  ///< likewise
+  std::uint32_t views = 1;   ///< of a frame, 1 .. MAX_VIEWS: eyes, faces of a cube, parts of a split screen
   std::uint32_t light_capacity = 0;
   std::string method = "clustered";  ///< `lamp list methods`
   std::vector<std::string> options;  ///< "tile=32"
@@ -25,6 +27,15 @@ struct CullerInfo {
   /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
   VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   std::uint32_t frames_in_flight = MAX_FRAMES_IN_FLIGHT;  ///< that may be recorded and not done yet, 1 .. that
+};
+
+/// One of several views of a frame. The look-up takes its place among them.
+struct CullerView {
+  const View* view = nullptr;            ///< with a size of its own
+  VkImage depth_image = VK_NULL_HANDLE;  ///< these as in CullerFrame
+  VkImageView depth_view = VK_NULL_HANDLE;
+  VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  VkOffset2D depth_offset = {0, 0};
 };
 
 /// What a frame brings. Lights, their count, spheres and depth must be visible to compute shaders when the recorded
@@ -47,7 +58,8 @@ struct CullerFrame {
                                                ///< the view says; may be larger than the picture
   VkImageView depth_view = VK_NULL_HANDLE;     ///< 2D, of its depth aspect alone and of one layer
   VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-  VkOffset2D depth_offset = {0, 0};  ///< where the picture begins in the depth image, pixels, not negative
+  VkOffset2D depth_offset = {0, 0};   ///< where the picture begins in the depth image, pixels, not negative
+  std::span<const CullerView> views;  ///< CullerInfo::views of them, instead of `view` and the depth above
 };
 
 /// What `Culler::finish` changed.
@@ -69,8 +81,9 @@ class LAMPLIGHT_API Culler {
 
   /// Records the passes. What they wrote is visible to CullerInfo::readers recorded later. Returns the frame's number,
   /// from 1 on. A recorded frame may be dropped (`drop`): none relies on what another one would have done. Errors, and
-  /// then nothing is recorded: no view or a larger one, a handle that the method needs and that is missing, more
-  /// lights than the capacity, fewer host lights than lights, a count on the GPU for an option that works on the CPU.
+  /// then nothing is recorded: no view or a larger one, another number of views, a handle that the method needs and
+  /// that is missing, more lights than the capacity, fewer host lights than lights, a count on the GPU for an option
+  /// that works on the CPU.
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
@@ -84,8 +97,9 @@ class LAMPLIGHT_API Culler {
   /// Says that a frame was recorded and will never run, so that it is under way no longer.
   void drop(std::uint64_t frame);
 
-  /// How a shader reads the result: the file lookup/NAME.glsl, constants for its specialization, resources for its
-  /// descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows in `finish`.
+  /// How a shader reads the result, of all views: the file lookup/NAME.glsl, constants for its specialization,
+  /// resources for its descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows
+  /// in `finish`.
   [[nodiscard]] BoundLookUp lookup() const;
 
   /// What the frame that was recorded last counted: cells that did not fit and were walked the long way, and lights
@@ -105,8 +119,15 @@ class LAMPLIGHT_API Culler {
   };
   [[nodiscard]] std::optional<std::uint32_t> slot_of(std::uint64_t frame) const;
   [[nodiscard]] std::uint32_t take_slot(std::uint64_t frame);
-  void record_frame(Recorder& recorder, const shared::Frame& record, const CullerFrame& frame) const;
-  void record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts) const;
+  /// A frame's views, and what plans see of them.
+  struct Views {
+    std::array<shared::Frame, MAX_VIEWS> records{};
+    std::array<Resource, MAX_VIEWS> depths;
+  };
+  void reserve();
+  [[nodiscard]] Result<Views> views_of(const CullerFrame& frame) const;
+  void record_frame(Recorder& recorder, const Views& views, const CullerFrame& frame) const;
+  void record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts);
   [[nodiscard]] std::uint64_t slot_bytes() const;
   [[nodiscard]] std::span<std::byte> count_bytes_in(std::uint32_t slot) const;
   [[nodiscard]] FrameCounts counts_in(std::uint32_t slot) const;
@@ -121,6 +142,7 @@ class LAMPLIGHT_API Culler {
   std::uint32_t last_slot_ = 0;
   PlanRunner runner_;
   VkPipelineStageFlags2 readers_ = 0;
+  AccessTracker tracker_;  ///< of one record alone; here so that the next one allocates nothing
   std::vector<Retired> retired_;
   std::uint64_t frames_ = 0;       ///< that were recorded
   std::uint64_t first_frame_ = 1;  ///< of the runner

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "lamplight/export.h"
+#include "lamplight/method.h"
 #include "lamplight/plan.h"
 #include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
@@ -16,15 +19,16 @@ namespace lamp::vulkan {
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
-  VkBuffer frame = VK_NULL_HANDLE;             ///< one shared::Frame; usable as uniform and as storage buffer
-  BufferPart lights;                           ///< as many as the record says, in the plan's layout
-  BufferPart cones;                            ///< likewise, where the layout has them
-  BufferPart spheres;                          ///< shared::LightSphere, as many
-  Resource depth;                              ///< image, view, aspect and layout; unset where none is needed
+  VkBuffer frame = VK_NULL_HANDLE;   ///< a shared::Frame of each view; usable as uniform and as storage buffer
+  BufferPart lights;                 ///< as many as the record says, in the plan's layout
+  BufferPart cones;                  ///< likewise, where the layout has them
+  BufferPart spheres;                ///< shared::LightSphere, as many
+  Resource depth;                    ///< image, view, aspect and layout; unset where none is needed
+  std::span<const Resource> depths;  ///< of several views: one each, instead
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights
   std::uint32_t slot = 0;                      ///< below the plan's frames in flight; of no frame that is not done yet
-  /// The frame's record, as in `frame`. If the GPU counts the lights there, with the most that there may be, which
-  /// passes are dispatched for.
+  /// The records of the views, as in `frame`. If the GPU counts the lights there, with the most that there may be,
+  /// which passes are dispatched for.
   const shared::Frame* host_frame = nullptr;
 };
 
@@ -44,10 +48,10 @@ struct LAMPLIGHT_API BoundLookUp {
 inline constexpr std::string_view UPLOAD_PASS = "upload";
 inline constexpr std::string_view CLEAR_PASS = "clear";
 
-/// What a frame of a plan counted.
+/// What a frame of a plan counted: of all views together, but for what lists need, which is the most that any did.
 struct FrameCounts {
   shared::Counters counters{};
-  std::vector<std::uint32_t> needed;  ///< of the plan's capacities, in their order
+  std::vector<std::uint32_t> needed;  ///< of the plan's capacities, in their order; the most of any view
 };
 /// Bytes of those in a read-back buffer, and from there.
 [[nodiscard]] LAMPLIGHT_API std::uint64_t count_bytes(const Plan& plan);
@@ -82,12 +86,12 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] VkPipelineStageFlags2 stages() const;
 
   /// Records the copy of the frame's counts to a mapped buffer, for `read_counts` after the frame's fence.
-  void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0) const;
+  void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0);
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
   /// A host pass of the last record(), and how long it took on the CPU.
   struct HostTime {
-    std::string pass;
+    std::string_view pass;  ///< of the plan
     double ms = 0.0;
   };
   [[nodiscard]] std::span<const HostTime> host_times() const { return host_times_; }
@@ -95,7 +99,9 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] std::span<const PipelineStatistic> statistics(std::string_view pass) const;
   /// How often passes that are kept have been recorded.
   [[nodiscard]] std::uint64_t projection_rebuilds() const { return projection_rebuilds_; }
-  [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate) const;
+  /// Of all views; a fused one is that of the view.
+  [[nodiscard]] BoundLookUp lookup(const PlanInputs& inputs, Passes which = Passes::separate,
+                                   std::uint32_t view = 0) const;
   /// The buffer of a plan's resource, VK_NULL_HANDLE for inputs.
   [[nodiscard]] VkBuffer buffer(ResourceId id) const;
 
@@ -103,53 +109,69 @@ class LAMPLIGHT_API PlanRunner {
   struct BuiltPass {
     Pass pass;
     Pipeline pipeline;
-    std::vector<VkDescriptorSet> sets;  ///< one a slot; none where descriptors are pushed
-
-    [[nodiscard]] VkDescriptorSet set(std::uint32_t slot) const { return sets.empty() ? VK_NULL_HANDLE : sets[slot]; }
+    std::vector<VkDescriptorSet> sets;  ///< one a slot and view; none where descriptors are pushed
   };
-  /// With what it touches in this frame.
+  /// A pass for one of the views, with what it touches.
   struct BoundPass {
-    const BuiltPass* built = nullptr;
-    std::vector<Use> uses;
+    std::size_t pass = 0;
+    std::uint32_t view = 0;
     std::vector<Bound> resources;
+    std::vector<Use> uses;  ///< of these, and of the buffer with its counts
+  };
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  /// Passes in their order, those of all views beside one another; and which may run side by side.
+  struct Sequence {
+    std::vector<BuiltPass> passes;
+    std::vector<BoundPass> bound;
+    std::vector<Range> together;  ///< of `bound`: none of these waits for another
   };
   [[nodiscard]] std::optional<Error> check_lights(const PlanInputs& inputs) const;
-  [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs) const;
-  [[nodiscard]] Result<std::vector<BuiltPass>> build(const Device& device, const std::vector<Pass>& passes,
-                                                     const ShaderSource& shaders);
+  [[nodiscard]] std::optional<Error> check_depths(const PlanInputs& inputs) const;
+  [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs, std::uint32_t view) const;
+  [[nodiscard]] Resource all_views(ResourceId id, const PlanInputs& inputs) const;
+  [[nodiscard]] BufferPart part(ResourceId id, std::uint32_t view) const;
+  [[nodiscard]] Result<Sequence> build(const Device& device, const std::vector<Pass>& passes,
+                                       const ShaderSource& shaders);
   [[nodiscard]] std::optional<Error> make_sets(const Device& device, BuiltPass& built);
-  void record_host_passes(Recorder& recorder, const std::vector<BuiltPass>& passes, const PlanInputs& inputs);
-  void run_on_host(const Pass& pass, const PlanInputs& inputs);
-  void upload(Recorder& recorder, std::span<const ResourceId> written, std::uint32_t slot) const;
-  [[nodiscard]] BoundPass bind(const BuiltPass& built, const PlanInputs& inputs) const;
-  [[nodiscard]] static bool depends(const BoundPass& later, const BoundPass& earlier);
-  /// Passes of which none waits for another: they may run side by side.
-  void record_together(Recorder& recorder, std::span<const BoundPass> passes, const PlanInputs& inputs) const;
-  void dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
-  void draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs) const;
-  [[nodiscard]] bool is_kept(const shared::Frame& frame, std::uint64_t record);
-  void zero_buffers(Recorder& recorder, const shared::Frame& frame) const;
+  void bind_all(Sequence& sequence) const;
+  void reserve();
+  void bind_inputs(Sequence& sequence, const PlanInputs& inputs) const;
+  [[nodiscard]] VkDescriptorSet set(const BuiltPass& built, std::uint32_t slot, std::uint32_t view) const;
+  void record_host_passes(Recorder& recorder, const Sequence& sequence, const PlanInputs& inputs);
+  void run_on_host(const Pass& pass, const PlanInputs& inputs, std::uint32_t view);
+  void upload(Recorder& recorder, std::uint32_t slot);
+  void record_together(Recorder& recorder, const Sequence& sequence, const Range& range, const PlanInputs& inputs);
+  void dispatch(const Recorder& recorder, const Pass& pass, const shared::Frame& frame, std::uint32_t view) const;
+  void draw(const Recorder& recorder, const Pass& pass, const shared::Frame& frame, std::uint32_t view) const;
+  [[nodiscard]] bool is_kept(std::uint32_t view, const shared::Frame& frame, std::uint64_t record);
+  void zero_buffers(Recorder& recorder, const PlanInputs& inputs);
 
   Plan plan_;
-  std::vector<Buffer> buffers_;
-  std::vector<Buffer> slots_;  ///< of each buffer of upload memory, one behind the other, mapped; else none
+  std::vector<Buffer> buffers_;  ///< with a part for each view
+  std::vector<Buffer> slots_;    ///< of each buffer of upload memory, one behind the other, mapped; else none
   OwnedSampler depth_sampler_;
   DescriptorSets sets_;
   std::uint32_t offset_alignment_ = 1;  ///< bytes, of storage buffers
-  std::vector<BuiltPass> separate_;
-  std::vector<BuiltPass> fused_;
-  /// What the passes that are kept are recorded with, from which record on, and whether one of these is known to have
-  /// run. Each of them records the passes until then, so that it does not matter which.
+  Sequence separate_;
+  Sequence fused_;
+  /// What a view's passes that are kept are recorded with, from which record on, and whether one of these is known to
+  /// have run. Each of them records the passes until then, so that it does not matter which.
   struct Kept {
     glm::mat4 projection{};
     glm::uvec2 size_px{};
     std::uint64_t first_record = 0;
     bool has_run = false;
   };
-  std::optional<Kept> kept_;
+  std::array<std::optional<Kept>, MAX_VIEWS> kept_;
   std::uint64_t projection_rebuilds_ = 0;
   std::vector<HostTime> host_times_;
   std::uint64_t records_ = 0;
+  // Room that records use again, so that they allocate nothing.
+  std::vector<Use> uses_;
+  std::vector<ResourceId> written_;
+  std::vector<std::span<std::byte>> mapped_;
 };
 
 }  // namespace lamp::vulkan

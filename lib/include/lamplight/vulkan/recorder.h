@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,6 +55,13 @@ class LAMPLIGHT_API AccessTracker {
  public:
   /// Puts a barrier for these uses into the command buffer, if one is needed, and remembers them.
   void barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses);
+  /// Forgets all, and keeps the memory for it.
+  void reset() { known_.clear(); }
+  /// Memory for as many resources, of which so many are images.
+  void reserve(std::size_t resources, std::size_t images) {
+    known_.reserve(resources);
+    images_.reserve(images);
+  }
   /// Takes over a resource that somebody else synchronised: it is in `resource.layout` and needs no barrier to be read.
   void assume(const Resource& resource);
   /// Forgets a buffer that is about to be destroyed: its handle may come back as another's.
@@ -69,7 +76,13 @@ class LAMPLIGHT_API AccessTracker {
     VkAccessFlags2 visible_access = 0;         // and see it by each of these
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   };
-  std::map<std::uint64_t, State> states_;
+  State& state_of(const Resource& resource);
+  struct Known {
+    std::uint64_t key = 0;
+    State state;
+  };
+  std::vector<Known> known_;                   ///< as many as a frame touches, a few dozen
+  std::vector<VkImageMemoryBarrier2> images_;  ///< of one barrier; here so that the next one allocates nothing
 };
 
 /// Begin and end times of named passes, or of runs of passes that belong together.
@@ -117,13 +130,15 @@ class LAMPLIGHT_API Recorder {
   /// Empty: names as they are.
   void name_group(std::string_view group) { group_ = group; }
   /// Label, timestamp, barrier.
-  void begin_pass(std::string_view name, const std::vector<Use>& uses);
+  void begin_pass(std::string_view name, std::span<const Use> uses);
+  void begin_pass(std::string_view name, std::initializer_list<Use> uses) { begin_pass(name, std::span(uses)); }
   void end_pass();
   /// What was recorded before and runs in `before` comes before what is recorded from now on and runs in `after`, and
   /// what it wrote can be read there, whoever recorded it.
   void order(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after);
   /// Only the barrier: for transfers between passes.
-  void barrier(const std::vector<Use>& uses) { tracker_.barrier(device_.vk, commands_, uses); }
+  void barrier(std::span<const Use> uses) { tracker_.barrier(device_.vk, commands_, uses); }
+  void barrier(std::initializer_list<Use> uses) { barrier(std::span(uses)); }
 
   /// Binds a pipeline and the descriptors of all its bindings: pushed, or in a set of Device::sets. If that has no
   /// memory left, it says so (DescriptorSets::error), and no descriptors are bound.

@@ -9,8 +9,8 @@ LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 64);
 
 void lookup_prepare() {}
 
-uint lookup_cell(uvec2 pixel, float z_view) {
+uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
   return tile.x + tiles.x * (tile.y + tiles.y * slice_of(z_view));
 }

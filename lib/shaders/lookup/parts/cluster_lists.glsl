@@ -8,6 +8,9 @@ LOOKUP_CONSTANT(6, uint, LOOKUP_WORDS, 0);  // of a tile's bits
 LOOKUP_BUFFER(1, LookupRanges, uvec2, lookup_ranges);
 LOOKUP_BUFFER(2, LookupLists, uint, lookup_lists);
 LOOKUP_BUFFER(3, LookupBits, uint, lookup_bits);
+LOOKUP_VIEW_WORDS(1, LOOKUP_RANGES_VIEW);
+LOOKUP_VIEW_WORDS(2, LOOKUP_LISTS_VIEW);
+LOOKUP_VIEW_WORDS(3, LOOKUP_BITS_VIEW);
 
 struct Walk {
   uint at;
@@ -26,30 +29,35 @@ Walk walk_from(uint first, uint end, uint first_word) {
 
 Walk walk_nothing() { return walk_from(0u, 0u, NO_WORD); }
 
-Walk walk_of_cell(uint cell) {
-  const uvec2 range = lookup_ranges[cell];
+Walk walk_of_cell(uint view, uint cell) {
+  const uvec2 range = lookup_ranges[view * (LOOKUP_RANGES_VIEW / 2u) + cell];
   const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
-  if (fits) return walk_from(range.x, range.x + range.y, NO_WORD);
-  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  return walk_from(0u, light_count_of(lookup_frame), cell % (tiles.x * tiles.y) * LOOKUP_WORDS);
+  const uint first = view * LOOKUP_LISTS_VIEW + range.x;
+  if (fits) return walk_from(first, first + range.y, NO_WORD);
+  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uint first_word = view * LOOKUP_BITS_VIEW + cell % (tiles.x * tiles.y) * LOOKUP_WORDS;
+  return walk_from(0u, lookup_light_count(), first_word);
 }
 
-Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
+  return walk_of_cell(view, lookup_cell(view, pixel, z_view));
+}
 
 #define LOOKUP_RANGED
 #include "lookup/parts/lower_bound.glsl"
 
-Walk walk_of_cell_in(uint cell, uint first, uint end) {
-  Walk walk = walk_of_cell(cell);
+Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
+  Walk walk = walk_of_cell(view, cell);
   if (walk.first_word != NO_WORD) return walk_from(first, min(end, walk.end), walk.first_word);
   walk.at = lookup_lower_bound(walk.at, walk.end, first);
   walk.end = lookup_lower_bound(walk.at, walk.end, end);
   return walk;
 }
 
-Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_of_cell_in(lookup_cell(pixel, z_view), first, end);
+Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
+  return walk_of_cell_in(view, lookup_cell(view, pixel, z_view), first, end);
 }
+#include "lookup/parts/of_view.glsl"
 
 // The first light from `from` on that the tile's bits name, or one past the last.
 uint lookup_next_bit(uint first_word, uint from, uint end) {

@@ -10,6 +10,8 @@ LOOKUP_CONSTANT(2, uint, LOOKUP_CELL_SLICES, 1);
 // is the next one.
 LOOKUP_CONSTANT(7, uint, LOOKUP_FIRST_AT_CELL, 0);
 LOOKUP_BUFFER(1, LookupCells, LightCell, lookup_cells);
+LOOKUP_VIEW_WORDS(1, LOOKUP_CELLS_VIEW);
+LAMP_CONST LOOKUP_CELL_WORDS = 3u;  // of a LightCell
 
 #define LOOKUP_SLICE_CONSTANT 3
 #include "lookup/parts/slice_constants.glsl"
@@ -22,15 +24,16 @@ void lookup_prepare() {}
 
 uint lookup_slice(float z_view) { return LOOKUP_SLICES == 1u ? 0u : slice_of(z_view); }
 
-uint lookup_cell(uvec2 pixel, float z_view) {
+uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
   return tile.x + tiles.x * (tile.y + tiles.y * lookup_slice(z_view));
 }
 
-uint lookup_light_cell(uvec2 pixel, float z_view) {
+// Of the view's own cells.
+uint lookup_light_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 at = pixel / LOOKUP_CELL_PX;
-  const uvec2 across = (lookup_frame.size_px + LOOKUP_CELL_PX - 1u) / LOOKUP_CELL_PX;
+  const uvec2 across = (lookup_frames[view].size_px + LOOKUP_CELL_PX - 1u) / LOOKUP_CELL_PX;
   return at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES));
 }
 
@@ -38,4 +41,8 @@ uint lookup_light_cell(uvec2 pixel, float z_view) {
 uint lookup_row(uvec2 pixel, float z_view) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX % LOOKUP_CELL_TILES;
   return tile.x + LOOKUP_CELL_TILES * tile.y + LOOKUP_TILES * (lookup_slice(z_view) % LOOKUP_CELL_SLICES);
+}
+
+LightCell lookup_cell_at(uint view, uint index) {
+  return lookup_cells[view * (LOOKUP_CELLS_VIEW / LOOKUP_CELL_WORDS) + index];
 }

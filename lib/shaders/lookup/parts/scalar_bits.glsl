@@ -102,7 +102,7 @@ bool walk_next_merged(inout WalkMerged walk, out uint light) {
   const uint bit = LAMP_FIRST_BIT(walk.bits);
   walk.bits &= walk.bits - 1u;
   walk.mine = (walk.own_bits >> bit & 1u) != 0u;
-  light = LOOKUP_LIGHT(walk.at * 32u + bit);
+  light = LOOKUP_LIGHT(walk.own, walk.at * 32u + bit);
   return true;
 }
 

@@ -9,18 +9,18 @@
 #define LOOKUP_IN_TURNS
 
 struct WalkTurns {
-  uint cell;  // the thread's own
-  uint turn;  // the one that is walked
+  uvec2 cell;  // the thread's own, and its view
+  uvec2 turn;  // the one that is walked
   bool done;  // the own one has its turn, or had it
 };
 
 // Some devices leave threads out that cover no sample: those would never get a turn. They write nothing, so they need
 // none (llvmpipe let them wait for 65 535 rounds: 70 times the shading of the plain walk).
-WalkTurns walk_begin_turns(uint cell) {
+WalkTurns walk_begin_turns(uvec2 pixel, float z_view) {
   const bool takes_part = subgroupInverseBallot(subgroupBallot(true));
   WalkTurns turns;
-  turns.cell = cell;
-  turns.turn = 0u;
+  turns.cell = uvec2(lookup_cell(LOOKUP_VIEW, pixel, z_view), LOOKUP_VIEW);
+  turns.turn = uvec2(0u, 0u);
   turns.done = !takes_part;
   return turns;
 }
@@ -29,24 +29,24 @@ WalkTurns walk_begin_turns(uint cell) {
 bool walk_next_turn(inout WalkTurns turns) {
   if (turns.done) return false;
   turns.turn = subgroupBroadcastFirst(turns.cell);
-  turns.done = turns.turn == turns.cell;
+  turns.done = !LAMP_DIFFER(turns.turn, turns.cell);
   return true;
 }
 
 Walk walk_of_turn(WalkTurns turns) {
-  if (turns.done) return walk_of_cell(turns.turn);
+  if (turns.done) return walk_of_cell(turns.turn.y, turns.turn.x);
   return walk_nothing();
 }
 
-#define LOOKUP_EACH(light, pixel, z_view)                                                                    \
-  for (WalkTurns lookup_turns = walk_begin_turns(lookup_cell(pixel, z_view)); walk_next_turn(lookup_turns);) \
+#define LOOKUP_EACH(light, pixel, z_view) \
+  for (WalkTurns lookup_turns = walk_begin_turns(pixel, z_view); walk_next_turn(lookup_turns);) \
     for (Walk lookup_walk = walk_of_turn(lookup_turns); walk_next(lookup_walk, light);)
 
 Walk walk_of_turn_in(WalkTurns turns, uint first, uint end) {
-  if (turns.done) return walk_of_cell_in(turns.turn, first, end);
+  if (turns.done) return walk_of_cell_in(turns.turn.y, turns.turn.x, first, end);
   return walk_nothing();
 }
 
-#define LOOKUP_EACH_RANGED(id, pixel, z_view, first, end)                                                    \
-  for (WalkTurns lookup_turns = walk_begin_turns(lookup_cell(pixel, z_view)); walk_next_turn(lookup_turns);) \
+#define LOOKUP_EACH_RANGED(id, pixel, z_view, first, end) \
+  for (WalkTurns lookup_turns = walk_begin_turns(pixel, z_view); walk_next_turn(lookup_turns);) \
     for (Walk lookup_walk = walk_of_turn_in(lookup_turns, first, end); walk_next(lookup_walk, id);)

@@ -7,20 +7,27 @@ LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 16);
 LOOKUP_CONSTANT(1, uint, LOOKUP_WORDS, 1);
 LOOKUP_CONSTANT(2, uint, LOOKUP_RANGES, 1);
 LOOKUP_BUFFER(1, LookupBits, uint, lookup_bits);
+LOOKUP_VIEW_WORDS(1, LOOKUP_BITS_VIEW);
 LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
+LOOKUP_VIEW_WORDS(2, LOOKUP_SPLITS_VIEW);
 
 #include "lookup/parts/tile_cell.glsl"
-#define LOOKUP_LIGHT(bit) (bit)
+#define LOOKUP_LIGHT(walk, bit) (bit)
 #define LOOKUP_SPARSE
 #include "lookup/parts/walk_bits.glsl"
 
 void lookup_prepare() {}
 
-Walk walk_begin(uvec2 pixel, float z_view) {
-  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, 0u, light_count_of(lookup_frame));
+uint lookup_first_word(uint view, uvec2 pixel, float z_view) {
+  return view * LOOKUP_BITS_VIEW + lookup_cell(view, pixel, z_view) * LOOKUP_WORDS;
+}
+
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
+  return walk_bits(lookup_first_word(view, pixel, z_view), 0u, lookup_light_count());
 }
 
 #define LOOKUP_RANGED
-Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_bits(lookup_cell(pixel, z_view) * LOOKUP_WORDS, first, min(end, light_count_of(lookup_frame)));
+Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
+  return walk_bits(lookup_first_word(view, pixel, z_view), first, min(end, lookup_light_count()));
 }
+#include "lookup/parts/of_view.glsl"

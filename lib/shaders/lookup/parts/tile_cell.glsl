@@ -1,10 +1,10 @@
 // The cell of a pixel in a grid of tiles with one or two depth ranges each.
-// Needs: LOOKUP_TILE_PX, LOOKUP_RANGES; `lookup_frame`, `lookup_splits`.
+// Needs: LOOKUP_TILE_PX, LOOKUP_RANGES, LOOKUP_SPLITS_VIEW; `lookup_frames`, `lookup_splits`.
 // SPDX-License-Identifier: Apache-2.0
-uint lookup_cell(uvec2 pixel, float z_view) {
+uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  const uint tiles_wide = (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uint tiles_wide = (lookup_frames[view].size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
   const uint index = tile.x + tiles_wide * tile.y;
   if (LOOKUP_RANGES == 1u) return index;
-  return index * 2u + (z_view > lookup_splits[index] ? 1u : 0u);
+  return index * 2u + (z_view > lookup_splits[view * LOOKUP_SPLITS_VIEW + index] ? 1u : 0u);
 }

@@ -8,6 +8,8 @@ LOOKUP_CONSTANT(2, uint, LOOKUP_RANGES, 1);
 LOOKUP_CONSTANT(3, bool, LOOKUP_ASCENDS, false);  // a list that ascends can be cut to a range of ids
 LOOKUP_BUFFER(1, LookupLists, uint, lookup_lists);
 LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
+LOOKUP_VIEW_WORDS(1, LOOKUP_LISTS_VIEW);
+LOOKUP_VIEW_WORDS(2, LOOKUP_SPLITS_VIEW);
 
 #include "lookup/parts/list_walk.glsl"
 #include "lookup/parts/tile_cell.glsl"
@@ -16,20 +18,22 @@ void lookup_prepare() {}
 
 Walk walk_nothing() { return walk_from(0u, 0u, false); }
 
-Walk walk_of_cell(uint cell) {
-  const uint base = cell * (1u + LOOKUP_CAPACITY);
+Walk walk_of_cell(uint view, uint cell) {
+  const uint base = view * LOOKUP_LISTS_VIEW + cell * (1u + LOOKUP_CAPACITY);
   const uint count = lookup_lists[base];
-  if (count > LOOKUP_CAPACITY) return walk_from(0u, light_count_of(lookup_frame), true);
+  if (count > LOOKUP_CAPACITY) return walk_from(0u, lookup_light_count(), true);
   return walk_from(base + 1u, base + 1u + count, false);
 }
 
-Walk walk_begin(uvec2 pixel, float z_view) { return walk_of_cell(lookup_cell(pixel, z_view)); }
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
+  return walk_of_cell(view, lookup_cell(view, pixel, z_view));
+}
 
 #define LOOKUP_RANGED
 #include "lookup/parts/lower_bound.glsl"
 
-Walk walk_of_cell_in(uint cell, uint first, uint end) {
-  Walk walk = walk_of_cell(cell);
+Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
+  Walk walk = walk_of_cell(view, cell);
   if (walk.overflowed) return walk_from(first, min(end, walk.end), true);
   if (!LOOKUP_ASCENDS) return walk;
   walk.at = lookup_lower_bound(walk.at, walk.end, first);
@@ -37,9 +41,10 @@ Walk walk_of_cell_in(uint cell, uint first, uint end) {
   return walk;
 }
 
-Walk walk_begin_in(uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_of_cell_in(lookup_cell(pixel, z_view), first, end);
+Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
+  return walk_of_cell_in(view, lookup_cell(view, pixel, z_view), first, end);
 }
+#include "lookup/parts/of_view.glsl"
 
 uint lookup_light_at(Walk walk, uint place) {
   if (walk.overflowed) return place;

@@ -5,6 +5,9 @@
 #define TILE_CONSTANT 100
 #define TILE_BINDING 16
 #define TILE_FRAME readonly buffer
+#ifndef LOOKUP_VIEW
+#define LOOKUP_VIEW 0u
+#endif
 #include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
 
@@ -24,15 +27,17 @@ void lookup_prepare() {
 
 uint lookup_range(float z_view) { return RANGES == 2u && z_view > lookup_ranges.split ? 1u : 0u; }
 
-uint lookup_cell(uvec2 pixel, float z_view) {
+// A group's own tile, so the view is that of the pass.
+uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   return (gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y) * RANGES + lookup_range(z_view);
 }
 
-Walk walk_begin(uvec2 pixel, float z_view) {
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
   const uint range = lookup_range(z_view);
   if (!list_fits(range)) return walk_from(0u, light_count_of(cull_frame), true);
   return walk_from(range * CAPACITY, range * CAPACITY + s_light_count[range], false);
 }
+#include "lookup/parts/of_view.glsl"
 
 uint lookup_light_at(Walk walk, uint place) { return walk.overflowed ? place : s_lights[place] & ~TYPE_BIT; }
 

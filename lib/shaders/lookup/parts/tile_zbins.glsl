@@ -9,36 +9,45 @@ LOOKUP_CONSTANT(6, bool, LOOKUP_WIDE, false);
 LOOKUP_BUFFER(1, LookupBits, uint, lookup_bits);
 LOOKUP_BUFFER(2, LookupBins, uint, lookup_bins);
 LOOKUP_BUFFER(3, LookupOrder, uint, lookup_order);
+LOOKUP_VIEW_WORDS(1, LOOKUP_BITS_VIEW);
+LOOKUP_VIEW_WORDS(2, LOOKUP_BINS_VIEW);
+LOOKUP_VIEW_WORDS(3, LOOKUP_ORDER_VIEW);
 
 #define LOOKUP_SLICE_CONSTANT 2
 #include "lookup/parts/slice_constants.glsl"
 
-#define LOOKUP_LIGHT(bit) lookup_order[bit]
+// The view of a walk follows from where its words are.
+uint lookup_order_first(uint word) {
+  return LOOKUP_BITS_VIEW == 0u ? 0u : word / LOOKUP_BITS_VIEW * LOOKUP_ORDER_VIEW;
+}
+#define LOOKUP_LIGHT(walk, bit) lookup_order[lookup_order_first(walk.base) + bit]
 #include "lookup/parts/walk_bits.glsl"
 
 void lookup_prepare() {}
 
-uint lookup_tile(uvec2 pixel) {
+uint lookup_tile(uint view, uvec2 pixel) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  return tile.x + (lookup_frame.size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX * tile.y;
+  return tile.x + (lookup_frames[view].size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX * tile.y;
 }
 
 // Beyond 2^32 cells, numbers come again; statistics alone ask for them.
-uint lookup_cell(uvec2 pixel, float z_view) {
-  const uvec2 tiles = (lookup_frame.size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  return lookup_tile(pixel) + tiles.x * tiles.y * slice_of(z_view);
+uint lookup_cell(uint view, uvec2 pixel, float z_view) {
+  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  return lookup_tile(view, pixel) + tiles.x * tiles.y * slice_of(z_view);
 }
 
 // Least and greatest rank.
-uvec2 lookup_bin(float z_view) {
+uvec2 lookup_bin(uint view, float z_view) {
   const uint bin = slice_of(z_view);
-  if (LOOKUP_WIDE) return uvec2(lookup_bins[2u * bin], lookup_bins[2u * bin + 1u]);
-  const uint both = lookup_bins[bin];
+  const uint first = view * LOOKUP_BINS_VIEW;
+  if (LOOKUP_WIDE) return uvec2(lookup_bins[first + 2u * bin], lookup_bins[first + 2u * bin + 1u]);
+  const uint both = lookup_bins[first + bin];
   return uvec2(both & 0xffffu, both >> 16);
 }
 
-Walk walk_begin(uvec2 pixel, float z_view) {
-  const uvec2 ranks = lookup_bin(z_view);
+Walk walk_begin(uint view, uvec2 pixel, float z_view) {
+  const uvec2 ranks = lookup_bin(view, z_view);
   if (ranks.x > ranks.y) return walk_bits(0u, 0u, 0u);
-  return walk_bits(lookup_tile(pixel) * LOOKUP_WORDS, ranks.x, ranks.y + 1u);
+  return walk_bits(view * LOOKUP_BITS_VIEW + lookup_tile(view, pixel) * LOOKUP_WORDS, ranks.x, ranks.y + 1u);
 }
+#include "lookup/parts/of_view.glsl"

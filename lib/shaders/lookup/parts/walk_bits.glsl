@@ -1,6 +1,6 @@
-// Walks a flat bit array, lowest bit first, between two bits: bit N is LOOKUP_LIGHT(N).
+// Walks a flat bit array, lowest bit first, between two bits: bit N is LOOKUP_LIGHT(walk, N).
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Data Container: Flat".
-// Needs: `lookup_bits`, the macro LOOKUP_LIGHT.
+// Needs: `lookup_bits`, the macro LOOKUP_LIGHT(walk, bit).
 // SPDX-License-Identifier: Apache-2.0
 struct Walk {
   uint base;   // of the cell's words
@@ -39,6 +39,6 @@ bool walk_word(inout Walk walk) {
   return true;
 }
 
-uint lookup_light_of(Walk walk, uint bit) { return LOOKUP_LIGHT((walk.word - 1u) * 32u + bit); }
+uint lookup_light_of(Walk walk, uint bit) { return LOOKUP_LIGHT(walk, (walk.word - 1u) * 32u + bit); }
 
 #include "lookup/parts/walk_words.glsl"
