@@ -69,6 +69,14 @@ struct Inspected {
 };
 [[nodiscard]] Inspection inspect(const Inspected& of, glm::uvec2 pixel);
 
+/// What a method, with its own options, lists for a pixel.
+struct OtherList {
+  std::string method;
+  std::size_t lights = 0;
+  std::size_t reaching = 0;  ///< of them, those that reach the pixel
+  std::string refused;       ///< why this device cannot run it; or empty
+};
+
 /// The proof of all pixels, in bands; `progress` is told the share that is done.
 [[nodiscard]] Proof prove(const Inspected& of, const std::function<void(float)>& progress);
 

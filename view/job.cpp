@@ -40,6 +40,9 @@ Done perform(Stage& stage, Job job) {
       case Job::Kind::prove:
         done.proof = stage.prove(done.job.state, done.job.size);
         break;
+      case Job::Kind::ask:
+        done.others = stage.ask_others(done.job.state, done.job.size);
+        break;
     }
   } catch (const Error& error) {
     done.error = error.what();

@@ -14,6 +14,7 @@ struct Job {
     draw,     ///< onto the screen
     picture,  ///< into a file, as `lamp render` does
     prove,    ///< all pixels against the oracle
+    ask,      ///< every method what it lists for the picked pixel
   } kind = Kind::draw;
   ViewState state;
   glm::uvec2 size{0};
@@ -24,6 +25,7 @@ struct Done {
   Job job;
   std::optional<Shown> shown;
   std::optional<Proof> proof;
+  std::optional<std::vector<OtherList>> others;
   double ms = 0.0;    ///< that it took, all in all
   std::string error;  ///< why it could not be done, one line; or empty
   bool lost = false;  ///< the device is gone

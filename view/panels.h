@@ -15,7 +15,9 @@ namespace lamp::app {
 struct Wishes {
   bool save_picture = false;
   bool save_state = false;
+  bool save_numbers = false;
   bool prove = false;
+  bool ask = false;  ///< the other methods
   bool undo = false;
   bool redo = false;
   bool step = false;  ///< one frame of time
@@ -31,6 +33,7 @@ struct PanelFrame {
   Wishes& wishes;
   std::string& picture_file;
   std::string& state_file;
+  std::string& numbers_file;
   const std::optional<Proof>& proof;  ///< of all pixels
   bool proving = false;
   float progress = 0.0F;  ///< of that
@@ -46,8 +49,17 @@ void look_panel(PanelFrame& p);
 void times_panel(PanelFrame& p);
 void save_panel(PanelFrame& p);
 void proof_panel(PanelFrame& p);
+/// What the inspector's window sees.
+struct InspectorFrame {
+  const Shown& shown;
+  Widgets& widgets;
+  ViewState& state;
+  Wishes& wishes;
+  const std::vector<OtherList>& others;  ///< of the pixel, if they were asked
+  bool asking = false;
+};
 /// The pixel that was picked.
-void inspector_window(const Shown& shown, Widgets& widgets, ViewState& state, const ScreenRect& area, float scale);
+void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale);
 void help_window(const ScreenRect& picture, float scale);
 /// The colours of an overlay in a corner of the picture.
 void legend_window(const Shown& shown, const ScreenRect& picture);

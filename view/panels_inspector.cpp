@@ -78,6 +78,23 @@ void edit_light(const Shown& shown, ViewState& state, Widgets& widgets) {
   if (changed && found == state.edits.end()) state.edits.push_back({.light = number, .value = light});
 }
 
+void draw_others(std::span<const OtherList> others) {
+  const float height = ImGui::GetTextLineHeightWithSpacing() * 8.0F;
+  if (ImGui::BeginChild("others", {0.0F, height}, /* border= */ true) && ImGui::BeginTable("what others list", 2)) {
+    for (const OtherList& list : others) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(list.method.c_str());
+      ImGui::TableNextColumn();
+      const std::string words = list.refused.empty()
+                                    ? fmt::format("{} lights, {} reach the pixel", list.lights, list.reaching)
+                                    : list.refused;
+      ImGui::TextUnformatted(words.c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+}
+
 void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
   const Inspection& found = *shown.inspection;
   const Stats& stats = shown.first.stats;
@@ -99,17 +116,25 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
 
 }  // namespace
 
-void inspector_window(const Shown& shown, Widgets& widgets, ViewState& state, const ScreenRect& area, float scale) {
-  if (!shown.inspection) return;
+void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
+  if (!p.shown.inspection) return;
   const float width = std::min(560.0F * scale, static_cast<float>(area.size().x));
   ImGui::SetNextWindowPos({static_cast<float>(area.max.x), static_cast<float>(area.min.y)}, ImGuiCond_Appearing,
                           {1.0F, 0.0F});
-  ImGui::SetNextWindowSize({width, 0.0F}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(area.size().y)});
+  ImGui::SetNextWindowSize({width, 0.0F});  // as high as it needs
   ImGui::SetNextWindowBgAlpha(0.9F);
   constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("Inspector", nullptr, FLAGS)) {
-    draw_inspection(shown, state, widgets);
-    if (widgets.button("look away", "Forgets the pixel. Escape does the same.")) state.picked.reset();
+    draw_inspection(p.shown, p.state, p.widgets);
+    if (p.widgets.button("look away", "Forgets the pixel. Escape does the same.")) p.state.picked.reset();
+    if (!p.shown.inspection->sky) {
+      ImGui::SameLine();
+      if (p.widgets.button("ask other methods", "What every method of the table would list for this pixel.",
+                           p.asking ? "they are being asked" : ""))
+        p.wishes.ask = true;
+      if (!p.others.empty()) draw_others(p.others);
+    }
   }
   ImGui::End();
 }

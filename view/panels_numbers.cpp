@@ -38,6 +38,9 @@ void times_panel(PanelFrame& p) {
   Widgets::note("Median of the last pictures (5th .. 95th percentile), milliseconds on the device.");
   draw_times(p.times);
   Widgets::row("cells", fmt::format("{}", stats.cells));
+  if (stats.findings)
+    Widgets::row("lists", fmt::format("{:.1f} lights on average, {} at most", stats.findings->list_mean(),
+                                      stats.findings->list_max));
   Widgets::row("overflowed", fmt::format("{} cells", stats.rendered.counters.overflowed_cells));
   for (const auto& [name, bytes] : stats.bytes)
     Widgets::row(name, fmt::format("{:.3f} MB", static_cast<double>(bytes) * 1e-6));
@@ -53,6 +56,9 @@ void save_panel(PanelFrame& p) {
   p.widgets.write("state file", p.state_file, "A name that ends in .json.");
   if (p.widgets.button("save state", "Writes all that is set here. lamp-view --state and lamp render --state read it."))
     p.wishes.save_state = true;
+  p.widgets.write("numbers file", p.numbers_file, "A name that ends in .json.");
+  if (p.widgets.button("save numbers", "Writes what lamp render --json prints of this picture: times, bytes, lists."))
+    p.wishes.save_numbers = true;
   if (p.widgets.button("undo", "Takes the last change back.")) p.wishes.undo = true;
   ImGui::SameLine();
   if (p.widgets.button("redo", "Makes it again.")) p.wishes.redo = true;

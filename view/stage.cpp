@@ -11,6 +11,7 @@
 #include "commands/pictures.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
+#include "render/pixel_lights.h"
 #include "scene/flight.h"
 #include "scene/place_decals.h"
 
@@ -234,6 +235,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
     if (overlaid)
       made.legend = lay_over(state, chosen.lighting, made.stats.rendered.counters.overflowed_cells != 0,
                              sets_exposure ? 0.0 : shown.first.legend.high, first, end);
+    if (overlaid) set_walked(made.stats, visits_);
     renderer_->also([&](vulkan::Recorder& recorder) {
       display_->record(recorder, renderer_->targets(),
                        {.exposure = shown.exposure, .first_x = first, .end_x = end, .overlaid = overlaid});
@@ -243,9 +245,8 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
   auto [first, first_lighting] = draw_side(state.request.method, state.request.options, 0, end_x, true);
   shown.first = std::move(first);
   if (state.picked) {
-    const glm::vec2 scale = glm::vec2(width, renderer_->view().height()) / glm::vec2(parse_size(asked.request.size));
-    const glm::uvec2 pixel = scene.captured ? *state.picked : glm::uvec2(glm::vec2(*state.picked) * scale);
-    shown.inspection = inspect(inspected(*first_lighting), pixel);
+    shown.inspection = inspect(inspected(*first_lighting), picked_pixel(asked));
+    set_walked(shown.first.stats, visits_);
   }
   if (state.against) shown.second = draw_side(state.against->method, state.against->options, end_x, width, false).first;
   shown.made_anew = std::exchange(made_anew_, false);
@@ -275,16 +276,53 @@ Stage::Picture Stage::picture(const ViewState& state) {
   return made;
 }
 
-Proof Stage::prove(const ViewState& asked, glm::uvec2 size) {
+glm::uvec2 Stage::picked_pixel(const ViewState& asked) const {
+  const glm::uvec2 picked = asked.picked.value_or(glm::uvec2(0));
+  if (scene_->scene.captured) return picked;
+  const View& view = renderer_->view();
+  return glm::vec2(picked) * glm::vec2(view.width(), view.height()) / glm::vec2(parse_size(asked.request.size));
+}
+
+Lighting& Stage::need_drawn(const ViewState& asked, glm::uvec2 size) {
   ViewState state = asked;
   need_scene(state.request.scene);
   if (!scene_->scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
   need_frame(state);
-  const Chosen chosen = lighting(state.request, state.request.method, state.request.options);
-  static_cast<void>(renderer_->draw(chosen.lighting, [](vulkan::Recorder&) {}));
-  const Proof proof = app::prove(inspected(chosen.lighting), [&](float share) { progress_ = share; });
+  Lighting& made = lighting(state.request, state.request.method, state.request.options).lighting;
+  static_cast<void>(renderer_->draw(made, [](vulkan::Recorder&) {}));
+  return made;
+}
+
+Proof Stage::prove(const ViewState& state, glm::uvec2 size) {
+  Lighting& made = need_drawn(state, size);
+  const Proof proof = app::prove(inspected(made), [&](float share) { progress_ = share; });
   progress_ = 1.0F;
   return proof;
+}
+
+std::vector<OtherList> Stage::ask_others(const ViewState& state, glm::uvec2 size) {
+  const Inspected of = inspected(need_drawn(state, size));
+  const View& view = renderer_->view();
+  const glm::uvec2 pixel = glm::min(picked_pixel(state), glm::uvec2(view.width(), view.height()) - 1U);
+  const std::uint32_t number = pixel.x + view.width() * pixel.y;
+  const glm::dvec3 position = view.world_position(pixel.x, pixel.y, of.depth[number]);
+  std::vector<OtherList> lists;
+  for (const Method& method : methods()) {
+    progress_ = static_cast<float>(lists.size()) / static_cast<float>(methods().size());
+    OtherList& list = lists.emplace_back();
+    list.method = method.name;
+    try {
+      const std::vector<std::uint32_t> ids =
+          lights_at(*renderer_, lighting(state.request, list.method, {}).lighting, number);
+      list.lights = ids.size();
+      list.reaching = static_cast<std::size_t>(std::ranges::count_if(
+          ids, [&](std::uint32_t light) { return reach(of.lights[light], position) == Reach::inside; }));
+    } catch (const Error& error) {
+      list.refused = error.what();
+    }
+  }
+  progress_ = 1.0F;
+  return lists;
 }
 
 }  // namespace lamp::app

@@ -35,6 +35,8 @@ class Stage {
 
   /// Holds all pixels of the state against the oracle.
   [[nodiscard]] Proof prove(const ViewState& state, glm::uvec2 size);
+  /// What each method of the table would list for the state's picked pixel.
+  [[nodiscard]] std::vector<OtherList> ask_others(const ViewState& state, glm::uvec2 size);
   /// How much of that is done, 0 .. 1; from any thread.
   [[nodiscard]] float progress() const { return progress_; }
 
@@ -62,6 +64,10 @@ class Stage {
   [[nodiscard]] Legend lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
                                 std::uint32_t first_x, std::uint32_t end_x);
   [[nodiscard]] Inspected inspected(Lighting& lighting);
+  /// The state's picked pixel, of what is rendered.
+  [[nodiscard]] glm::uvec2 picked_pixel(const ViewState& asked) const;
+  /// The state's frame in the renderer, drawn.
+  [[nodiscard]] Lighting& need_drawn(const ViewState& state, glm::uvec2 size);
 
   Context& context_;
   const ShaderLibrary& shaders_;

@@ -84,6 +84,7 @@ std::optional<Job> Viewer::next_job() {
 void Viewer::finish(Done done) {
   busy_ = false;
   if (done.job.kind == Job::Kind::prove) proving_ = false;
+  if (done.job.kind == Job::Kind::ask) asking_ = false;
   lost_ = done.lost;
   if (!done.error.empty()) {
     complain(done.error);
@@ -94,6 +95,7 @@ void Viewer::finish(Done done) {
   if (done.job.kind == Job::Kind::picture) said_ = "saved " + done.job.file;
   if (done.proof) proof_ = done.proof;
   if (done.proof) said_ = words_of(*proof_);
+  if (done.others) others_ = std::move(*done.others);
   if (!done.shown) return;
   const bool rested = done.job.size != glm::uvec2(paced_size());
   if (!done.shown->made_anew && paced_ && !rested) {
@@ -158,7 +160,7 @@ void Viewer::note_change() {
   if (undone_.size() > MOST_UNDONE) undone_.erase(undone_.begin());
   redone_.clear();
   settled_ = state_;
-  proof_.reset();
+  forget_findings();
 }
 
 void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
@@ -167,7 +169,7 @@ void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
   state_ = std::move(from.back());
   from.pop_back();
   settled_ = state_;
-  proof_.reset();
+  forget_findings();
 }
 
 void Viewer::pass_time(float seconds) {
@@ -189,12 +191,26 @@ void Viewer::take_wishes() {
   if (wishes.undo) undo(undone_, redone_);
   if (wishes.redo) undo(redone_, undone_);
   if (wishes.step) apply_keys({.pressed = {"period"}}, state_, shown_, wishes_, false);
+  if (wishes.save_numbers) save_numbers(numbers_file_);
   if (wishes.prove && !proving_ && shown_.number != 0) {
     proving_ = true;
     proof_.reset();
-    const glm::uvec2 size(shown_.view.width(), shown_.view.height());
-    queued_.push_back({.kind = Job::Kind::prove, .state = state_, .size = size, .file = {}});
+    queue(Job::Kind::prove);
   }
+  if (wishes.ask && !asking_ && shown_.inspection) {
+    asking_ = true;
+    queue(Job::Kind::ask);
+  }
+}
+
+void Viewer::queue(Job::Kind kind) {
+  const glm::uvec2 size(shown_.view.width(), shown_.view.height());
+  queued_.push_back({.kind = kind, .state = state_, .size = size, .file = {}});
+}
+
+void Viewer::forget_findings() {
+  proof_.reset();
+  others_.clear();
 }
 
 void Viewer::save_picture(const std::string& file) {
@@ -212,6 +228,19 @@ void Viewer::save_state(const std::string& file) {
       saved.request.size_given = true;
     }
     write_output(file, [&](const std::filesystem::path& path) { app::save_state(path, saved); });
+    said_ = "saved " + file;
+  } catch (const Error& error) {
+    complain(error.what());
+  }
+}
+
+void Viewer::save_numbers(const std::string& file) {
+  try {
+    constexpr std::string_view KINDS[] = {".json"};
+    check_output("save numbers", file, KINDS);
+    if (shown_.number == 0) throw Error("save numbers: nothing is shown yet, expected a picture");
+    const std::string text = json_text(app::to_json(shown_.first.stats), 2) + "\n";
+    write_output(file, [&](const std::filesystem::path& path) { write_text(path, text); });
     said_ = "saved " + file;
   } catch (const Error& error) {
     complain(error.what());
@@ -246,6 +275,8 @@ nlohmann::json Viewer::report() const {
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
   if (proof_) json["proof"] = words_of(*proof_);
+  for (const OtherList& list : others_)
+    json["others"][list.method] = {{"lights", list.lights}, {"reaching", list.reaching}, {"refused", list.refused}};
   if (!shown_.inspection) return json;
   const Inspection& found = *shown_.inspection;
   // A test that drops a light which reaches the cell would lose it.

@@ -34,7 +34,7 @@ class Viewer {
   /// Everything that was asked for is done, and what is shown is the state.
   [[nodiscard]] bool idle() const { return idle_ && queued_.empty() && !busy_; }
   /// No picture in a file and no proof waits to be made.
-  [[nodiscard]] bool asks_for_nothing() const { return queued_.empty() && !proving_; }
+  [[nodiscard]] bool asks_for_nothing() const { return queued_.empty() && !proving_ && !asking_; }
 
   [[nodiscard]] ViewState& state() { return state_; }
   [[nodiscard]] const Shown& shown() const { return shown_; }
@@ -53,6 +53,8 @@ class Viewer {
   void save_picture(const std::string& file);
   /// Writes the state in the size that is shown. What cannot be written is an error on the screen.
   void save_state(const std::string& file);
+  /// Writes what `lamp render --json` prints of the picture that is shown.
+  void save_numbers(const std::string& file);
   /// Opens a scene, a capture or a state; what else it is is an error on the screen.
   void open(const std::string& file);
   /// Says something on the screen.
@@ -67,6 +69,9 @@ class Viewer {
   void take_wishes();
   void pass_time(float seconds);
   void note_change();
+  void queue(Job::Kind kind);
+  /// Forgets what was found out about another state.
+  void forget_findings();
   void undo(std::vector<ViewState>& from, std::vector<ViewState>& to);
   void try_state(const ViewState& before);
   /// Shows an error until something is changed.
@@ -88,8 +93,10 @@ class Viewer {
   bool busy_ = false;
   bool idle_ = false;
   bool proving_ = false;
+  bool asking_ = false;
   bool lost_ = false;
   std::optional<Proof> proof_;
+  std::vector<OtherList> others_;  ///< of the picked pixel
   Times times_;
   double picture_ms_ = 0.0;  ///< of a picture, all in all, smoothed
   double rests_s_ = 0.0;     ///< that nothing has changed
@@ -100,6 +107,7 @@ class Viewer {
   Wishes wishes_;
   std::string picture_file_ = "lamp-view.png";
   std::string state_file_ = "lamp-view.json";
+  std::string numbers_file_ = "lamp-view-numbers.json";
   ScreenRect area_;     ///< of the screen, that panels leave free
   ScreenRect picture_;  ///< within that
   glm::uvec2 asked_{1};

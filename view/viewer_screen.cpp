@@ -129,7 +129,9 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   legend_window(shown_, picture_);
   if (state_.help) help_window(area_, scale_);
   Widgets widgets(places_);
-  inspector_window(shown_, widgets, state_, area_, scale_);
+  InspectorFrame inspector{
+      .shown = shown_, .widgets = widgets, .state = state_, .wishes = wishes_, .others = others_, .asking = asking_};
+  inspector_window(inspector, area_, scale_);
   if (!state_.panels) return;
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize({PANEL_WIDTH * scale_, static_cast<float>(screen.y)});
@@ -144,6 +146,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                  .wishes = wishes_,
                  .picture_file = picture_file_,
                  .state_file = state_file_,
+                 .numbers_file = numbers_file_,
                  .proof = proof_,
                  .proving = proving_,
                  .progress = progress};

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/window.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include "view/glfw_window.h"
@@ -22,6 +25,9 @@ constexpr double DEVICE_PICTURE_MS = 14.0;
 // On a software device the interface waits behind the picture that is being drawn, and so would input: it is drawn
 // between two pictures, and during long ones as often as this.
 constexpr double LEAST_OFTEN_S = 0.25;
+
+/// Where the state goes when the device does.
+constexpr const char* KEPT_STATE = "lamp-view-lost.json";
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -93,6 +99,17 @@ class ViewWindow {
   Worker worker_;  ///< the last member: it uses the others
 };
 
+/// Does it; when the device is gone, saves the state first.
+void with_state_kept(ViewWindow& view, const std::function<void()>& use) {
+  try {
+    use();
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find("VK_ERROR_DEVICE_LOST") == std::string_view::npos) throw;
+    view.viewer().save_state(KEPT_STATE);
+    throw Error(fmt::format("the device was lost; what was set is in {}, for --state", KEPT_STATE), Exit::no_device);
+  }
+}
+
 void play_in(ViewWindow& view, GlfwWindow& window, const WindowInfo& info) {
   Input input;
   Player player{
@@ -129,14 +146,18 @@ void run_window(const WindowInfo& info) {
                    .device_extensions = DEVICE_EXTENSIONS});
   {
     ViewWindow view(context, window, info);
-    if (info.plays) {
-      play_in(view, window, info);
-    } else {
-      while (!window.wants_to_close()) {
-        window.take_events(TICK_S);
-        view.tick(window.input(), std::nullopt);
+    with_state_kept(view, [&] {
+      if (info.plays) {
+        play_in(view, window, info);
+      } else {
+        view.viewer().say(info.said);
+        while (!window.wants_to_close()) {
+          window.take_events(TICK_S);
+          view.tick(window.input(), std::nullopt);
+        }
+        if (info.closed) info.closed(view.viewer().state(), window.size());
       }
-    }
+    });
   }
   for (const std::string& message : context.take_messages()) throw Error("validation: " + message, Exit::check_failed);
 }

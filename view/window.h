@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "gpu/context.h"
@@ -15,6 +17,8 @@ struct WindowInfo {
   bool plays = false;              ///< there is one
   glm::uvec2 size{1280, 720};
   ContextInfo::Validation validation = ContextInfo::Validation::off;
+  std::string said;                                          ///< on the first screen, if something
+  std::function<void(const ViewState&, glm::uvec2)> closed;  ///< told the state and the window's size at the end
 };
 
 /// Until the window is closed. Throws Error; with Exit::no_device where there is no display or the device cannot

@@ -13,6 +13,7 @@
 #include "system/print.h"
 #include "system/signals.h"
 #include "view/headless.h"
+#include "view/settings.h"
 #include "view/window.h"
 
 namespace {
@@ -45,6 +46,29 @@ void add_options(CLI::App& app, ViewOptions& o) {
       ->group("Device");
 }
 
+/// In a window, as the user had it last, where neither options nor a script say otherwise.
+void show(const CLI::App& app, const ViewOptions& o, const std::vector<ScriptLine>& script,
+          ContextInfo::Validation validation) {
+  WindowInfo info{.state = o.state,
+                  .script = script,
+                  .plays = !o.script.empty(),
+                  .size = parse_size(o.screen),
+                  .validation = validation};
+  if (!info.plays) {
+    try {
+      const Settings settings = load_settings(settings_file());
+      if (app.get_option("--state")->count() == 0) apply(settings, info.state);
+      if (app.get_option("--screen")->count() == 0) info.size = settings.screen;
+    } catch (const Error& error) {
+      info.said = std::string("settings were not read: ") + error.what();
+    }
+    info.closed = [](const ViewState& state, glm::uvec2 size) {
+      if (size.x != 0 && size.y != 0) save_settings(settings_file(), settings_of(state, size));
+    };
+  }
+  run_window(info);
+}
+
 Exit run(int argc, char** argv) {
   CLI::App app("Lamplight's window: see which lights are in which cells, and why", "lamp-view");
   app.set_version_flag("--version", "lamp-view " + std::string(lamp::version()), "Print the version and exit");
@@ -68,13 +92,12 @@ Exit run(int argc, char** argv) {
   check_state(o.state);
   const ContextInfo::Validation validation = o.validate ? ContextInfo::Validation::on : ContextInfo::Validation::off;
   const std::vector<ScriptLine> script = o.script.empty() ? std::vector<ScriptLine>() : read_script(o.script);
-  const glm::uvec2 screen = parse_size(o.screen);
   if (o.headless) {
     Context context({.device = o.state.request.device, .validation = validation});
-    run_headless(context, {.state = o.state, .screen = screen}, [&](Player& player) { play(player, script); });
+    run_headless(context, {.state = o.state, .screen = parse_size(o.screen)},
+                 [&](Player& player) { play(player, script); });
   } else {
-    run_window(
-        {.state = o.state, .script = script, .plays = !o.script.empty(), .size = screen, .validation = validation});
+    show(app, o, script, validation);
   }
   return Exit::done;
 }
