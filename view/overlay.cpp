@@ -137,6 +137,18 @@ Overlaid overflow(const Walked& walked) {
           .legend = legend};
 }
 
+Overlaid missed(const Walked& walked) {
+  Legend legend{.overlay = Overlay::missed};
+  for (const Visit& visit : walked.visits) {
+    legend.cells += visit.missed != 0 ? 1 : 0;
+    legend.max += visit.missed;
+  }
+  return {
+      .pixels = for_pixels(
+          walked, [&](std::size_t i) { return walked.visits[i].missed != 0 ? rgba(SIGNAL, 0.8F) : rgba({}, 0.3F); }),
+      .legend = legend};
+}
+
 }  // namespace
 
 glm::u8vec3 palette_color(Palette palette, double position) {
@@ -162,6 +174,8 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
       return depth_range(palette, walked);
     case Overlay::overflow:
       return app::overflow(walked);
+    case Overlay::missed:
+      return app::missed(walked);
     case Overlay::none:
       break;
   }

@@ -29,7 +29,8 @@ struct Legend {
   double high = 0.0;
   double mean = 0.0;
   double max = 0.0;
-  std::uint64_t cells = 0;  ///< that hold pixels; of Overlay::overflow, pixels that walk every light
+  std::uint64_t cells = 0;  ///< that hold pixels; of Overlay::overflow, pixels that walk every light; of
+                            ///< Overlay::missed, pixels that miss one, and `max` is of how many pairs
 };
 
 /// RGBA of every pixel, eight bits each, red lowest. Alpha 0 leaves the picture as it is.

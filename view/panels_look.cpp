@@ -63,6 +63,11 @@ void legend_text(const Legend& legend) {
       ImGui::TextUnformatted(
           fmt::format("{} pixels walk every light, because their cell did not fit", legend.cells).c_str());
       break;
+    case Overlay::missed:
+      ImGui::TextUnformatted(fmt::format("{} pixels miss a light that reaches them, {:.0f} pairs, says the oracle",
+                                         legend.cells, legend.max)
+                                 .c_str());
+      break;
     case Overlay::none:
       break;
   }

@@ -12,6 +12,7 @@
 #include "gpu/check.h"
 #include "render/antialias.h"
 #include "render/pixel_lights.h"
+#include "render/verification.h"
 #include "scene/flight.h"
 #include "scene/place_decals.h"
 
@@ -178,11 +179,25 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
   return made;
 }
 
+std::vector<Visit> Stage::checked_visits(Lighting& lighting) {
+  const View& view = renderer_->view();
+  std::vector<Visit> visits;
+  for_each_truth({.view = view, .depth = depth_, .lights = *lights_->lights, .rows = view.height()},
+                 [&](const Truth& truth) {
+                   const std::vector<Visit> band = renderer_->visit(lighting, truth);
+                   visits.insert(visits.end(), band.begin(), band.end());
+                 });
+  return visits;
+}
+
 Legend Stage::lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
                        std::uint32_t first_x, std::uint32_t end_x) {
   const View& view = renderer_->view();
-  visits_ = renderer_->visit_all(lighting);
-  if (state.overlay == Overlay::depth_range) depth_ = renderer_->read_depth();
+  if (state.overlay == Overlay::depth_range || state.overlay == Overlay::missed) depth_ = renderer_->read_depth();
+  if (state.overlay == Overlay::missed)
+    visits_ = checked_visits(lighting);
+  else
+    visits_ = renderer_->visit_all(lighting);
   const Overlaid made = make_overlay(state.overlay, state.palette,
                                      {.view = view,
                                       .visits = visits_,

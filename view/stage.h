@@ -63,6 +63,8 @@ class Stage {
   /// Lays the state's overlay over columns of the picture that `chosen` made last.
   [[nodiscard]] Legend lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
                                 std::uint32_t first_x, std::uint32_t end_x);
+  /// Of all pixels, against the oracle's truth of `depth_`.
+  [[nodiscard]] std::vector<Visit> checked_visits(Lighting& lighting);
   [[nodiscard]] Inspected inspected(Lighting& lighting);
   /// The state's picked pixel, of what is rendered.
   [[nodiscard]] glm::uvec2 picked_pixel(const ViewState& asked) const;

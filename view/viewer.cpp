@@ -275,6 +275,7 @@ nlohmann::json Viewer::report() const {
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
   if (proof_) json["proof"] = words_of(*proof_);
+  if (shown_.first.legend.overlay == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;
   for (const OtherList& list : others_)
     json["others"][list.method] = {{"lights", list.lights}, {"reaching", list.reaching}, {"refused", list.refused}};
   if (!shown_.inspection) return json;

@@ -21,8 +21,9 @@ enum class Overlay : std::uint8_t {
   cells,        ///< a colour for each cell
   depth_range,  ///< how deep the surfaces of a cell's pixels reach from front to back
   overflow,     ///< cells that did not fit, in a signal colour
+  missed,       ///< pixels whose list lacks a light that reaches them, likewise
 };
-/// "none", "heat", "cells", "depth-range", "overflow", in the order of Overlay.
+/// "none", "heat", "cells", "depth-range", "overflow", "missed", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
 
 /// Colours of the heat map.

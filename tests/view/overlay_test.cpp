@@ -60,9 +60,20 @@ TEST(Overlays, OverflowMarksPixelsThatWalkEverything) {
   EXPECT_EQ(make_overlay(Overlay::overflow, Palette::grey, walked).legend.cells, 0);
 }
 
+TEST(Overlays, MissedMarksPixelsThatLackALight) {
+  const View view = small_view();
+  std::vector<Visit> visits = VISITS;
+  visits[2].missed = 3;
+  const Overlaid made = make_overlay(Overlay::missed, Palette::grey, {.view = view, .visits = visits});
+  EXPECT_EQ(made.legend.cells, 1);
+  EXPECT_EQ(made.legend.max, 3.0);
+  EXPECT_NE(made.pixels[1], made.pixels[2]);
+}
+
 TEST(Overlays, DimTheSky) {
   const View view = small_view();
-  for (const Overlay overlay : {Overlay::heat, Overlay::cells, Overlay::depth_range, Overlay::overflow}) {
+  for (const Overlay overlay :
+       {Overlay::heat, Overlay::cells, Overlay::depth_range, Overlay::overflow, Overlay::missed}) {
     const Overlaid made = make_overlay(overlay, Palette::grey, {.view = view, .visits = VISITS, .depth = DEPTH});
     EXPECT_EQ(color(made.pixels[0]), glm::u8vec3(0));
     EXPECT_GT(alpha(made.pixels[0]), 0);

@@ -90,6 +90,7 @@ Exit run(int argc, char** argv) {
   }
   check_repeats(app);
   check_state(o.state);
+  if (o.headless && o.script.empty()) throw Error("--headless: nobody sees that screen, expected --script with it");
   const ContextInfo::Validation validation = o.validate ? ContextInfo::Validation::on : ContextInfo::Validation::off;
   const std::vector<ScriptLine> script = o.script.empty() ? std::vector<ScriptLine>() : read_script(o.script);
   if (o.headless) {
