@@ -132,7 +132,7 @@ TEST(MonkeyTest, EndsNothing) {
   const auto seed = static_cast<std::uint64_t>(number_in("LAMPLIGHT_MONKEY_SEED", 1.0));
   std::uint64_t acts = 0;
   try {
-    run_headless(test_context(), small_viewer(), [&](Player& player) {
+    run_headless(view_context(), small_viewer(), [&](Player& player) {
       Monkey monkey(player, seed);
       const Clock::time_point begin = Clock::now();
       for (; std::chrono::duration<double>(Clock::now() - begin).count() < seconds; ++acts) {

@@ -36,7 +36,7 @@ class Play : public ::testing::Test {
   ~Play() override { fs::current_path(was_); }
 
   static void play_script(const std::vector<ScriptLine>& script) {
-    run_headless(test_context(), small_viewer(), [&](Player& player) { play(player, script); });
+    run_headless(view_context(), small_viewer(), [&](Player& player) { play(player, script); });
   }
 
  private:

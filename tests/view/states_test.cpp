@@ -61,7 +61,7 @@ Difference difference(const LdrImage& a, const LdrImage& b) {
 
 TEST(States, LookAsOnTheirPage) {
   std::optional<LdrImage> last;
-  run_headless(test_context(), small_viewer(), [&](Player& player) {
+  run_headless(view_context(), small_viewer(), [&](Player& player) {
     for (const std::string& name : state_names()) {
       const fs::path file = fs::path(LAMPLIGHT_SOURCE_DIR) / "docs/states" / (name + ".json");
       player.resize(load_state(file).panels ? WITH_PANELS : WITHOUT);

@@ -4,7 +4,7 @@
 
 namespace lamp::app {
 
-Context& test_context() {
+Context& view_context() {
   static Context context({.validation = ContextInfo::Validation::on});
   return context;
 }

@@ -6,7 +6,7 @@
 
 namespace lamp::app {
 
-[[nodiscard]] Context& test_context();
+[[nodiscard]] Context& view_context();
 
 /// A plane of 96 x 54 pixels with 32 lights, tiled, that stands still, on a screen of 720 x 480.
 [[nodiscard]] HeadlessInfo small_viewer();
