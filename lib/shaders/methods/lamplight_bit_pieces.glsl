@@ -16,7 +16,7 @@ layout(constant_id = 12) const uint CROWDED = ~0u;    // a cell of more lights i
 layout(constant_id = 13) const uint PARTS = 1;        // a power of two
 #include "common/subgroup_scan.glsl"
 
-uint cell_count() { return square_count(frame, TILE_PX * CELL_TILES) * LAYERS; }
+#include "methods/lamplight_cell_count.glsl"
 
 const uint NO_GROUP = ~0u;  // takes nothing
 

@@ -44,8 +44,7 @@ void main() {
   clear_totals();
   clear_counts();
   barrier();  // initial values before the first tile
-  const uvec2 size_px = frame.size_px;
-  const uvec2 tiles = (size_px + TILE_PX - 1u) / TILE_PX;
+  const uvec2 tiles = squares_across(frame, TILE_PX);
   for (uint i = gl_SubgroupID; i < CELL_TILES * CELL_TILES; i += gl_NumSubgroups) {
     const uvec2 tile = gl_WorkGroupID.xy * CELL_TILES + uvec2(i % CELL_TILES, i / CELL_TILES);
     if (any(greaterThanEqual(tile, tiles))) continue;

@@ -21,7 +21,7 @@ const uint CELL_ROWS = CELL_TILES * CELL_TILES;
 #include "lamplight/shared/lamplight.h"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
-uint cell_count() { return square_count(frame, TILE_PX * CELL_TILES) * LAYERS; }
+#include "methods/lamplight_cell_count.glsl"
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 #ifdef CELL_BITS
@@ -55,7 +55,7 @@ const uint FEW_TILES = 4u;
 bool meets_depths(LightBounds sphere, uvec4 tiles) {
   const uvec2 size = tiles.zw + 1u - tiles.xy;
   if (size.x * size.y > FEW_TILES) return true;
-  const uint tiles_wide = (frame.size_px.x + TILE_PX - 1u) / TILE_PX;
+  const uint tiles_wide = squares_across(frame, TILE_PX).x;
   bool meets = false;
   [[unroll]] for (uint i = 0u; i < FEW_TILES; ++i) {  // beyond its tiles, one of them again
     const uvec2 tile = tiles.xy + uvec2(i % size.x, min(i / size.x, size.y - 1u));

@@ -10,7 +10,7 @@ layout(constant_id = 9) const uint RUN_WORDS = 8;  // bits of a block
 layout(constant_id = 10) const uint BLOCK = 256;    // lights
 layout(constant_id = 11) const uint LAYERS = 1;     // of cells
 
-uint cell_count() { return square_count(frame, TILE_PX * CELL_TILES) * LAYERS; }
+#include "methods/lamplight_cell_count.glsl"
 
 const uint LONG_RUN = 32u;
 const uint MARGIN = LONG_RUN;  // a run that is not long and reaches into the piece begins and ends within it

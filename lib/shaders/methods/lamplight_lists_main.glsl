@@ -60,7 +60,7 @@ TileDepths depths_of_row(Cell cell, uvec2 tile) {
   const float begin = is_perspective(frame) ? max(slice_begin(slice), 0.0) : slice_begin(slice);
   return slice < SLICES ? TileDepths(begin, slice_end(slice), 0.0, ~0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
 #else
-  const uint tiles_wide = (frame.size_px.x + TILE_PX - 1u) / TILE_PX;
+  const uint tiles_wide = squares_across(frame, TILE_PX).x;
   return tile_depths[tile.x + tiles_wide * tile.y];
 #endif
 }
@@ -72,7 +72,7 @@ void load_row(Cell cell, uint row) {
 }
 
 Cell cell_of(CellPiece piece) {
-  const uvec2 size = (frame.size_px + TILE_PX * CELL_TILES - 1u) / (TILE_PX * CELL_TILES);
+  const uvec2 size = squares_across(frame, TILE_PX * CELL_TILES);
 #ifdef SLICED
   const uint in_layer = piece.cell % (size.x * size.y);
   const uint first_slice = piece.cell / (size.x * size.y) * CELL_SLICES;

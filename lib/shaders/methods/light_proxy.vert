@@ -26,7 +26,7 @@ vec3 proxy_vertex(LightProxy proxy, uint triangle, uint corner) {
 
 // From the picture to raster pixels, of which the last ones may stick out.
 vec4 to_raster(vec4 clip) {
-  const vec2 raster = vec2((frame.size_px + RASTER_PX - 1u) / RASTER_PX * RASTER_PX);
+  const vec2 raster = vec2(squares_across(frame, RASTER_PX) * RASTER_PX);
   const vec2 xy = (clip.xy + clip.w) * (vec2(frame.size_px) / raster) - clip.w;
   return vec4(xy, 0.5 * clip.w, clip.w);
 }

@@ -26,7 +26,7 @@ uvec2 surface_slices(uvec2 pixel) {
 }
 
 uint cluster_word(uvec2 tile, uint slice) {
-  const uvec2 tiles = (frame.size_px + TILE_PX - 1u) / TILE_PX;
+  const uvec2 tiles = squares_across(frame, TILE_PX);
   return (tile.x + tiles.x * (tile.y + tiles.y * slice)) * WORDS + in_light / 32u;
 }
 

@@ -30,7 +30,7 @@ void main() {
   const uvec2 pixel = uvec2(gl_FragCoord.xy) * RASTER_PX;
   if (any(greaterThanEqual(pixel, frame.size_px))) return;  // a helper thread
   const uvec2 at = pixel / TILE_PX;
-  const uint tile = at.x + (frame.size_px.x + TILE_PX - 1u) / TILE_PX * at.y;
+  const uint tile = at.x + squares_across(frame, TILE_PX).x * at.y;
   const vec2 surface = surface_depths(pixel, tile);
   const LightProxy proxy = proxies[in_light];
   const uint word = tile * WORDS + in_light / 32u;

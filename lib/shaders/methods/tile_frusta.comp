@@ -12,7 +12,7 @@ layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) writeonly buffer FrustaBuffer { vec4 frusta[]; };
 
 void main() {
-  const uvec2 tiles = (frame.size_px + TILE_PX - 1u) / TILE_PX;
+  const uvec2 tiles = squares_across(frame, TILE_PX);
   const uint index = gl_GlobalInvocationID.x;
   if (index >= tiles.x * tiles.y) return;
   const uvec2 tile = uvec2(index % tiles.x, index / tiles.x);

@@ -32,7 +32,7 @@ layout(set = 0, binding = TILE_BINDING + 5, scalar) readonly buffer CullRanges {
 #include "common/spot_tests.glsl"
 
 uint tile_index(uvec2 tile) {
-  return tile.x + (cull_frame.size_px.x + TILE_PX - 1u) / TILE_PX * tile.y;
+  return tile.x + squares_across(cull_frame, TILE_PX).x * tile.y;
 }
 
 // The tile's sides: kept from an earlier frame of the same projection, or made here.

@@ -16,7 +16,7 @@ namespace {
 
 /// The grid, and what all passes and the look-up are specialised with.
 struct Clusters {
-  parts::TileGrid tiles;
+  std::uint64_t tiles;
   std::uint64_t count;
   std::uint32_t threads;
   std::vector<std::uint32_t> constants;  ///< of the look-up; passes have the number of threads before them
@@ -31,9 +31,9 @@ struct Clusters {
 
 Clusters clusters_of(const Problem& problem) {
   const Options& o = problem.options;
-  const parts::TileGrid tiles = parts::tile_grid(problem, o.integer("tile"));
+  const std::uint64_t tiles = parts::tile_count(problem, o.integer("tile"));
   return {.tiles = tiles,
-          .count = tiles.count() * o.integer("slices"),
+          .count = tiles * o.integer("slices"),
           .threads = parts::cull_threads(problem),
           .constants = {o.integer("tile"), o.integer("slices"), parts::slice_scale(o.word("scale")),
                         o.integer("near_mm"), o.integer("far_m")}};
@@ -58,9 +58,9 @@ void add_bits(Plan& plan, const Problem& problem, const Clusters& c, ResourceId 
 constexpr std::uint64_t MOST_BIT_BYTES = 1U << 26;  // a million lights at 1920x1080
 
 /// Words of a tile's bits, 0 if there shall be none.
-std::uint32_t words_of_a_tile(const Problem& problem, const parts::TileGrid& tiles) {
+std::uint32_t words_of_a_tile(const Problem& problem, std::uint64_t tiles) {
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
-  const std::uint64_t bytes = tiles.count() * words * 4;
+  const std::uint64_t bytes = tiles * words * 4;
   return bytes <= std::min(MOST_BIT_BYTES, problem.traits.max_storage_buffer_bytes) ? words : 0;
 }
 
@@ -83,7 +83,7 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
   const std::uint32_t words = words_of_a_tile(problem, c.tiles);
   // Bound to the list, and not used, where there are none.
-  const ResourceId bits = words == 0 ? lists : plan.add({.name = "tile bits", .bytes = c.tiles.count() * words * 4});
+  const ResourceId bits = words == 0 ? lists : plan.add({.name = "tile bits", .bytes = c.tiles * words * 4});
   plan.passes.push_back({.name = "cluster count",
                          .shader = "methods/clustered_count",
                          .constants = c.pass_constants({entries}),

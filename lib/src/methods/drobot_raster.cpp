@@ -147,15 +147,15 @@ std::vector<TileDraw> tile_draws(Plan& plan, const Problem& problem, Buffers& b)
 
 Plan plan_raster_tile(const Problem& problem) {
   const std::uint32_t tile_px = problem.options.integer("tile");
-  const parts::TileGrid tiles = parts::tile_grid(problem, tile_px);
+  const std::uint64_t tiles = parts::tile_count(problem, tile_px);
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
   Plan plan;
   const Raster raster = raster_of(plan, problem);
-  plan.cells = tiles.count();
+  plan.cells = tiles;
   Buffers b = add_proxies(plan, problem, raster);
   b.bits = plan.add(parts::zeroed_cells("tile bits", problem, {.px = tile_px}, std::uint64_t{words} * 4));
   if (!raster.exact()) {
-    b.ranges = plan.add({.name = "tile depth ranges", .bytes = tiles.count() * sizeof(shared::TileRanges)});
+    b.ranges = plan.add({.name = "tile depth ranges", .bytes = tiles * sizeof(shared::TileRanges)});
     plan.passes.push_back(depth_pass(tile_px, b.ranges));
   }
   const std::uint32_t depth_bounds = problem.options.word("depth") == "test" ? 0 : 1;
@@ -180,7 +180,7 @@ constexpr std::uint32_t LARGEST_RANGE_PX = 32;
 Plan plan_raster_cluster(const Problem& problem) {
   using Cull = RasterState::Cull;
   const Options& o = problem.options;
-  const std::uint64_t clusters = parts::tile_grid(problem, o.integer("tile")).count() * o.integer("slices");
+  const std::uint64_t clusters = parts::tile_count(problem, o.integer("tile")) * o.integer("slices");
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
   const std::vector<std::uint32_t> slices{o.integer("slices"), parts::slice_scale(o.word("scale")),
                                           o.integer("near_mm"), o.integer("far_m")};
@@ -193,8 +193,8 @@ Plan plan_raster_cluster(const Problem& problem) {
   plan.any_depth = o.word("early") == "off";
   const std::uint32_t early_px = o.word("early") == "on" ? std::min(o.integer("tile"), LARGEST_RANGE_PX) : 0;
   if (early_px != 0) {
-    const parts::TileGrid squares = parts::tile_grid(problem, early_px);
-    b.ranges = plan.add({.name = "tile depth ranges", .bytes = squares.count() * sizeof(shared::TileRanges)});
+    const std::uint64_t squares = parts::tile_count(problem, early_px);
+    b.ranges = plan.add({.name = "tile depth ranges", .bytes = squares * sizeof(shared::TileRanges)});
     plan.passes.push_back(depth_pass(early_px, b.ranges));
   }
   const char* shader = compacts(plan, problem) ? "methods/raster_cluster_compact" : "methods/raster_cluster";

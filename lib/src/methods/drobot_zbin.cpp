@@ -16,7 +16,7 @@ namespace {
 /// Every size of the plan.
 struct Sizes {
   std::uint32_t tile_px, bins, scale, near_mm, far_m;
-  parts::TileGrid tiles;
+  std::uint64_t tiles;
   std::uint64_t lights;   ///< capacity
   std::uint32_t words;    ///< of a tile's bits
   std::uint32_t threads;  ///< of work groups that sort or cull
@@ -31,7 +31,7 @@ Sizes sizes_of(const Problem& problem) {
           .scale = problem.options.word("bin_scale") == "uniform" ? shared::SLICES_LINEAR : shared::SLICES_LOG,
           .near_mm = problem.options.integer("near_mm"),
           .far_m = problem.options.integer("far_m"),
-          .tiles = parts::tile_grid(problem, tile_px),
+          .tiles = parts::tile_count(problem, tile_px),
           .lights = capacity,
           .words = parts::divide_up(capacity, 32),
           .threads = parts::cull_threads(problem),
@@ -140,10 +140,10 @@ Plan plan_drobot_zbin(const Problem& problem) {
   const Sizes s = sizes_of(problem);
   Plan plan;
   plan.any_depth = true;
-  plan.cells = s.tiles.count() * s.bins;
+  plan.cells = s.tiles * s.bins;
   plan.ordered = false;
   Buffers b = add_sorted_lights(plan, problem, s);
-  b.bits = plan.add({.name = "tile bits", .bytes = s.tiles.count() * s.words * 4});
+  b.bits = plan.add({.name = "tile bits", .bytes = s.tiles * s.words * 4});
   plan.passes.push_back({.name = "tile bits",
                          .shader = "methods/zbin_tiles",
                          .constants = {s.threads, s.tile_px, s.words},

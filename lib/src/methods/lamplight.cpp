@@ -84,8 +84,8 @@ Buffers add_buffers(Plan& plan, const Problem& problem, const Sizes& s) {
                        .indirect = !s.cell_bits});
   plan.counters = b.totals;
   if (!s.sliced()) {
-    b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles.count() * sizeof(shared::TileDepths)});
-    b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells.count() * 4});
+    b.tile_depths = plan.add({.name = "tile depth ranges", .bytes = s.tiles * sizeof(shared::TileDepths)});
+    b.cell_depths = plan.add({.name = "cell depth ranges", .bytes = s.cells * 4});
   }
   if (!s.cell_bits) b.seen = plan.add({.name = "lights in view", .bytes = std::uint64_t{parts::capacity(problem)} * 4});
   const auto of_cells = [&](const char* name, std::uint64_t cell_bytes) {
@@ -295,7 +295,7 @@ Plan plan_lamplight(const Problem& problem) {
   if (gathers(problem)) return lamplight::plan_at_once(problem);
   const Sizes sizes = lamplight::sizes_of(problem);
   Plan plan;
-  plan.cells = sizes.tiles.count() * sizes.slices;
+  plan.cells = sizes.tiles * sizes.slices;
   plan.any_depth = sizes.sliced();
   const Buffers buffers = add_buffers(plan, problem, sizes);
   plan.capacities = {{.option = "mean_cells",

@@ -17,22 +17,23 @@ constexpr std::uint32_t CELL_TILES = 4;  // a side, of more tiles
 constexpr std::uint64_t MOST_LIST_BYTES = 32U << 20;
 
 struct Grid {
-  parts::TileGrid tiles, cells;
+  std::uint64_t tiles, cells;
   std::uint32_t tile_px, cell_tiles, threads;
 
+  [[nodiscard]] std::uint32_t cell_px() const { return tile_px * cell_tiles; }
   [[nodiscard]] std::uint32_t cell_rows() const { return cell_tiles * cell_tiles; }
-  [[nodiscard]] std::uint64_t rows() const { return cells.count() * cell_rows(); }
+  [[nodiscard]] std::uint64_t rows() const { return cells * cell_rows(); }
 };
 
 Grid grid_of(const Problem& problem) {
   Grid grid{.tile_px = problem.options.integer("tile"), .cell_tiles = CELL_TILES, .threads = light_threads(problem)};
-  grid.tiles = parts::tile_grid(problem, grid.tile_px);
+  grid.tiles = parts::tile_count(problem, grid.tile_px);
   // A software device takes longer for more groups.
-  if (grid.tiles.count() <= FEW_TILES && !has_small_subgroups(problem)) {
+  if (grid.tiles <= FEW_TILES && !has_small_subgroups(problem)) {
     grid.cell_tiles = 1;
     grid.threads = full_threads(problem, FEW_TILES_THREADS);
   }
-  grid.cells = parts::tile_grid(problem, grid.tile_px * grid.cell_tiles);
+  grid.cells = parts::tile_count(problem, grid.cell_px());
   return grid;
 }
 
@@ -45,8 +46,10 @@ std::uint64_t list_bytes(const Problem& problem, const Grid& grid) {
 bool can_gather(const Problem& problem) {
   if (parts::capacity(problem) > PIECE || problem.options.word("depth") == "none") return false;
   const Grid grid = grid_of(problem);
+  const CellGrid across{.px = grid.cell_px()};
   return list_bytes(problem, grid) <= std::min(MOST_LIST_BYTES, problem.traits.max_storage_buffer_bytes) &&
-         grid.cells.width <= problem.traits.max_groups[0] && grid.cells.height <= problem.traits.max_groups[1];
+         across.across(problem.width) <= problem.traits.max_groups[0] &&
+         across.across(problem.height) <= problem.traits.max_groups[1];
 }
 
 Plan plan_at_once(const Problem& problem) {
@@ -57,11 +60,11 @@ Plan plan_at_once(const Problem& problem) {
   const std::uint32_t pairs = THREAD_PAIRS * grid.threads;
   const std::uint32_t mark_words = grid.cell_rows() * shared::PIECE_WORDS;
   Plan plan;
-  plan.cells = grid.tiles.count();
-  const ResourceId cells = plan.add({.name = "cells", .bytes = grid.cells.count() * sizeof(shared::LightCell)});
+  plan.cells = grid.tiles;
+  const ResourceId cells = plan.add({.name = "cells", .bytes = grid.cells * sizeof(shared::LightCell)});
   const ResourceId rows = plan.add({.name = bits ? "tile bits" : "tile spans", .bytes = grid.rows() * row_bytes(bits)});
-  const ResourceId lists = plan.add({.name = bits ? "cell lists" : "tile lists",
-                                     .bytes = bits ? grid.cells.count() * PIECE * 4 : list_bytes(problem, grid)});
+  const ResourceId lists = plan.add(
+      {.name = bits ? "cell lists" : "tile lists", .bytes = bits ? grid.cells * PIECE * 4 : list_bytes(problem, grid)});
   plan.passes = {
       {.name = bits ? "tile bits" : "tile lists",
        .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
@@ -74,7 +77,7 @@ Plan plan_at_once(const Problem& problem) {
                     {cells, Access::write},
                     {rows, Access::write},
                     {lists, Access::write}},
-       .extent = {.cells = {.px = grid.tile_px * grid.cell_tiles}},
+       .extent = {.cells = {.px = grid.cell_px()}},
        .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
        .full_subgroups = grid.threads}};
   if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});

@@ -47,7 +47,7 @@ std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
 
 /// Entries of all lists together, if every light is in each of them.
 std::uint64_t worst_lists(const Problem& problem, const Sizes& s) {
-  return s.tiles.count() * s.slices * parts::capacity(problem);
+  return s.tiles * s.slices * parts::capacity(problem);
 }
 
 /// With mean_cells=0 two a cell and no more.
@@ -66,7 +66,7 @@ std::uint64_t wanted_entries(const Problem& problem, const Sizes& s) {
   const std::uint64_t mean = problem.options.integer("mean_capacity");
   const std::uint64_t worst = worst_lists(problem, s);
   if (mean >= MEAN_CAPACITY && worst <= parts::SMALL_LISTS) return worst;
-  const std::uint64_t rows = s.tiles.count() * s.slices;
+  const std::uint64_t rows = s.tiles * s.slices;
   const std::uint64_t left = LIST_BUDGET - std::min(LIST_BUDGET, MEAN_CAPACITY * rows);
   const std::uint64_t lights = parts::capacity(problem);
   return std::min(rows * mean + std::min(LIST_LIGHTS * lights, left), worst);
@@ -80,10 +80,10 @@ Sizes grid_of(const Problem& problem) {
     s.slices = o.integer("slices");
     s.cell_slices = CELL_SLICES;
   }
-  s.tiles = parts::tile_grid(problem, s.tile_px);
+  s.tiles = parts::tile_count(problem, s.tile_px);
   s.cell_tiles = cell_tiles(problem.width, problem.height, s.tile_px, parts::capacity(problem));
-  s.cells = parts::tile_grid(problem, s.tile_px * s.cell_tiles);
-  s.cell_count = static_cast<std::uint32_t>(s.cells.count()) * parts::divide_up(s.slices, s.cell_slices);
+  s.cells = parts::tile_count(problem, s.cell_px());
+  s.cell_count = static_cast<std::uint32_t>(s.cells) * s.cell_grid().layers;
   s.cell_rows = s.cell_tiles * s.cell_tiles * s.cell_slices;
   // Of one slice, in whole lines of tiles.
   s.group_rows = std::max(std::min(GROUP_ROWS, s.cell_tiles * s.cell_tiles), s.cell_tiles);

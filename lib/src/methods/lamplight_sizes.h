@@ -29,7 +29,7 @@ constexpr std::uint32_t THREAD_PAIRS = 4;  ///< of light and row for each thread
 struct Sizes {
   std::uint32_t tile_px, cell_tiles;
   std::uint32_t slices, cell_slices;  ///< of depth; 1 with a depth buffer
-  parts::TileGrid tiles, cells;       ///< of a slice, of a layer
+  std::uint64_t tiles, cells;         ///< of a slice, of a layer
   std::uint32_t cell_count;           ///< of all layers
   std::uint32_t cell_rows;            ///< tiles times slices
   std::uint32_t group_rows;           ///< of them, for a work group of the last pass

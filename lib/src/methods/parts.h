@@ -12,13 +12,9 @@ namespace lamp::parts {
 
 [[nodiscard]] constexpr std::uint32_t divide_up(std::uint32_t value, std::uint32_t by) { return (value + by - 1) / by; }
 
-/// Tiles over a picture, the partial ones at the right and bottom included.
-struct TileGrid {
-  std::uint32_t width, height;
-  [[nodiscard]] std::uint64_t count() const { return std::uint64_t{width} * height; }
-};
-[[nodiscard]] inline TileGrid tile_grid(const Problem& problem, std::uint32_t tile_px) {
-  return {divide_up(problem.width, tile_px), divide_up(problem.height, tile_px)};
+/// Tiles over the largest picture, the partial ones at the right and bottom included.
+[[nodiscard]] inline std::uint64_t tile_count(const Problem& problem, std::uint32_t tile_px) {
+  return CellGrid{.px = tile_px}.count(problem.width, problem.height);
 }
 
 /// Threads of a work group that culls: a power of two, at most 256 and what the device takes.

@@ -156,13 +156,13 @@ TiledAxes possible_axes(Plan& plan, const Problem& problem) {
 Plan plan_tiled(const Problem& problem) {
   Plan plan;
   TiledAxes axes = possible_axes(plan, problem);
-  const parts::TileGrid tiles = parts::tile_grid(problem, axes.tile_px);
-  plan.cells = tiles.count() * axes.ranges();
+  const std::uint64_t tiles = parts::tile_count(problem, axes.tile_px);
+  plan.cells = tiles * axes.ranges();
   axes.capacity = list_capacity(problem, axes, plan.cells);
   const std::uint64_t shared_list = shared_entries(problem, axes, plan.cells);
   plan.ordered = axes.order == shared::ORDER_INDEX;
   plan.approximate = axes.test == shared::TEST_CONE_APPROXIMATE;
-  const Buffers buffers = add_buffers(plan, problem, axes, tiles.count());
+  const Buffers buffers = add_buffers(plan, problem, axes, tiles);
   if (!axes.bits) plan.capacities = {parts::own_lists(plan, "capacity", axes.capacity)};
   if (axes.order == shared::ORDER_TYPE)
     plan.capacities.push_back(parts::shared_list(plan, "mean_capacity", shared_list, plan.cells));

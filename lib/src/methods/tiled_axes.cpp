@@ -140,7 +140,7 @@ std::optional<Error> check_tiled(const Problem& problem) {
     return error;
   if (axes.order == shared::ORDER_TYPE && problem.options.word("walk") != "plain")
     return Error{"option walk", "lists by type are walked in two loops already; order=type goes with walk=plain"};
-  const std::uint64_t cells = parts::tile_grid(problem, axes.tile_px).count() * axes.ranges();
+  const std::uint64_t cells = parts::tile_count(problem, axes.tile_px) * axes.ranges();
   if (axes.order == shared::ORDER_TYPE && cells * axes.capacity > 0xffffffffULL)
     return Error{"option capacity", "cells x capacity must stay below 2^32 for order=type; take a smaller capacity"};
   return std::nullopt;

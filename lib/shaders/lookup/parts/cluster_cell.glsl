@@ -11,6 +11,6 @@ void lookup_prepare() {}
 
 uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uvec2 tiles = squares_across(lookup_frames[view], LOOKUP_TILE_PX);
   return tile.x + tiles.x * (tile.y + tiles.y * slice_of(z_view));
 }

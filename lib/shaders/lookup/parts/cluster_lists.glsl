@@ -34,16 +34,11 @@ Walk walk_of_cell(uint view, uint cell) {
   const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
   const uint first = view * LOOKUP_LISTS_VIEW + range.x;
   if (fits) return walk_from(first, first + range.y, NO_WORD);
-  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
-  const uint first_word = view * LOOKUP_BITS_VIEW + cell % (tiles.x * tiles.y) * LOOKUP_WORDS;
+  const uint tile = cell % square_count(lookup_frames[view], LOOKUP_TILE_PX);
+  const uint first_word = view * LOOKUP_BITS_VIEW + tile * LOOKUP_WORDS;
   return walk_from(0u, lookup_light_count(), first_word);
 }
 
-Walk walk_begin(uint view, uvec2 pixel, float z_view) {
-  return walk_of_cell(view, lookup_cell(view, pixel, z_view));
-}
-
-#define LOOKUP_RANGED
 #include "lookup/parts/lower_bound.glsl"
 
 Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
@@ -54,10 +49,7 @@ Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
   return walk;
 }
 
-Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_of_cell_in(view, lookup_cell(view, pixel, z_view), first, end);
-}
-#include "lookup/parts/of_view.glsl"
+#include "lookup/parts/walk_cell.glsl"
 
 // The first light from `from` on that the tile's bits name, or one past the last.
 uint lookup_next_bit(uint first_word, uint from, uint end) {

@@ -26,14 +26,14 @@ uint lookup_slice(float z_view) { return LOOKUP_SLICES == 1u ? 0u : slice_of(z_v
 
 uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uvec2 tiles = squares_across(lookup_frames[view], LOOKUP_TILE_PX);
   return tile.x + tiles.x * (tile.y + tiles.y * lookup_slice(z_view));
 }
 
 // Of the view's own cells.
 uint lookup_light_cell(uint view, uvec2 pixel, float z_view) {
   const uvec2 at = pixel / LOOKUP_CELL_PX;
-  const uvec2 across = (lookup_frames[view].size_px + LOOKUP_CELL_PX - 1u) / LOOKUP_CELL_PX;
+  const uvec2 across = squares_across(lookup_frames[view], LOOKUP_CELL_PX);
   return at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES));
 }
 

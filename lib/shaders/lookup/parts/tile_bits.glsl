@@ -12,22 +12,7 @@ LOOKUP_BUFFER(2, LookupSplits, float, lookup_splits);
 LOOKUP_VIEW_WORDS(2, LOOKUP_SPLITS_VIEW);
 
 #include "lookup/parts/tile_cell.glsl"
-#define LOOKUP_LIGHT(walk, bit) (bit)
-#define LOOKUP_SPARSE
-#include "lookup/parts/walk_bits.glsl"
 
 void lookup_prepare() {}
 
-uint lookup_first_word(uint view, uvec2 pixel, float z_view) {
-  return view * LOOKUP_BITS_VIEW + lookup_cell(view, pixel, z_view) * LOOKUP_WORDS;
-}
-
-Walk walk_begin(uint view, uvec2 pixel, float z_view) {
-  return walk_bits(lookup_first_word(view, pixel, z_view), 0u, lookup_light_count());
-}
-
-#define LOOKUP_RANGED
-Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_bits(lookup_first_word(view, pixel, z_view), first, min(end, lookup_light_count()));
-}
-#include "lookup/parts/of_view.glsl"
+#include "lookup/parts/cell_bit_array.glsl"

@@ -25,11 +25,6 @@ Walk walk_of_cell(uint view, uint cell) {
   return walk_from(base + 1u, base + 1u + count, false);
 }
 
-Walk walk_begin(uint view, uvec2 pixel, float z_view) {
-  return walk_of_cell(view, lookup_cell(view, pixel, z_view));
-}
-
-#define LOOKUP_RANGED
 #include "lookup/parts/lower_bound.glsl"
 
 Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
@@ -41,10 +36,7 @@ Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
   return walk;
 }
 
-Walk walk_begin_in(uint view, uvec2 pixel, float z_view, uint first, uint end) {
-  return walk_of_cell_in(view, lookup_cell(view, pixel, z_view), first, end);
-}
-#include "lookup/parts/of_view.glsl"
+#include "lookup/parts/walk_cell.glsl"
 
 uint lookup_light_at(Walk walk, uint place) {
   if (walk.overflowed) return place;

@@ -27,12 +27,12 @@ void lookup_prepare() {}
 
 uint lookup_tile(uint view, uvec2 pixel) {
   const uvec2 tile = pixel / LOOKUP_TILE_PX;
-  return tile.x + (lookup_frames[view].size_px.x + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX * tile.y;
+  return tile.x + squares_across(lookup_frames[view], LOOKUP_TILE_PX).x * tile.y;
 }
 
 // Beyond 2^32 cells, numbers come again; statistics alone ask for them.
 uint lookup_cell(uint view, uvec2 pixel, float z_view) {
-  const uvec2 tiles = (lookup_frames[view].size_px + LOOKUP_TILE_PX - 1u) / LOOKUP_TILE_PX;
+  const uvec2 tiles = squares_across(lookup_frames[view], LOOKUP_TILE_PX);
   return lookup_tile(view, pixel) + tiles.x * tiles.y * slice_of(z_view);
 }
 
