@@ -1,12 +1,10 @@
 // Frames of any size up to a plan's, one after the other, as engines with dynamic resolution have them: each is what a
-// plan for that size makes of it, for every method; and a Culler loses no light of any.
+// plan for that size makes of it, for every method; and a Culler loses no light of a smaller frame.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <random>
-
 #include "gpu/engine_frame.h"
-#include "gpu/gpu_test.h"
+#include "gpu/made_up_frame.h"
 #include "gpu/over_depth.h"
 
 namespace lamp::app {
@@ -16,44 +14,9 @@ using Passes = vulkan::PlanRunner::Passes;
 using Settings = std::vector<std::string>;
 
 constexpr std::uint32_t LIGHTS = 100;
-constexpr double NEAR_M = 0.1;
 constexpr glm::uvec2 LARGEST(149, 83);
 // Larger and smaller in turns: what a frame leaves behind must not be seen by the next one.
 constexpr glm::uvec2 SIZES[] = {LARGEST, {75, 42}, {1, 1}, {149, 9}, {17, 83}, {128, 64}, LARGEST};
-
-View view_of_size(glm::uvec2 size) {
-  const glm::dmat4 projection =
-      perspective(symmetric_window(1.0, static_cast<double>(size.x) / size.y), NEAR_M, INFINITE_FAR);
-  return View::create(size.x, size.y, projection, glm::dmat4(1.0)).value();
-}
-
-/// Blocks of surfaces 4 m to 7 m ahead, with some sky.
-std::vector<float> surfaces(glm::uvec2 size) {
-  std::vector<float> depth;
-  for (std::uint32_t y = 0; y < size.y; ++y)
-    for (std::uint32_t x = 0; x < size.x; ++x) {
-      const std::uint32_t block = x / 5 * 31 + y / 3 * 17;
-      depth.push_back(block % 11 == 0 ? 0.0F : static_cast<float>(NEAR_M / (4.0 + (block % 23) / 8.0)));
-    }
-  return depth;
-}
-
-/// Small, in front of the surfaces, among them and behind them.
-std::vector<shared::Light> scattered_lights(const View& view) {
-  std::mt19937 random(1);
-  const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
-  std::vector<Light> lights(LIGHTS);
-  for (Light& light : lights) {
-    light.position =
-        glm::vec3(view.view_position({unit() * view.width(), unit() * view.height()}, 0.5 + 12.0 * unit()));
-    light.range = static_cast<float>(0.2 + unit());
-    if (unit() < 0.7) continue;
-    light.type = LightType::spot;
-    light.direction = {unit() - 0.5, unit() - 0.5, -unit()};
-    light.outer_angle = static_cast<float>(0.1 + unit());
-  }
-  return pack(lights);
-}
 
 Problem problem_of(const Method& method, const Settings& settings, glm::uvec2 size) {
   return {.width = size.x,
@@ -73,8 +36,8 @@ void expect_same_as_own_plans(const Method& method, const Settings& settings, st
   vulkan::PlanRunner runner = runner_of(method, settings, LARGEST);
   for (const glm::uvec2 size : sizes) {
     SCOPED_TRACE(fmt::format("{}x{}", size.x, size.y));
-    const View view = view_of_size(size);
-    OverDepth frame(view, surfaces(size), scattered_lights(view));
+    const View view = made_up_view(size);
+    OverDepth frame(view, made_up_depths(size), scattered_lights(view, LIGHTS));
     vulkan::PlanRunner own = runner_of(method, settings, size);
     for (const Passes which : {Passes::separate, Passes::fused}) {
       if (which == Passes::fused && !own.plan().fused) continue;
@@ -105,6 +68,21 @@ TEST_F(FrameSizes, HoldForEveryWayToKeepWhatWasFound) {
     check("lamplight", {fmt::format("cells={}", cells), "tile=8", "prune=pixel"});
   for (const char* cells : {"bits", "list"})
     check("lamplight", {fmt::format("cells={}", cells), "depth=none", "container=bits"});
+}
+
+TEST_F(FrameSizes, OfACullerMayBeSmaller) {
+  const EngineFrame frame = engine_frame();
+  for (const Method& method : methods()) {
+    SCOPED_TRACE(method.name);
+    vulkan::Culler culler = take(vulkan::Culler::create(test_context().device(), {.width = LARGEST.x,
+                                                                                  .height = LARGEST.y,
+                                                                                  .light_capacity = ENGINE_LIGHTS,
+                                                                                  .method = std::string(method.name)}));
+    vulkan::Culler own = take(engine_culler(method.name));
+    const Masks masks = cull_and_walk(culler, frame);
+    EXPECT_EQ(masks, cull_and_walk(own, frame));
+    if (!method.approximate) expect_no_miss(frame, masks);
+  }
 }
 
 }  // namespace

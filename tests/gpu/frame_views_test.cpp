@@ -1,5 +1,5 @@
 // Several views in one frame, as two eyes, faces of a cube or players have them: what a look-up says of each is what a
-// plan for one view says of it, light by light, in GLSL and in HLSL, for every look-up; and a Culler tells of all.
+// plan for one view says of it, light by light, in GLSL and in HLSL, for every look-up.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -8,12 +8,13 @@
 
 #include "gpu/engine_frame.h"
 #include "gpu/lookup_cases.h"
+#include "gpu/made_up_frame.h"
+#include "gpu/test_scenes.h"
 #include "render/pass_uses.h"
 
 namespace lamp::app {
 namespace {
 
-constexpr double NEAR_M = 0.1;
 constexpr std::uint32_t WORDS = 11;  // of a pixel, in walks.comp
 constexpr glm::uvec2 LARGEST(85, 53);
 
@@ -24,24 +25,6 @@ struct Eye {
 /// Of different sizes, canted; the last looks back.
 constexpr Eye EYES[] = {{{85, 40}, 0.2}, {LARGEST, -0.2}, {{17, 53}, 3.0}};
 constexpr std::uint32_t VIEWS = std::size(EYES);
-
-View view_of(const Eye& eye) {
-  const double aspect = static_cast<double>(eye.size.x) / eye.size.y;
-  const glm::dmat4 projection = perspective(symmetric_window(1.0, aspect), NEAR_M, INFINITE_FAR);
-  return View::create(eye.size.x, eye.size.y, projection, glm::rotate(glm::dmat4(1.0), eye.turned, {0.0, 1.0, 0.0}))
-      .value();
-}
-
-/// Blocks of surfaces 4 m to 7 m ahead, with some sky; others for each view.
-GpuImage surfaces(glm::uvec2 size, std::uint32_t view) {
-  std::vector<float> depth;
-  for (std::uint32_t y = 0; y < size.y; ++y)
-    for (std::uint32_t x = 0; x < size.x; ++x) {
-      const std::uint32_t block = x / 5 * 31 + y / 3 * 17 + view * 7;
-      depth.push_back(block % 11 == 0 ? 0.0F : static_cast<float>(NEAR_M / (4.0 + (block % 23) / 8.0)));
-    }
-  return depth_image(size.x, size.y, depth);
-}
 
 /// All around.
 std::vector<shared::Light> lights_around() {
@@ -69,8 +52,8 @@ class FrameViews : public GpuTest, public ::testing::WithParamInterface<LookUpCa
     lights_ = host_buffer_of("lights", lights);
     spheres_ = host_buffer_of("spheres", bounding_spheres(lights));
     for (std::uint32_t i = 0; i < VIEWS; ++i) {
-      records_.push_back(view_of(EYES[i]).frame(LOOKUP_LIGHTS, LOOKUP_LIGHTS));
-      images_.push_back(surfaces(EYES[i].size, i));
+      records_.push_back(made_up_view(EYES[i].size, EYES[i].turned).frame(LOOKUP_LIGHTS, LOOKUP_LIGHTS));
+      images_.push_back(depth_image(EYES[i].size.x, EYES[i].size.y, made_up_depths(EYES[i].size, 7 * i)));
       depths_.push_back(images_.back().sampled());
     }
   }

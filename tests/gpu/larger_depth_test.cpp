@@ -3,10 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
-#include <random>
-
-#include "gpu/gpu_test.h"
+#include "gpu/made_up_frame.h"
 #include "gpu/over_depth.h"
 
 namespace lamp::app {
@@ -15,19 +12,6 @@ namespace {
 using Passes = vulkan::PlanRunner::Passes;
 
 constexpr std::uint32_t LIGHTS = 100;
-constexpr double NEAR_M = 0.1;
-
-View view_of_size(glm::uvec2 size) {
-  const glm::dmat4 projection =
-      perspective(symmetric_window(1.0, static_cast<double>(size.x) / size.y), NEAR_M, INFINITE_FAR);
-  return View::create(size.x, size.y, projection, glm::dmat4(1.0)).value();
-}
-
-/// Blocks of surfaces 4 m to 7 m ahead, with some sky.
-float surface_depth(glm::uvec2 pixel) {
-  const std::uint32_t block = pixel.x / 5 * 31 + pixel.y / 3 * 17;
-  return block % 11 == 0 ? 0.0F : static_cast<float>(NEAR_M / (4.0 + (block % 23) / 8.0));
-}
 
 /// Nearer, farther, and within what the picture holds.
 float junk_depth(glm::uvec2 pixel) {
@@ -39,25 +23,8 @@ GpuImage image_around(glm::uvec2 picture, glm::uvec2 image) {
   std::vector<float> depth(std::size_t{image.x} * image.y);
   for (std::uint32_t y = 0; y < image.y; ++y)
     for (std::uint32_t x = 0; x < image.x; ++x)
-      depth[std::size_t{y} * image.x + x] = x < picture.x && y < picture.y ? surface_depth({x, y}) : junk_depth({x, y});
+      depth[std::size_t{y} * image.x + x] = x < picture.x && y < picture.y ? made_up_depth({x, y}) : junk_depth({x, y});
   return depth_image(image.x, image.y, depth);
-}
-
-/// Small, in front of the surfaces, among them and behind them.
-std::vector<shared::Light> scattered_lights(const View& view) {
-  std::mt19937 random(1);
-  const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
-  std::vector<Light> lights(LIGHTS);
-  for (Light& light : lights) {
-    const glm::dvec2 pixel(unit() * view.width(), unit() * view.height());
-    light.position = glm::vec3(view.view_position(pixel, 0.5 + 12.0 * unit()));
-    light.range = static_cast<float>(0.2 + unit());
-    if (unit() < 0.7) continue;
-    light.type = LightType::spot;
-    light.direction = {unit() - 0.5, unit() - 0.5, -unit()};
-    light.outer_angle = static_cast<float>(0.1 + unit());
-  }
-  return pack(lights);
 }
 
 struct LargerCase {
@@ -106,8 +73,8 @@ class LargerDepth : public GpuTest {
  protected:
   static void expect_ignored(glm::uvec2 picture, glm::uvec2 image, const std::vector<LargerCase>& tested) {
     SCOPED_TRACE(fmt::format("{}x{} in {}x{}", picture.x, picture.y, image.x, image.y));
-    const View view = view_of_size(picture);
-    const std::vector<shared::Light> lights = scattered_lights(view);
+    const View view = made_up_view(picture);
+    const std::vector<shared::Light> lights = scattered_lights(view, LIGHTS);
     OverDepth exact(view, image_around(picture, picture), lights);
     OverDepth larger(view, image_around(picture, image), lights);
     for (const auto& [method, settings] : tested) {
