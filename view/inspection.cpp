@@ -11,6 +11,7 @@
 #include <set>
 
 #include "gpu/check.h"
+#include "image/image.h"
 #include "render/pixel_lights.h"
 #include "render/verification.h"
 
@@ -137,12 +138,11 @@ void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth
 }
 
 std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
-  constexpr glm::vec3 LUMINANCE{0.2126F, 0.7152F, 0.0722F};
   const glm::dvec3 position = position_of(of, pixel);
   const std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
   const PixelTerms terms = terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, ids);
-  double sum = glm::dot(terms.surroundings, LUMINANCE);
-  for (const glm::vec3& term : terms.lights) sum += glm::dot(term, LUMINANCE);
+  double sum = luminance(terms.surroundings);
+  for (const glm::vec3& term : terms.lights) sum += luminance(term);
   std::vector<ListedLight> lights;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const shared::Light& light = of.lights[ids[i]];
@@ -151,7 +151,7 @@ std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
                       .distance_m = static_cast<float>(glm::length(glm::dvec3(light.position) - position)),
                       .range_m = light.range,
                       .reach = reach(light, position),
-                      .share = sum > 0.0 ? glm::dot(terms.lights[i], LUMINANCE) / sum : 0.0});
+                      .share = sum > 0.0 ? luminance(terms.lights[i]) / sum : 0.0});
   }
   return lights;
 }

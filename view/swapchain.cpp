@@ -19,8 +19,9 @@ VkSemaphore make_semaphore(VkDevice device) {
   return semaphore;
 }
 
-/// The surface is another than it was, or goes well enough for now.
+/// The surface is another than it was: the images must be made anew.
 bool is_outdated(VkResult result) { return result == VK_ERROR_OUT_OF_DATE_KHR; }
+/// There is an image to draw into, even if the surface would take another kind faster.
 bool is_drawable(VkResult result) { return result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR; }
 
 }  // namespace

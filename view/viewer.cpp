@@ -218,33 +218,34 @@ void Viewer::save_picture(const std::string& file) {
   idle_ = false;
 }
 
-void Viewer::save_state(const std::string& file) {
+void Viewer::save_json(const char* what, const std::string& file,
+                       const std::function<void(const std::filesystem::path&)>& write) {
   try {
     constexpr std::string_view KINDS[] = {".json"};
-    check_output("save state", file, KINDS);
-    ViewState saved = state_;
-    if (shown_.number != 0 && !shown_.captured) {
-      saved.request.size = shown_.state.request.size;
-      saved.request.size_given = true;
-    }
-    write_output(file, [&](const std::filesystem::path& path) { app::save_state(path, saved); });
+    check_output(what, file, KINDS);
+    write_output(file, write);
     said_ = "saved " + file;
   } catch (const Error& error) {
     complain(error.what());
   }
 }
 
+void Viewer::save_state(const std::string& file) {
+  save_json("save state", file, [&](const std::filesystem::path& path) {
+    ViewState saved = state_;
+    if (shown_.number != 0 && !shown_.captured) {
+      saved.request.size = shown_.state.request.size;
+      saved.request.size_given = true;
+    }
+    app::save_state(path, saved);
+  });
+}
+
 void Viewer::save_numbers(const std::string& file) {
-  try {
-    constexpr std::string_view KINDS[] = {".json"};
-    check_output("save numbers", file, KINDS);
+  save_json("save numbers", file, [&](const std::filesystem::path& path) {
     if (shown_.number == 0) throw Error("save numbers: nothing is shown yet, expected a picture");
-    const std::string text = json_text(app::to_json(shown_.first.stats), 2) + "\n";
-    write_output(file, [&](const std::filesystem::path& path) { write_text(path, text); });
-    said_ = "saved " + file;
-  } catch (const Error& error) {
-    complain(error.what());
-  }
+    write_text(path, json_text(app::to_json(shown_.first.stats), 2) + "\n");
+  });
 }
 
 void Viewer::open(const std::string& file) {

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +77,8 @@ class Viewer {
   void undo(std::vector<ViewState>& from, std::vector<ViewState>& to);
   void try_state(const ViewState& before);
   /// Shows an error until something is changed.
+  void save_json(const char* what, const std::string& file,
+                 const std::function<void(const std::filesystem::path&)>& write);
   void complain(const std::string& error);
   /// After a scene could not be opened: the one that is shown stays.
   void keep_scene(const ViewState& failed);

@@ -27,6 +27,9 @@ struct LdrImage {
   std::vector<glm::u8vec4> pixels;
 };
 
+/// Of linear Rec. 709 radiance or reflectance.
+[[nodiscard]] double luminance(const glm::vec3& linear);
+
 /// Exposure that puts the log-average luminance at middle grey (Reinhard et al. 2002), from surfaces alone, as far as
 /// they are not black: a dark sky would else overexpose what stands before it. 1 where no lit surface is seen.
 [[nodiscard]] float automatic_exposure(const HdrImage& image);

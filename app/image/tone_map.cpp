@@ -17,8 +17,6 @@ constexpr float BRIGHTEST = 1.0e4F;
 /// A pixel that is not a number is an error of the renderer and must be seen.
 constexpr glm::u8vec4 NOT_A_NUMBER{255, 0, 255, 255};
 
-double luminance(const glm::vec4& pixel) { return 0.2126 * pixel.r + 0.7152 * pixel.g + 0.0722 * pixel.b; }
-
 /// Narkowicz's fit of the ACES curve. Its input is scaled so that the fit maps middle grey to middle grey:
 /// 0.13017 is the positive x that the fit maps to 0.18.
 float filmic(float radiance) {
@@ -41,11 +39,13 @@ glm::u8vec4 tone_map(const glm::vec4& pixel, float exposure) {
 
 }  // namespace
 
+double luminance(const glm::vec3& linear) { return 0.2126 * linear.r + 0.7152 * linear.g + 0.0722 * linear.b; }
+
 float automatic_exposure(const HdrImage& image) {
   double sum_of_logs = 0.0;
   double lit = 0.0;  // pixels, those that surfaces cover in part as such a part
   for (const glm::vec4& pixel : image.pixels) {
-    const double y = luminance(pixel);
+    const double y = luminance(glm::vec3(pixel));
     if (pixel.a > 0.0F && y > 0.0 && std::isfinite(y)) {
       sum_of_logs += pixel.a * std::log(y);
       lit += pixel.a;
