@@ -30,24 +30,44 @@ std::string shadow_words(const ShadowStats& shadows) {
          fmt::format("; {} texels of {} x {}", c.used_texels, shadows.settings.atlas_size, shadows.settings.atlas_size);
 }
 
+std::string truth_words(const ShadowFindings& truth) {
+  const auto percent = [](const ShadowLight& light) {
+    return fmt::format("leaks {:.2f} % of the light that rays stop, false shadows take {:.2f} % of what arrives",
+                       100.0 * light.leaks(), 100.0 * light.false_shadows());
+  };
+  return fmt::format("{}; {} px from edges and more: {} ({} pairs{}, {} unclear)", percent(truth.all), EDGE_PX,
+                     percent(truth.away), truth.pairs,
+                     truth.thinned > 1 ? fmt::format(", one of {}", truth.thinned) : "", truth.unclear);
+}
+
 nlohmann::json to_json(const ShadowStats& shadows) {
   const ShadowCounts& c = shadows.counts;
-  return {{"filter", shadow_filter_name(shadows.settings.filter)},
-          {"points", shadows.settings.points == PointShadows::faces ? "faces" : "octahedron"},
-          {"atlas", shadows.settings.atlas_size},
-          {"seen", c.seen},
-          {"shadowed", c.shadowed},
-          {"without", c.without},
-          {"without_lights", shadows.without},
-          {"no_room", c.no_room},
-          {"waiting", c.waiting},
-          {"waiting_lights", shadows.waiting},
-          {"smaller", c.smaller},
-          {"redrawn", c.redrawn},
-          {"redrawn_texels", c.redrawn_texels},
-          {"moved", c.moved},
-          {"evicted", c.evicted},
-          {"used_texels", c.used_texels}};
+  nlohmann::json json{{"filter", shadow_filter_name(shadows.settings.filter)},
+                      {"points", shadows.settings.points == PointShadows::faces ? "faces" : "octahedron"},
+                      {"atlas", shadows.settings.atlas_size},
+                      {"seen", c.seen},
+                      {"shadowed", c.shadowed},
+                      {"without", c.without},
+                      {"without_lights", shadows.without},
+                      {"no_room", c.no_room},
+                      {"waiting", c.waiting},
+                      {"waiting_lights", shadows.waiting},
+                      {"smaller", c.smaller},
+                      {"redrawn", c.redrawn},
+                      {"redrawn_texels", c.redrawn_texels},
+                      {"moved", c.moved},
+                      {"evicted", c.evicted},
+                      {"used_texels", c.used_texels}};
+  if (const auto& truth = shadows.truth)
+    json["truth"] = {{"pairs", truth->pairs},
+                     {"thinned", truth->thinned},
+                     {"unclear", truth->unclear},
+                     {"in_shadow", truth->in_shadow},
+                     {"leaks", truth->all.leaks()},
+                     {"false_shadows", truth->all.false_shadows()},
+                     {"leaks_away", truth->away.leaks()},
+                     {"false_shadows_away", truth->away.false_shadows()}};
+  return json;
 }
 
 }  // namespace lamp::app

@@ -9,6 +9,7 @@
 
 #include "commands/request.h"
 #include "render/judgement.h"
+#include "render/shadow_truth.h"
 
 namespace lamp::app {
 
@@ -18,6 +19,7 @@ struct ShadowStats {
   ShadowCounts counts;
   std::vector<std::uint32_t> waiting;  ///< lights
   std::vector<std::uint32_t> without;
+  std::optional<ShadowFindings> truth;  ///< where they were held against rays
 };
 
 struct Stats {
@@ -71,6 +73,8 @@ void set_walked(Stats& stats, std::span<const Visit> visits);
 
 /// "pcf: 60 of 64 lights in view have one, 4 wait; 1.2 million texels of 4096 x 4096"
 [[nodiscard]] std::string shadow_words(const ShadowStats& shadows);
+/// "leaks 1.2 % of the light that rays stop, ..."
+[[nodiscard]] std::string truth_words(const ShadowFindings& truth);
 [[nodiscard]] std::optional<ShadowStats> shadow_stats(const Shadows* shadows);
 [[nodiscard]] nlohmann::json to_json(const ShadowStats& shadows);
 

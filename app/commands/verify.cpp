@@ -232,6 +232,9 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
         "{} pairs of pixel and light lie on a boundary (within 1e-5 of it): not checked, either answer is right\n",
         pairs);
   print_table(rows);
+  if (const auto& shadows = rows.front().shadows) print_out("shadows: {}\n", shadow_words(*shadows));
+  if (const auto& shadows = rows.front().shadows; shadows && shadows->truth)
+    print_out("shadows: {}\n", truth_words(*shadows->truth));
 }
 
 std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
@@ -247,6 +250,14 @@ Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& 
     throw Error(fmt::format("--verifier gpu: {} are checked by the oracle alone; use --verifier oracle",
                             several ? "several samples a pixel" : "decals"));
   return Verifier::oracle;
+}
+
+/// Held against rays, which need triangles, where depth has one sample a pixel.
+std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
+  const Renderer& renderer = session.renderer();
+  if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().samples > 1) return std::nullopt;
+  progress("verify shadows: rays");
+  return check_shadows(session.renderer(), session.shaders(), setup.scene, setup.lights);
 }
 
 Exit verify(const VerifyOptions& o) {
@@ -273,11 +284,13 @@ Exit verify(const VerifyOptions& o) {
   else
     find_by_oracle(session, setup, candidates);
   find_decals(session, setup, candidates);
+  const std::optional<ShadowFindings> shadows = shadow_findings(session, setup);
 
   std::vector<Stats> rows;
   for (Candidate& candidate : candidates) {
     rows.push_back(make_row(o, session, setup, candidate, reference));
     rows.back().verifier = verifier;
+    if (rows.back().shadows) rows.back().shadows->truth = shadows;
   }
   rows.insert(rows.end(), refused.begin(), refused.end());
   progress("");

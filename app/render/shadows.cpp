@@ -29,7 +29,8 @@ ShadowAtlas make_atlas(const vulkan::Device& device, const ShadowSettings& setti
                                    .max_image_size = device.traits.max_image_size,
                                    .light_capacity = std::max(1U, lights),
                                    .points = settings.points,
-                                   .filter = settings.filter}));
+                                   .filter = settings.filter,
+                                   .texels_per_pixel = settings.texels_per_pixel}));
 }
 
 void check_features(const Context& context) {

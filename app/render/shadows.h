@@ -23,6 +23,7 @@ struct ShadowSettings {
   std::uint32_t atlas_size = 4096;           ///< texels
   std::uint32_t lights = ~0U;                ///< so many of the first have shadows, at most
   std::uint64_t budget_texels = ALL_TEXELS;  ///< drawn in a frame
+  float texels_per_pixel = 1.0F;             ///< of maps over those of the picture (ShadowAtlasInfo)
 };
 
 /// What shading binds for its look-up (lib/shaders/shadow), and the constant that says which filter.

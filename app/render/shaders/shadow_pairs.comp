@@ -1,0 +1,30 @@
+// Of pairs of pixel and light: the light that would arrive without shadows, and what the look-up leaves of it.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lamplight/shared/frame.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
+layout(set = 0, binding = 2, std430) readonly buffer PairBuffer { uvec2 pairs[]; };  // pixel, row by row; light
+layout(set = 0, binding = 8, std430) writeonly buffer AnswerBuffer { vec2 answers[]; };
+layout(push_constant) uniform Push { uint count; };
+#include "common/deferred_surface.glsl"
+#include "common/lights.glsl"
+
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+void main() {
+  const uint i = gl_GlobalInvocationID.x;
+  if (i >= count) return;
+  const uvec2 pixel = uvec2(pairs[i].x % frame.size_px.x, pairs[i].x / frame.size_px.x);
+  const uint light = pairs[i].y;
+  shadow_seed = seed_of_pixel(pixel);
+  const Surface s = read_surface(ivec2(pixel), z_view_of(frame, texelFetch(depth_image, ivec2(pixel), 0).x));
+  const Emitter e = emitter_at(light);
+  vec3 sum = vec3(0.0);
+  Way way;
+  if (way_to(reflector(s), e.position, e.inverse_range2, way)) add_light_along(sum, reflector(s), way, e, is_spot(e));
+  answers[i] = vec2(dot(sum, LUMINANCE), shadow_of(light, s.position, s.normal, shadow_seed));
+}

@@ -1,0 +1,44 @@
+// Shadows against rays: how much light a filter lets through that something stops, and how much it stops that arrives.
+// Promise: rays are in double precision against the scene's triangles; what hangs on where they end is counted apart.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "oracle/occluders.h"
+#include "render/renderer.h"
+
+namespace lamp::app {
+
+/// Rays end so far before the surface and the light, and pairs whose answer is another with the second are left out.
+inline constexpr double RAY_END_M = 0.002;
+inline constexpr double RAY_SECOND_END_M = 0.008;
+
+/// A pair lies away from the edge of a shadow if rays from four pixels so far away, right, left, above and below, have
+/// the same answer, those of sky aside.
+inline constexpr int EDGE_PX = 8;
+
+/// Light is luminance towards the eye.
+struct ShadowLight {
+  double arriving = 0.0;  ///< that no ray stops
+  double stopped = 0.0;   ///< that rays stop
+  double leaked = 0.0;    ///< of the stopped, what the filter lets through
+  double lost = 0.0;      ///< of the arriving, what the filter stops: false shadows
+
+  [[nodiscard]] double leaks() const { return stopped > 0.0 ? leaked / stopped : 0.0; }
+  [[nodiscard]] double false_shadows() const { return arriving > 0.0 ? lost / arriving : 0.0; }
+};
+
+/// Of pairs of pixel and light whose light reaches the pixel and faces it.
+struct ShadowFindings {
+  std::uint64_t pairs = 0;
+  std::uint64_t unclear = 0;    ///< of them, left out: other ends of the ray give another answer
+  std::uint64_t thinned = 1;    ///< one pair of so many was looked at
+  std::uint64_t in_shadow = 0;  ///< by rays
+  ShadowLight all;
+  ShadowLight away;  ///< of the pairs away from edges
+};
+
+/// Of the renderer's frame, which casts shadows and whose surfaces are drawn anew.
+[[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
+                                           std::span<const shared::Light> lights);
+
+}  // namespace lamp::app
