@@ -30,22 +30,36 @@ struct CompareOptions {
 
 /// One of the two.
 struct Side {
+  std::string label;  ///< the method, and options that were named
   Stats stats;
   HdrImage image;
   std::vector<std::uint32_t> counts;
 };
 
-Side measure(const CompareOptions& o, Session& session, const Setup& setup, const MethodChoice& chosen) {
+Side measure(const CompareOptions& o, Session& session, const Setup& setup, const MethodChoice& chosen,
+             const std::string& word) {
   Lighting lighting = session.lighting(*chosen.method, chosen.options, parse_path(o.request.path));
   session.renderer().wake(lighting);
   Rendered rendered = session.renderer().render(lighting);
   const std::vector<Visit> visits = visit_all(session, lighting);
   HdrImage image = rendered.image;
-  Side side{.stats = make_stats(o.request, session, lighting, setup, std::move(rendered), 1),
+  Side side{.label = chosen.by_auto ? std::string(chosen.method->name) : word,
+            .stats = make_stats(o.request, session, lighting, setup, std::move(rendered), 1),
             .image = std::move(image),
             .counts = walked_lights(visits)};
   set_walked(side.stats, visits);
   return side;
+}
+
+/// The two methods, as options ask for them.
+std::vector<MethodChoice> chosen_sides(const CompareOptions& o, Session& session, const Setup& setup,
+                                       std::span<const MethodWord> words) {
+  std::vector<std::string> names;
+  for (const MethodWord& word : words) names.push_back(word.method);
+  std::vector<MethodChoice> chosen = chosen_methods(session, setup, o.request, names, o.json);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    if (!chosen[i].by_auto) chosen[i].options = words[i].options;
+  return chosen;
 }
 
 /// Lights that one walks and the other does not, pixel by pixel.
@@ -59,8 +73,8 @@ std::vector<std::uint32_t> differences(const Side& a, const Side& b) {
 
 void print_side(const Side& side) {
   const Findings& f = *side.stats.findings;
-  print_out("{:<24} {:>14} {:>9.1f} {:>9} {:>10} {:>10.3f} {:>10.3f}\n", side.stats.method, f.evaluations,
-            f.list_mean(), f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
+  print_out("{:<24} {:>14} {:>9.1f} {:>9} {:>10} {:>10.3f} {:>10.3f}\n", side.label, f.evaluations, f.list_mean(),
+            f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
             side.stats.rendered.shade_ms);
   for (const std::string& note : side.stats.notes) print_out("  note: {}\n", note);
 }
@@ -77,13 +91,17 @@ Exit compare(const CompareOptions& o) {
   check_output("--out", o.out, PICTURES);
   if (o.panels) return compare_panels(o);
   if (o.a.empty() || o.b.empty()) throw Error("compare: expected the names of two methods, or --panels and a scene");
-  for (const std::string& name : {o.a, o.b}) check_request(o.request, name);
+  const MethodWord words[] = {parse_method_word(o.a), parse_method_word(o.b)};
+  for (const MethodWord& word : words) {
+    Request request = o.request;
+    request.options = word.options;
+    check_request(request, word.method);
+  }
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
-  const std::string names[] = {o.a, o.b};
-  const std::vector<MethodChoice> chosen = chosen_methods(session, setup, o.request, names, o.json);
-  const Side a = measure(o, session, setup, chosen[0]);
-  const Side b = measure(o, session, setup, chosen[1]);
+  const std::vector<MethodChoice> chosen = chosen_sides(o, session, setup, words);
+  const Side a = measure(o, session, setup, chosen[0], o.a);
+  const Side b = measure(o, session, setup, chosen[1], o.b);
 
   const std::uint32_t scale = std::bit_ceil(std::max({1U, a.stats.findings->list_max, b.stats.findings->list_max}));
   const auto map = [&](std::span<const std::uint32_t> counts, const std::string& title) {
@@ -113,9 +131,12 @@ Run add_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Compare two methods: their heat maps side by side, their numbers");
   auto o = std::make_shared<CompareOptions>();
   o->request.size = "640x360";
-  command->add_option("a", o->a, "a method (lamp list methods), or auto; with --panels, the scene")
+  command
+      ->add_option("a", o->a,
+                   "a method (lamp list methods) and options of it, such as tiled:tile=8,test=exact; or auto; with "
+                   "--panels, the scene")
       ->type_name("METHOD");
-  command->add_option("b", o->b, "the other method")->type_name("METHOD");
+  command->add_option("b", o->b, "the other method, likewise")->type_name("METHOD");
   add_common_options(*command, o->request);
   add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
@@ -131,7 +152,7 @@ Run add_compare(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  lamp compare tiled clustered posts --lights 16384 --out posts.png\n"
-      "  lamp compare tiled tiled-bits --json\n"
+      "  lamp compare tiled:tile=8 lamplight:tile=16 --json\n"
       "  lamp compare --panels blocks --lights 16384 --out panels.png");
   return [o] { return compare(*o); };
 }

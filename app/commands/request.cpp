@@ -183,6 +183,20 @@ std::uint64_t brute_force_lights(const Context& context) {
 
 const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
 
+MethodWord parse_method_word(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  MethodWord word{.method = text.substr(0, colon), .options = {}};
+  if (colon == std::string::npos) return word;
+  if (is_auto(word.method))
+    throw Error(fmt::format("method '{}': auto chooses its own options, expected auto alone", text));
+  for (std::size_t begin = colon + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    word.options.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return word;
+}
+
 bool is_auto(std::string_view method) { return method == "auto"; }
 
 void check_once(std::string_view option, std::vector<std::string> values) {

@@ -142,6 +142,13 @@ void add_verifier_option(CLI::App& command, std::string& verifier);
 [[nodiscard]] std::uint64_t brute_force_lights(const Context& context);
 /// A method of the table, by its name.
 [[nodiscard]] const Method& parse_method(const std::string& text);
+/// A method with options of its own, in one word: "tiled:tile=8,bounds=mask".
+struct MethodWord {
+  std::string method;  ///< or auto
+  std::vector<std::string> options;
+};
+/// Throws Error for options of auto, which chooses its own; names and values are not checked.
+[[nodiscard]] MethodWord parse_method_word(const std::string& text);
 /// Whether a method's name asks for whatever suits best.
 [[nodiscard]] bool is_auto(std::string_view method);
 

@@ -250,6 +250,16 @@ TEST_F(Outputs, CompareShowsTwoMethodsSideBySide) {
   EXPECT_NE(table.find("largest difference of the pictures: 0\n"), std::string::npos) << table;
 }
 
+TEST_F(Outputs, CompareTakesOptionsOfEachMethod) {
+  const nlohmann::json json = json_of(small({"compare", "tiled:tile=8", "tiled:tile=32,bounds=mask", "--json"}));
+  EXPECT_EQ(json.at("a").at("options").at("tile"), "8");
+  EXPECT_EQ(json.at("b").at("options").at("tile"), "32");
+  EXPECT_EQ(json.at("b").at("options").at("bounds"), "mask");
+  EXPECT_EQ(json.at("image_max_abs_diff"), 0.0);
+  const std::string table = output_of(small({"compare", "tiled:tile=8", "all"}));
+  EXPECT_NE(table.find("\ntiled:tile=8 "), std::string::npos) << table;
+}
+
 TEST_F(Outputs, SameSeedSamePicture) {
   for (const char* file : {"a.png", "b.png"}) (void)output_of(small({"render", "--seed", "7", "--out", file}));
   (void)output_of(small({"render", "--seed", "8", "--out", "c.png"}));
