@@ -120,12 +120,6 @@ void print_rows(std::span<const Row> rows, bool json) {
   if (json) write_out(json_text(array, 2) + "\n");
 }
 
-LdrImage stacked(const LdrImage& above, const LdrImage& below) {
-  LdrImage image{above.width, above.height + below.height, above.pixels};
-  image.pixels.insert(image.pixels.end(), below.pixels.begin(), below.pixels.end());
-  return image;
-}
-
 /// Picture, legend and heat maps on one scale, six panels.
 LdrImage panels_of(Session& session) {
   std::vector<std::vector<std::uint32_t>> counts;
@@ -146,7 +140,8 @@ LdrImage panels_of(Session& session) {
   picture.pixels.resize(std::size_t{picture.width} * picture.height, glm::u8vec4(16, 16, 20, 255));
   const LdrImage top[] = {picture, legend(picture.width, picture.height, scale), maps[0]};
   const LdrImage bottom[] = {maps[1], maps[2], maps[3]};
-  return stacked(side_by_side(top), side_by_side(bottom));
+  const LdrImage rows[] = {side_by_side(top), side_by_side(bottom)};
+  return stacked(rows);
 }
 
 }  // namespace

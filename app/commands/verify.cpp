@@ -10,6 +10,8 @@
 #include "commands/auto_method.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/miss_map.h"
+#include "commands/pictures.h"
 #include "commands/verify_rows.h"
 #include "render/antialias.h"
 #include "render/gpu_verifier.h"
@@ -21,6 +23,7 @@ namespace {
 struct VerifyOptions {
   Request request;
   std::vector<std::string> methods;
+  std::string out;  ///< picture of where lights are missed, or empty
   std::string verifier = "auto";
   std::uint32_t runs = 1;
   bool json = false;
@@ -42,7 +45,14 @@ struct Candidate {
   Verification decals;
   Verification fused_decals;
   Findings findings;
+  std::vector<PixelMisses> misses;
 };
+
+/// What its look-ups missed, of lights and of decals.
+void collect_misses(Candidate& candidate) {
+  for (const Verification* found : {&candidate.separate, &candidate.fused, &candidate.decals, &candidate.fused_decals})
+    candidate.misses.insert(candidate.misses.end(), found->misses().begin(), found->misses().end());
+}
 
 void progress(std::string_view text) {
   if (shows_progress()) print_error("\r\033[K{}", text);
@@ -98,9 +108,10 @@ void find_by_gpu(Session& session, const Setup& setup, std::vector<Candidate>& c
   GpuVerifier verifier(session.renderer(), setup.lights);
   for (Candidate& candidate : candidates) {
     progress(fmt::format("verify: {}", candidate.lighting.info().method->name));
-    candidate.findings = verifier.check(candidate.lighting);
+    std::vector<PixelMisses>& misses = candidate.misses;
+    candidate.findings = verifier.check(candidate.lighting, Passes::separate, &misses);
     if (candidate.lighting.runner().plan().fused)
-      candidate.findings = of_both(candidate.findings, verifier.check(candidate.lighting, Passes::fused));
+      candidate.findings = of_both(candidate.findings, verifier.check(candidate.lighting, Passes::fused, &misses));
   }
 }
 
@@ -220,6 +231,20 @@ std::vector<Candidate> make_candidates(const VerifyOptions& o, Session& session,
   return candidates;
 }
 
+/// Over `image`, if the options ask for it.
+void write_misses(const VerifyOptions& o, std::span<Candidate> candidates, const HdrImage& image) {
+  if (o.out.empty()) return;
+  std::vector<MethodMisses> methods;
+  for (Candidate& candidate : candidates) {
+    collect_misses(candidate);
+    methods.push_back({.method = std::string(candidate.lighting.info().method->name),
+                       .missed = candidate.findings.missed + decal_findings_of(candidate).missed,
+                       .pixels = std::move(candidate.misses)});
+  }
+  const LdrImage map = draw_misses(methods, tone_map(image, automatic_exposure(image)));
+  write_output(o.out, [&](const auto& file) { write_png(file, map); });
+}
+
 void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, std::span<const Stats> rows) {
   if (o.json) return print_json(rows);
   const DeviceRow& device = session.context().row();
@@ -263,6 +288,8 @@ std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& set
 Exit verify(const VerifyOptions& o) {
   const ShadingPath path = parse_path(o.request.path);
   const std::vector<std::string> wanted = wanted_methods(o);
+  constexpr std::string_view PICTURES[] = {".png"};
+  if (!o.out.empty()) check_output("--out", o.out, PICTURES);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
   const std::uint64_t pairs = pairs_of(setup, o.request.depth_samples);
@@ -272,12 +299,13 @@ Exit verify(const VerifyOptions& o) {
   std::vector<Candidate> candidates = make_candidates(o, session, setup, wanted, refused);
   progress("verify picture: brute force");
   std::optional<HdrImage> reference;
+  HdrImage first;  // where there is no reference
   const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
   if (possible && (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context()))) {
     Lighting brute = session.lighting(parse_method("all"), {}, path);
     reference = render_samples(session.renderer(), brute, setup.lights, setup.decals, {}).image;
   } else {
-    static_cast<void>(session.renderer().render(candidates.front().lighting));  // for its depth
+    first = session.renderer().render(candidates.front().lighting).image;  // and its depth
   }
   if (verifier == Verifier::gpu)
     find_by_gpu(session, setup, candidates);
@@ -294,7 +322,9 @@ Exit verify(const VerifyOptions& o) {
   }
   rows.insert(rows.end(), refused.begin(), refused.end());
   progress("");
+  write_misses(o, candidates, reference ? *reference : first);
   print_rows(o, session, setup, rows);
+  if (!o.out.empty() && !o.json) print_out("picture: {}\n", o.out);
   Verdict worst = Verdict::ok;
   for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
   return exit_of(worst);
@@ -324,11 +354,18 @@ Run add_verify(CLI::App& app) {
       ->type_name("N")
       ->group("Method")
       ->capture_default_str();
+  command
+      ->add_option("-o,--out", o->out,
+                   "write a picture of where lights are missed to this file, .png: a map for each method that misses "
+                   "one")
+      ->type_name("FILE")
+      ->group("Output");
   add_json_flag(*command, o->json, "print the numbers as JSON, an array with one object for each method");
   command->footer(
       "Examples:\n"
       "  lamp verify atrium --lights 8192\n"
       "  lamp verify atrium --decals 64\n"
+      "  lamp verify posts --out misses.png\n"
       "  lamp verify one-tile --lights 65536 --method lamplight --runs 100\n"
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic\n"
       "waste: lights walked for each that reaches its pixel. excess: list length over the lights that reach the cell.\n"

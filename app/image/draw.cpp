@@ -48,4 +48,17 @@ LdrImage side_by_side(std::span<const LdrImage> images) {
   return all;
 }
 
+LdrImage stacked(std::span<const LdrImage> images) {
+  LdrImage all;
+  for (const LdrImage& image : images) all.width = std::max(all.width, image.width);
+  for (const LdrImage& image : images) {
+    for (std::size_t y = 0; y < image.height; ++y) {
+      const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(y * image.width);
+      all.pixels.insert(all.pixels.end(), row, row + image.width);
+      all.pixels.resize(std::size_t{all.width} * ++all.height, GAP_COLOR);
+    }
+  }
+  return all;
+}
+
 }  // namespace lamp::app

@@ -52,6 +52,9 @@ void write_text(const std::filesystem::path& file, std::string_view text);
 /// Pictures side by side, tops aligned, with a few pixels between; what a lower one leaves free is dark.
 [[nodiscard]] LdrImage side_by_side(std::span<const LdrImage> images);
 
+/// Pictures below each other, left edges aligned; what a narrower one leaves free is dark.
+[[nodiscard]] LdrImage stacked(std::span<const LdrImage> images);
+
 /// Draws `text` (ASCII, one line or more; other letters show as '?') with its top left at (x, y); `scale` 1 is about 7
 /// pixels high.
 void draw_text(LdrImage& image, std::int32_t x, std::int32_t y, std::string_view text, glm::u8vec3 color,

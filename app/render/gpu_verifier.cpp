@@ -94,6 +94,13 @@ Firsts add_up(std::span<const gpu::Survey> surveys, Findings& sums) {
   return firsts;
 }
 
+/// Adds a band's pixels that miss lights; `first` is the band's first pixel.
+void add_misses(std::span<const gpu::Survey> surveys, std::size_t first, std::vector<PixelMisses>& misses) {
+  for (std::size_t i = 0; i < surveys.size(); ++i)
+    if (surveys[i].cell != gpu::SKY_CELL && surveys[i].ended == 0 && surveys[i].missed != 0)
+      misses.push_back({static_cast<std::uint32_t>(first + i), surveys[i].missed});
+}
+
 /// From `pixel` on, the first whose misses nobody has counted.
 std::size_t next_uncounted(std::span<const gpu::Survey> surveys, std::size_t pixel) {
   while (pixel < surveys.size() && (surveys[pixel].missed != gpu::NOT_COUNTED || surveys[pixel].ended != 0)) ++pixel;
@@ -298,7 +305,7 @@ std::string GpuVerifier::name_miss(Lighting& lighting, Passes which, std::uint32
   return fmt::format("pixel ({}, {}): light {}", x, y, visit.first_missed);
 }
 
-Findings GpuVerifier::check(Lighting& lighting, Passes which) {
+Findings GpuVerifier::check(Lighting& lighting, Passes which, std::vector<PixelMisses>* misses) {
   Findings findings;
   Cells cells;
   std::optional<glm::uvec2> miss;
@@ -311,6 +318,7 @@ Findings GpuVerifier::check(Lighting& lighting, Passes which) {
     if (firsts.unfollowed && findings.first_unfollowed.empty())
       findings.first_unfollowed = fmt::format("pixel ({}, {})", at(*firsts.unfollowed).x, at(*firsts.unfollowed).y);
     cells.add(surveys);
+    if (misses != nullptr) add_misses(surveys, std::size_t{width} * band.rows.first, *misses);
   }
   findings.list_sum = cells.places();
   findings.cells_seen = cells.seen();

@@ -25,9 +25,10 @@ class GpuVerifier {
 
   /// Culls, walks every pixel's list, and compares. Of misses, the first is named by the oracle. `truth_sum` stays
   /// empty where lists miss or repeat lights, where the device ends a walk, where pixels of one cell walk different
-  /// lists, or marks find no room.
+  /// lists, or marks find no room. Pixels that miss lights come behind those of `misses`, if it is there.
   [[nodiscard]] Findings check(Lighting& lighting,
-                               vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate);
+                               vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate,
+                               std::vector<PixelMisses>* misses = nullptr);
 
  private:
   using Passes = vulkan::PlanRunner::Passes;

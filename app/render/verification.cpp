@@ -97,6 +97,8 @@ void Verification::add_pixel(const Truth& truth, std::size_t pixel, const Visit&
   sums_.useful += truth.offsets[pixel + 1] - truth.offsets[pixel];
   sums_.list_max = std::max(sums_.list_max, visit.visited);
   sums_.unordered = sums_.unordered || visit.unordered != 0;
+  if (visit.missed != 0)
+    misses_.push_back({static_cast<std::uint32_t>(std::size_t{width_} * truth.first_row + pixel), visit.missed});
   if (visit.missed != 0 && sums_.first_miss.empty())
     sums_.first_miss = fmt::format("{}: light {}", words_of_pixel(truth, pixel), visit.first_missed);
   for (std::uint32_t i = truth.offsets[pixel]; i < truth.offsets[pixel + 1]; ++i)

@@ -26,6 +26,14 @@ enum class VerifierChoice : std::uint8_t { oracle, gpu, by_pairs };
 inline constexpr std::uint64_t ORACLE_PAIRS = 20'000'000'000;
 [[nodiscard]] Verifier chosen(VerifierChoice choice, std::uint64_t pairs);
 
+/// A pixel whose list lacks lights that reach it.
+struct PixelMisses {
+  std::uint32_t pixel = 0;  ///< x + width * y
+  std::uint32_t missed = 0;
+
+  friend bool operator==(const PixelMisses&, const PixelMisses&) = default;
+};
+
 /// What a method's look-up was found to hold. Sums over the pixels that are not sky and whose walk came to its end.
 struct Findings {
   std::uint64_t missed = 0;                ///< pairs of pixel and light that the truth has and the look-up has not
@@ -63,6 +71,8 @@ class Verification {
   explicit Verification(std::uint32_t width) : width_(width) {}
   void add(const Truth& truth, std::span<const Visit> visits);
   [[nodiscard]] Findings findings() const;
+  /// Where lights are missed, in the order of `add`.
+  [[nodiscard]] std::span<const PixelMisses> misses() const { return misses_; }
 
  private:
   [[nodiscard]] std::string words_of_pixel(const Truth& truth, std::size_t pixel) const;
@@ -70,6 +80,7 @@ class Verification {
 
   std::uint32_t width_;
   Findings sums_;
+  std::vector<PixelMisses> misses_;
   std::vector<std::uint64_t> cell_lights_;   ///< cell << 32 | light, sorted and unique after each band
   std::vector<std::uint64_t> cell_lengths_;  ///< cell << 32 | length, likewise
 };

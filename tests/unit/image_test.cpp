@@ -308,5 +308,17 @@ TEST(SideBySide, KeepsEveryPixel) {
   EXPECT_EQ(all.pixels.back(), glm::u8vec4(0, 20, 0, 255));
 }
 
+TEST(Stacked, KeepsEveryPixel) {
+  const std::vector<LdrImage> images{blank(3, 2, {10, 0, 0, 255}), blank(2, 4, {0, 20, 0, 255})};
+  const LdrImage all = stacked(images);
+  EXPECT_EQ(all.width, 3U);
+  EXPECT_EQ(all.height, 6U);
+  ASSERT_EQ(all.pixels.size(), 18U);
+  EXPECT_EQ(std::count(all.pixels.begin(), all.pixels.end(), glm::u8vec4(10, 0, 0, 255)), 6);
+  EXPECT_EQ(std::count(all.pixels.begin(), all.pixels.end(), glm::u8vec4(0, 20, 0, 255)), 8);
+  EXPECT_EQ(all.pixels.front(), glm::u8vec4(10, 0, 0, 255));
+  EXPECT_EQ(all.pixels[6], glm::u8vec4(0, 20, 0, 255));
+}
+
 }  // namespace
 }  // namespace lamp::app
