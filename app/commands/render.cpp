@@ -12,11 +12,13 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
+#include "commands/render_frames.h"
 #include "commands/stats.h"
 #include "commands/view_state.h"
 #include "files/read_json.h"
 #include "image/write_file.h"
 #include "render/antialias.h"
+#include "scene/flight.h"
 #include "system/print.h"
 
 namespace lamp::app {
@@ -28,7 +30,7 @@ struct RenderOptions {
   std::string heatmap;
   std::string overlay;
   std::string stats;
-  std::uint32_t frames = 0;
+  std::string frames;
   bool json = false;
 };
 
@@ -62,16 +64,22 @@ std::string method_words(const MethodChoice& chosen) {
                      fmt::join(chosen.options, " "));
 }
 
-void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setup, const MethodChoice& chosen) {
-  const auto line = [](const char* label, const std::string& text) { print_out("{:<10}{}\n", label, text); };
+void line(const std::string& label, const std::string& text) { print_out("{:<10}{}\n", label, text); }
+
+/// What is drawn, and how.
+void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& chosen) {
   line("device", fmt::format("{} ({})", stats.device, stats.driver));
   line("scene", fmt::format("{}, {}x{}", stats.scene, stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
   if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
-  if (stats.shadows) line("shadows", shadow_words(*stats.shadows));
   for (const std::string& note : stats.notes) line("note", note);
+}
+
+/// What one frame took, and where its picture is.
+void print_numbers(const RenderOptions& o, const Stats& stats) {
+  if (stats.shadows) line("shadows", shadow_words(*stats.shadows));
   if (stats.findings)
     line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",
                                stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
@@ -85,6 +93,15 @@ void print_summary(const RenderOptions& o, const Stats& stats, const Setup& setu
   line("picture", o.out);
   for (const auto& [label, file] : {std::pair{"heat map", o.heatmap}, {"overlay", o.overlay}, {"stats", o.stats}})
     if (!file.empty()) line(label, file);
+}
+
+/// The same in one line, for a frame of the flight.
+void print_frame(const Stats& stats, std::uint32_t frame, const std::string& file) {
+  const std::uint32_t overflowed = stats.rendered.counters.overflowed_cells;
+  line(fmt::format("frame {}", frame),
+       fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms{}: {}", stats.rendered.cull_ms,
+                   stats.rendered.shade_ms, stats.rendered.frame_ms,
+                   overflowed == 0 ? "" : fmt::format(", {} cells did not fit", overflowed), file));
 }
 
 /// Samples a pixel. A captured frame has what its depth buffer has, one; and so has depth that was asked for.
@@ -101,34 +118,30 @@ std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
   return 1;
 }
 
-Exit render(const RenderOptions& o) {
-  check_outputs(o);
-  const ShadingPath path = parse_path(o.state.request.path);
-  check_request(o.state.request, o.state.request.method);
+/// All that pictures are drawn with.
+struct Drawing {
+  Session& session;
+  Setup& setup;
+  const MethodChoice& chosen;
+  Lighting& lighting;
+  Sampling sampling;
+};
+
+/// Draws the session's frame, writes its pictures, and says what it took.
+Stats draw(const RenderOptions& o, const Drawing& drawing) {
+  auto& [session, setup, chosen, lighting, sampling] = drawing;
   const std::optional<float> exposure = parse_exposure(o.state.exposure);
-  const Setup setup = make_setup(o.state);
-  const std::uint32_t samples = sample_count(o, setup.scene);
-  for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
-  Session session(o.state.request, setup);
-  const MethodChoice chosen =
-      chosen_methods(session, setup, o.state.request, {&o.state.request.method, 1}, o.json).front();
-  Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
-  const bool software = session.context().software();
-  const std::uint32_t frames = o.frames != 0 ? o.frames : software ? 1 : 20;
-  // A device's first frame is slow: its driver is still translating shaders.
-  const std::uint32_t warm_up = !software ? 3 : samples > 1 ? 0 : 1;
   session.renderer().wake(lighting);
-  Rendered rendered = render_samples(session.renderer(), lighting, setup.lights, setup.decals,
-                                     {.samples = samples, .frames = frames, .warm_up = warm_up});
+  Rendered rendered = render_samples(session.renderer(), lighting, setup.lights, setup.decals, sampling);
   const std::vector<Visit> visits = visit_all(session, lighting);
   const HdrImage image = std::move(rendered.image);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
-  Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), frames);
+  Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), sampling.frames);
   set_walked(stats, visits);
   const std::vector<std::uint32_t> counts = walked_lights(visits);
-  const std::string title = fmt::format("{}, {} lights", chosen.method->name, stats.lights);
+  const std::string title = fmt::format("{}, {} lights", stats.method, stats.lights);
   const auto write_map = [&](const std::string& name, const LdrImage* below) {
     if (name.empty()) return;
     const LdrImage map = heatmap_of(session, counts, {.title = title, .overlay = below});
@@ -136,12 +149,75 @@ Exit render(const RenderOptions& o) {
   };
   write_map(o.heatmap, nullptr);
   write_map(o.overlay, &toned);
-  const nlohmann::json json = to_json(stats);
+  return stats;
+}
+
+/// Writes the numbers where they were asked for.
+void write_numbers(const RenderOptions& o, const nlohmann::json& json) {
   if (!o.stats.empty()) write_output(o.stats, [&](const auto& file) { write_text(file, json_text(json, 2) + "\n"); });
-  if (o.json)
-    write_out(json_text(json, 2) + "\n");
-  else
-    print_summary(o, stats, setup, chosen);
+  if (o.json) write_out(json_text(json, 2) + "\n");
+}
+
+/// A picture of each frame, numbered; numbers as an array. The first is the setup's.
+void draw_flight(const RenderOptions& o, const Drawing& drawing, const FrameRange& range) {
+  FlightFrames frames(o.state, drawing.setup);
+  nlohmann::json all = nlohmann::json::array();
+  for (std::uint32_t frame = range.first; frame <= range.last; ++frame) {
+    if (frame != range.first) {
+      frames.go_to(frame);
+      drawing.session.renderer().set_frame(drawing.setup.view, drawing.setup.lights, drawing.setup.decals);
+    }
+    RenderOptions of_frame = o;
+    for (std::string* file : {&of_frame.out, &of_frame.heatmap, &of_frame.overlay}) *file = numbered(*file, frame);
+    const Stats stats = draw(of_frame, drawing);
+    if (frame == range.first && !o.json) print_subject(stats, drawing.setup, drawing.chosen);
+    if (!o.json) print_frame(stats, frame, of_frame.out);
+    all.push_back(to_json(stats));
+    all.back()["frame"] = frame;
+  }
+  write_numbers(o, all);
+  if (!o.json && !o.stats.empty()) line("stats", o.stats);
+}
+
+/// The state of the first picture.
+ViewState first_state(const RenderOptions& o, const std::optional<FrameRange>& flight) {
+  ViewState state = o.state;
+  if (!flight) return state;
+  if (state.request.frame >= 0)
+    throw Error(fmt::format("--frame {}: beside --frames {}, expected one of them", state.request.frame, o.frames));
+  state.request.frame = static_cast<int>(flight->first);
+  state.request.light_frame = -1;
+  return state;
+}
+
+Exit render(const RenderOptions& o) {
+  check_outputs(o);
+  const FramesOption wanted = parse_frames(o.frames);
+  const ShadingPath path = parse_path(o.state.request.path);
+  check_request(o.state.request, o.state.request.method);
+  static_cast<void>(parse_exposure(o.state.exposure));
+  Setup setup = make_setup(first_state(o, wanted.flight));
+  if (wanted.flight) static_cast<void>(frame_camera(setup.scene, static_cast<int>(wanted.flight->last)));
+  const std::uint32_t samples = sample_count(o, setup.scene);
+  for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
+  Session session(o.state.request, setup);
+  const MethodChoice chosen =
+      chosen_methods(session, setup, o.state.request, {&o.state.request.method, 1}, o.json).front();
+  Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
+  const bool software = session.context().software();
+  const std::uint32_t timed = wanted.timed != 0 ? wanted.timed : software || wanted.flight ? 1 : 20;
+  // A device's first frame is slow: its driver is still translating shaders.
+  const std::uint32_t warm_up = !software ? 3 : samples > 1 ? 0 : 1;
+  const Drawing drawing{session, setup, chosen, lighting, {.samples = samples, .frames = timed, .warm_up = warm_up}};
+  if (wanted.flight) {
+    draw_flight(o, drawing, *wanted.flight);
+    return Exit::done;
+  }
+  const Stats stats = draw(o, drawing);
+  write_numbers(o, to_json(stats));
+  if (o.json) return Exit::done;
+  print_subject(stats, setup, chosen);
+  print_numbers(o, stats);
   return Exit::done;
 }
 
@@ -170,14 +246,17 @@ Run add_render(CLI::App& app) {
       ->check(whole_number(1, 1024))
       ->type_name("N")
       ->group("View");
-  command->add_option("--frames", o->frames, "number of frames to time; default: 20, on a software device 1")
-      ->check(whole_number(1, 100000))
-      ->type_name("N")
+  command
+      ->add_option("--frames", o->frames,
+                   "number of frames to time; default: 20, on a software device 1. Or A..B: a numbered picture of each "
+                   "of these frames of the flight (lamp-0040.png)")
+      ->type_name("N|A..B")
       ->group("Device");
   command->footer(
       "Examples:\n"
       "  lamp render atrium --lights 4096 --out atrium.png --heatmap heat.png\n"
       "  lamp render atrium --frame 40 --decals 64 --method tight --out decals.png\n"
+      "  lamp render atrium --frames 0..59 --exposure 1 --out flight.png\n"
       "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
   return [o] { return render(*o); };
 }
