@@ -39,6 +39,7 @@ constexpr const char* WELCOME =
     "  lamp capture --out frame               write one frame as files, a scene for every command\n"
     "  lamp list methods                      list the methods; also scenes, suites, devices\n"
     "  lamp info atrium                       say what a scene holds\n"
+    "  lamp completion bash                   a script that completes commands; also zsh, fish\n"
     "`lamp help COMMAND` or `lamp COMMAND --help` explains a command, `lamp --version` names the release.\n";
 
 Exit run(int argc, char** argv) {
@@ -60,6 +61,7 @@ Exit run(int argc, char** argv) {
       {"report", lamp::app::add_report(app)},
       {"info", lamp::app::add_info(app)},
       {"list", lamp::app::add_list(app)},
+      {"completion", lamp::app::add_completion(app)},
       {"help", lamp::app::add_help(app)}};
   try {
     app.parse(argc, argv);

@@ -13,7 +13,6 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<std::string_view, 2> BRDFS{"ggx", "blinn-phong"};
 constexpr std::string_view AUTO = "auto";
 constexpr double MANY_TIMES = 64.0;  // a range of which the top is so much more than the bottom slides logarithmically
 
@@ -121,7 +120,7 @@ void method_panel(PanelFrame& p) {
     }
   }
   p.widgets.choose("path", p.state.request.path, path_names(), "How pixels are shaded.");
-  p.widgets.choose("brdf", p.state.request.brdf, BRDFS, "How surfaces reflect.");
+  p.widgets.choose("brdf", p.state.request.brdf, brdf_names(), "How surfaces reflect.");
   p.widgets.check("make room", p.state.request.grow, "Enlarges lists until every light fits.");
   for (const std::string& note : stats.notes) Widgets::note(note);
   if (stats.rendered.counters.overflowed_cells != 0) Widgets::text(overflow_words(stats));

@@ -18,6 +18,8 @@ struct EmbeddedFile {
 [[nodiscard]] std::span<const EmbeddedFile> calibration_files();
 /// Everything in bench/report, and chart.min.js.
 [[nodiscard]] std::span<const EmbeddedFile> report_files();
+/// Everything in packaging/completion: lamp.bash and so on.
+[[nodiscard]] std::span<const EmbeddedFile> completion_files();
 
 /// The commit that the tool was built from, as `git describe` names it, or "unknown".
 [[nodiscard]] std::string_view built_from();

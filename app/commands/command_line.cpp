@@ -90,6 +90,12 @@ Error unknown_name(std::string_view what, std::string_view given, std::span<cons
                            fmt::join(nearest_names(given, names), ", ")));
 }
 
+const CLI::App* find_command(const CLI::App& app, std::string_view name) {
+  const std::vector<const CLI::App*> commands = app.get_subcommands({});
+  const auto found = std::ranges::find(commands, name, [](const CLI::App* command) { return command->get_name(); });
+  return found == commands.end() ? nullptr : *found;
+}
+
 Error unknown_command(const CLI::App& app, const std::string& given) {
   return unknown_with_help("command", given, command_names(app), "see lamp --help");
 }

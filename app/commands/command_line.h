@@ -25,6 +25,9 @@ namespace lamp::app {
 [[nodiscard]] Error unknown_name(std::string_view what, std::string_view given,
                                  std::span<const std::string_view> names);
 
+/// The command of that name, or null.
+[[nodiscard]] const CLI::App* find_command(const CLI::App& app, std::string_view name);
+
 /// The error for a command that there is not.
 [[nodiscard]] Error unknown_command(const CLI::App& app, const std::string& given);
 

@@ -25,6 +25,7 @@ using Run = std::function<Exit()>;
 [[nodiscard]] Run add_report(CLI::App& app);
 [[nodiscard]] Run add_info(CLI::App& app);
 [[nodiscard]] Run add_list(CLI::App& app);
+[[nodiscard]] Run add_completion(CLI::App& app);
 [[nodiscard]] Run add_help(CLI::App& app);
 
 }  // namespace lamp::app

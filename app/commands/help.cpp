@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <memory>
-#include <vector>
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -18,10 +16,9 @@ Exit help(const CLI::App& app, const std::string& name) {
     write_out(help_text(app));
     return Exit::done;
   }
-  const std::vector<const CLI::App*> commands = app.get_subcommands({});
-  const auto found = std::ranges::find(commands, name, [](const CLI::App* command) { return command->get_name(); });
-  if (found == commands.end()) throw unknown_command(app, name);
-  write_out(help_text(**found));
+  const CLI::App* command = find_command(app, name);
+  if (command == nullptr) throw unknown_command(app, name);
+  write_out(help_text(*command));
   return Exit::done;
 }
 

@@ -142,11 +142,20 @@ ShadingPath parse_path(const std::string& text) {
   return static_cast<ShadingPath>(found - path_names().begin());
 }
 
+std::span<const std::string_view> brdf_names() {
+  static constexpr std::array<std::string_view, 2> NAMES{"ggx", "blinn-phong"};
+  return NAMES;
+}
+
 Brdf parse_brdf(const std::string& text) {
-  constexpr std::array<std::string_view, 2> NAMES{"ggx", "blinn-phong"};
-  if (text == NAMES[0]) return Brdf::ggx;
-  if (text == NAMES[1]) return Brdf::blinn_phong;
-  throw unknown_name("--brdf", text, NAMES);
+  if (text == brdf_names()[0]) return Brdf::ggx;
+  if (text == brdf_names()[1]) return Brdf::blinn_phong;
+  throw unknown_name("--brdf", text, brdf_names());
+}
+
+std::span<const std::string_view> verifier_names() {
+  static constexpr std::array<std::string_view, 3> NAMES{"oracle", "gpu", "auto"};
+  return NAMES;
 }
 
 std::span<const std::string_view> depth_names() {

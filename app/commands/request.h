@@ -128,6 +128,9 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] std::span<const std::string_view> shadow_names();
 [[nodiscard]] std::span<const std::string_view> point_shadow_names();
 [[nodiscard]] std::span<const std::string_view> depth_names();
+/// What `--brdf`, `--verifier` take.
+[[nodiscard]] std::span<const std::string_view> brdf_names();
+[[nodiscard]] std::span<const std::string_view> verifier_names();
 /// As `--shadows` takes it.
 [[nodiscard]] std::string_view shadow_filter_name(ShadowFilter filter);
 /// "oracle", "gpu" or "auto": by the number of pairs where the device has double precision, else the oracle. Throws

@@ -186,13 +186,12 @@ void add_json_flag(CLI::App& command, bool& json, const std::string& help) {
 }
 
 void add_verifier_option(CLI::App& command, std::string& verifier) {
-  static constexpr std::array<std::string_view, 3> NAMES{"oracle", "gpu", "auto"};
   command
       .add_option("--verifier", verifier,
                   fmt::format("what finds the lights that reach each pixel: oracle (on the CPU), gpu, or auto: the "
                               "oracle up to {} billion pairs of pixel and light",
                               ORACLE_PAIRS / 1'000'000'000))
-      ->check([](const std::string& text) { return one_of(text, NAMES); })
+      ->check([](const std::string& text) { return one_of(text, verifier_names()); })
       ->type_name("NAME")
       ->group("Method")
       ->capture_default_str();

@@ -37,6 +37,7 @@ constexpr const char* COMMANDS[] = {
     "list devices",
     "info plane",
     "info plane --json",
+    "completion bash",
     "help",
     "help render",
     "",

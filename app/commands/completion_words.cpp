@@ -1,0 +1,179 @@
+// Finds the words that go on with a line: commands, options, and the values of those whose values are names.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "bench/suite.h"
+#include "commands/command_line.h"
+#include "commands/completion.h"
+#include "commands/request.h"
+#include "commands/view_state.h"
+#include "lamplight/method.h"
+#include "scene/builtin.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words copied(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
+
+Words method_words() {
+  Words words{"auto"};
+  for (const Method& method : methods()) words.emplace_back(method.name);
+  return words;
+}
+
+Words scene_words() {
+  Words words;
+  for (const BuiltinScene& scene : builtin_scenes()) words.emplace_back(scene.name);
+  return words;
+}
+
+/// "tile=" for each option of the method; with a key already there, "tile=8" and so on.
+Words setting_words(const std::string& method, std::string_view begun) {
+  const auto found = find_method(method);
+  if (!found.ok()) return {};
+  Words words;
+  for (const OptionSpec& spec : found.value()->options) {
+    const std::string key = std::string(spec.key) + "=";
+    if (!begun.starts_with(key)) words.push_back(key);
+    if (begun.starts_with(key))
+      for (const std::string_view choice : spec.choices) words.push_back(key + std::string(choice));
+  }
+  return words;
+}
+
+/// "tiled:tile=8,bounds=", the word of `lamp compare`.
+Words method_word_words(const std::string& begun) {
+  const std::size_t colon = begun.find(':');
+  if (colon == std::string::npos) return method_words();
+  const std::size_t last = begun.find_last_of(":,") + 1;
+  Words words = setting_words(begun.substr(0, colon), std::string_view(begun).substr(last));
+  for (std::string& word : words) word.insert(0, begun, 0, last);
+  return words;
+}
+
+/// A line's words behind the program's name; the last is the one that is being typed.
+Words split(std::string_view line) {
+  Words words;
+  bool inside = false;
+  for (const char letter : line) {
+    const bool blank = letter == ' ' || letter == '\t';
+    if (!blank && !inside) words.emplace_back();
+    if (!blank) words.back() += letter;
+    inside = !blank;
+  }
+  if (!inside) words.emplace_back();
+  if (!words.empty()) words.erase(words.begin());
+  return words;
+}
+
+const CLI::Option* option_of(const CLI::App& command, const std::string& word) {
+  return word.starts_with("-") ? command.get_option_no_throw(word) : nullptr;
+}
+
+bool takes_value(const CLI::Option* option) { return option != nullptr && option->get_items_expected_max() > 0; }
+
+/// The command's words, and where in them the one that is being typed stands.
+struct Typed {
+  const CLI::App& command;
+  std::span<const std::string> before;
+  std::string last;
+
+  /// What an option was given; empty: nothing.
+  [[nodiscard]] std::string value_of(std::string_view option) const {
+    const auto found = std::ranges::find(before, option);
+    return found == before.end() || found + 1 == before.end() ? std::string() : *(found + 1);
+  }
+  /// Arguments that belong to no option, before the last word.
+  [[nodiscard]] std::size_t arguments() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const CLI::Option* option = option_of(command, before[i]);
+      if (takes_value(option)) ++i;
+      if (option == nullptr && !before[i].starts_with("-")) ++count;
+    }
+    return count;
+  }
+};
+
+/// The values of an option or argument, by its name; none: they are no names.
+Words values_of(const Typed& typed, const std::string& name) {
+  const std::string command = typed.command.get_name();
+  if (name == "--scene" || name == "scene") {
+    Words words = scene_words();
+    if (command != "bench") return words;
+    for (const std::string& suite : suite_names()) words.push_back(suite);
+    return words;
+  }
+  if (name == "a" || name == "b") return method_word_words(typed.last);
+  if (name == "--method") return method_words();
+  if (name == "name" && typed.before.front() == "methods") return method_words();
+  if (name == "--option") return setting_words(typed.value_of("--method"), typed.last);
+  if (name == "--path") return copied(path_names());
+  if (name == "--brdf") return copied(brdf_names());
+  if (name == "--projection") return copied(projection_names());
+  if (name == "--shadows") return copied(shadow_names());
+  if (name == "--point-shadows") return copied(point_shadow_names());
+  if (name == "--depth") return copied(depth_names());
+  if (name == "--depth-samples") return {"1", "2", "4", "8"};
+  if (name == "--verifier") return copied(verifier_names());
+  if (name == "--lights-as") return {"npy", "json"};
+  if (name == "what") return {"methods", "lookups", "scenes", "suites", "devices", "pipelines"};
+  if (name == "shell") return {"bash", "zsh", "fish"};
+  return {};
+}
+
+Words command_words(const CLI::App& app) {
+  Words words;
+  for (const CLI::App* command : app.get_subcommands({})) words.push_back(command->get_name());
+  return words;
+}
+
+Words option_words(const CLI::App& command) {
+  Words words;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  return words;
+}
+
+/// The name of the argument at that place; empty: there is none.
+std::string argument_name(const CLI::App& command, std::size_t place) {
+  for (const CLI::Option* option :
+       command.get_options([](const CLI::Option* candidate) { return candidate->get_positional(); }))
+    if (place-- == 0) return option->get_name(/*positional=*/true);
+  return {};
+}
+
+Words in_command(const CLI::App& app, const Typed& typed) {
+  const CLI::Option* option = typed.before.empty() ? nullptr : option_of(typed.command, typed.before.back());
+  if (takes_value(option)) return values_of(typed, typed.before.back());
+  if (typed.last.starts_with("-")) return option_words(typed.command);
+  const std::string argument = argument_name(typed.command, typed.arguments());
+  return argument == "command" ? command_words(app) : values_of(typed, argument);
+}
+
+}  // namespace
+
+std::vector<std::string> completions(const CLI::App& app, std::string_view line) {
+  Words words = split(line);
+  if (words.empty()) return {};
+  const std::string last = words.back();
+  words.pop_back();
+  Words found;
+  if (words.empty()) {
+    found = last.starts_with("-") ? option_words(app) : command_words(app);
+  } else if (const CLI::App* command = find_command(app, words.front()); command != nullptr) {
+    found = in_command(app, {.command = *command, .before = std::span(words).subspan(1), .last = last});
+  }
+  std::erase_if(found, [&](const std::string& word) { return !word.starts_with(last); });
+  return found;
+}
+
+}  // namespace lamp::app
