@@ -64,7 +64,13 @@ std::string method_words(const MethodChoice& chosen) {
                      fmt::join(chosen.options, " "));
 }
 
-void line(const std::string& label, const std::string& text) { print_out("{:<10}{}\n", label, text); }
+/// A line of the summary; on a terminal, as many as it takes.
+void line(const std::string& label, const std::string& text) {
+  constexpr std::size_t INDENT = 10;
+  const std::string whole = fmt::format("{:<{}}{}", label, INDENT, printable(text));
+  const std::optional<std::size_t> width = terminal_width();
+  write_out((width ? wrapped(whole, *width, INDENT) : whole) + "\n");
+}
 
 /// What is drawn, and how.
 void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& chosen) {

@@ -4,8 +4,10 @@
 #include "system/print.h"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -16,6 +18,9 @@ namespace {
 std::atomic<int> out_errno = 0;
 std::atomic<int> error_errno = 0;
 bool progress_is_hidden = false;  // set while the command line is read, by the only thread
+
+/// UTF-8: what is no byte of a letter behind its first.
+bool begins_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
 void remember(std::atomic<int>& first, bool written) {
   int none = 0;
@@ -41,6 +46,33 @@ void open_standard_streams() {
 void write_out(std::string_view text) { write_to(stdout, text, out_errno); }
 
 void write_error(std::string_view text) { write_to(stderr, text, error_errno); }
+
+std::optional<std::size_t> terminal_width() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+    return std::nullopt;
+  return size.ws_col;
+}
+
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string lines;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const auto letters = static_cast<std::size_t>(std::ranges::count_if(word, begins_letter));
+    if (column > indent && column + 1 + letters > width) {
+      lines += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!lines.empty()) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += letters;
+  }
+  return lines;
+}
 
 bool shows_progress() { return !progress_is_hidden && isatty(STDERR_FILENO) != 0; }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -48,6 +50,12 @@ template <class... Arguments>
 void print_error(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write_error(format_printable(format, std::forward<Arguments>(arguments)...));
 }
+
+/// Letters that fit into a line of stdout's terminal; nothing: it is none.
+[[nodiscard]] std::optional<std::size_t> terminal_width();
+/// Lines of at most `width` letters, broken at blanks where words allow it; those behind the first begin with `indent`
+/// blanks. Letters are UTF-8.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent);
 
 /// Whether progress is shown: on a terminal, unless it was hidden.
 [[nodiscard]] bool shows_progress();

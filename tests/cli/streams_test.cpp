@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <functional>
+#include <sstream>
 
 #include "cli/cli_test.h"
 
@@ -56,6 +57,20 @@ TEST_F(Streams, ResultsThatCannotBePrintedAreAnError) {
       EXPECT_EQ(outcome.exit_code, BAD_INPUT);
       EXPECT_TRUE(outcome.err.starts_with("lamp: standard output: cannot be written: ")) << outcome.err;
     }
+}
+
+// `script` runs a program on a terminal of its own.
+TEST_F(Streams, ASummaryFitsTheTerminal) {
+  if (shell("command -v script").exit_code != 0) GTEST_SKIP() << "there is no script(1)";
+  const Outcome outcome = shell(
+      "script --quiet --return --command \"stty cols 60; $LAMP render plane --size 16x9 --lights 2 --method "
+      "clustered\" "
+      "log </dev/null");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("\ntimes "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n          "), std::string::npos) << outcome.out;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 61U) << line;  // a terminal adds \r
 }
 
 TEST_F(Streams, ErrorsThatCannotBePrintedKeepTheirExitCode) {
