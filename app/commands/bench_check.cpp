@@ -63,7 +63,7 @@ void Checker::need_truths() {
     const std::uint32_t samples = renderer_.depth().samples;
     truths_.resize(samples);
     for (std::uint32_t i = 0; i < samples; ++i) {
-      renderer_.set_sample(i);
+      renderer_.show({.sample = i});
       depths_.push_back(samples > 1 ? renderer_.draw_depth() : renderer_.read_depth());
     }
   }
@@ -105,7 +105,7 @@ Findings Checker::find(Lighting& lighting) {
   if (verifier_) return verifier_->check(lighting, which);
   Verification verification(frame_.view.width());
   for (std::uint32_t i = renderer_.depth().samples; i-- != 0;) {  // the first last: it is timed
-    renderer_.set_sample(i);
+    renderer_.show({.sample = i});
     for_each_truth(i, [&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which)); });
   }
   return verification.findings();

@@ -18,7 +18,20 @@ namespace lamp::app {
 
 namespace fs = std::filesystem;
 
-std::vector<Visit> visit_all(Session& session, Lighting& lighting) { return session.renderer().visit_all(lighting); }
+std::vector<Visit> visit_all(Session& session, Lighting& lighting) {
+  Renderer& renderer = session.renderer();
+  const std::uint32_t views = renderer.depth().views;
+  if (views == 1) return renderer.visit_all(lighting);
+  const std::size_t width = renderer.targets().width;
+  std::vector<Visit> all(views * width * renderer.targets().height);
+  for (std::uint32_t view = views; view-- != 0;) {
+    renderer.show({.view = view});
+    static_cast<void>(renderer.draw_depth());
+    const std::vector<Visit> visits = renderer.visit_all(lighting);
+    for (std::size_t i = 0; i < visits.size(); ++i) all[(i / width * views + view) * width + i % width] = visits[i];
+  }
+  return all;
+}
 
 std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {
   std::vector<std::uint32_t> counts;
@@ -29,7 +42,7 @@ std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {
 
 LdrImage heatmap_of(Session& session, std::span<const std::uint32_t> counts, const HeatmapRequest& request) {
   const Targets& targets = session.renderer().targets();
-  return draw_heatmap({.width = targets.width,
+  return draw_heatmap({.width = static_cast<std::uint32_t>(counts.size() / targets.height),
                        .height = targets.height,
                        .counts = counts,
                        .scale_max = request.scale_max,

@@ -14,7 +14,7 @@
 
 namespace lamp::app {
 
-/// Visits of the whole picture, checked against nothing.
+/// Visits of the whole picture, of several views side by side, checked against nothing. The first view stays shown.
 [[nodiscard]] std::vector<Visit> visit_all(Session& session, Lighting& lighting);
 
 /// Lights walked at each pixel; SKY_CELL for sky.

@@ -75,7 +75,8 @@ void line(const std::string& label, const std::string& text) {
 /// What is drawn, and how.
 void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& chosen) {
   line("device", fmt::format("{} ({})", stats.device, stats.driver));
-  line("scene", fmt::format("{}, {}x{}", stats.scene, stats.width, stats.height));
+  line("scene",
+       fmt::format("{}, {}{}x{}", stats.scene, stats.views == 1 ? "" : "two eyes of ", stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
   if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
@@ -94,8 +95,9 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   for (const PassTime& pass : stats.rendered.passes)
     passes += fmt::format("{}{}{} {:.3f}", passes.empty() ? "" : ", ", pass.host ? "on the CPU: " : "", pass.name,
                           pass.ms_median);
-  line("times", fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
-                            stats.rendered.shade_ms, stats.rendered.frame_ms, passes));
+  line("times", fmt::format("cull {:.3f} ms{}shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
+                            stats.views == 1 ? ", " : " for both eyes; of the left one: ", stats.rendered.shade_ms,
+                            stats.rendered.frame_ms, passes));
   line("picture", o.out);
   for (const auto& [label, file] : {std::pair{"heat map", o.heatmap}, {"overlay", o.overlay}, {"stats", o.stats}})
     if (!file.empty()) line(label, file);
@@ -138,7 +140,7 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
   auto& [session, setup, chosen, lighting, sampling] = drawing;
   const std::optional<float> exposure = parse_exposure(o.state.exposure);
   session.renderer().wake(lighting);
-  Rendered rendered = render_samples(session.renderer(), lighting, setup.lights, setup.decals, sampling);
+  Rendered rendered = render_views(session.renderer(), lighting, setup.lights, setup.decals, sampling);
   const std::vector<Visit> visits = visit_all(session, lighting);
   const HdrImage image = std::move(rendered.image);
 
@@ -171,7 +173,7 @@ void draw_flight(const RenderOptions& o, const Drawing& drawing, const FrameRang
   for (std::uint32_t frame = range.first; frame <= range.last; ++frame) {
     if (frame != range.first) {
       frames.go_to(frame);
-      drawing.session.renderer().set_frame(drawing.setup.view, drawing.setup.lights, drawing.setup.decals);
+      drawing.session.renderer().set_frame(drawing.setup.views, drawing.setup.lights, drawing.setup.decals);
     }
     RenderOptions of_frame = o;
     for (std::string* file : {&of_frame.out, &of_frame.heatmap, &of_frame.overlay}) *file = numbered(*file, frame);
@@ -235,6 +237,7 @@ Run add_render(CLI::App& app) {
   add_state_option(*command, o->state);
   add_common_options(*command, o->state.request);
   add_depth_options(*command, o->state.request);
+  add_stereo_option(*command, o->state.request);
   add_picture_options(*command, o->state.request);
   add_out_option(*command, o->out, "write the picture to this file, .png or .exr");
   const auto add_output = [&](const char* name, std::string& file, const char* help) {

@@ -51,7 +51,8 @@ void FlightFrames::go_to(std::uint32_t frame) {
   if (!air_) air_ = find_open_air(setup_.scene);
   state_.request.frame = static_cast<int>(frame);
   state_.request.light_frame = -1;
-  setup_.view = requested_view(state_.request, setup_.scene);
+  setup_.views = requested_views(state_.request, setup_.scene);
+  setup_.view = setup_.views.front();
   setup_.generated = requested_lights(state_.request, setup_.scene, *air_);
   setup_.lights = pack(setup_.scene.lights);
   const std::vector<shared::Light> generated = pack(setup_.generated);

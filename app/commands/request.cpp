@@ -58,6 +58,9 @@ View captured_view(const Request& request, const Scene& scene) {
                             request.depth_samples, request.scene));
   static_cast<void>(find_camera(scene, request.camera));
   if (request.frame >= 0) throw Error(fmt::format("--frame: the capture {} is one frame", request.scene));
+  if (request.stereo_m > 0.0F || request.views != 1)
+    throw Error(
+        fmt::format("{}: the capture {} is one view", request.views != 1 ? "--views" : "--stereo", request.scene));
   if (request.free_camera) throw Error(fmt::format("camera: the capture {} has its own, expected none", request.scene));
   return view;
 }
@@ -85,7 +88,13 @@ void check_scene_lights(const Request& request, const Scene& scene) {
 
 View requested_view(const Request& request, const Scene& scene) {
   if (scene.captured) return captured_view(request, scene);
-  const glm::uvec2 size = parse_size(request.size);
+  glm::uvec2 size = parse_size(request.size);
+  if (request.stereo_m > 0.0F) {
+    if (size.x % 2 != 0)
+      throw Error(
+          fmt::format("--size {}: with --stereo expected an even width, half of it for each eye", request.size));
+    size.x /= 2;
+  }
   if (request.free_camera && request.frame >= 0)
     throw Error(fmt::format("--frame {}: the camera is a free one, expected no frame of the flight", request.frame));
   const Camera camera = request.free_camera  ? camera_of(*request.free_camera)
@@ -93,6 +102,13 @@ View requested_view(const Request& request, const Scene& scene) {
                                              : find_camera(scene, request.camera);
   const View view = view_of(camera, size.x, size.y, request.projection);
   return parse_depth(request.depth, request.depth_samples).reversed ? view : with_standard_depth(view);
+}
+
+std::vector<View> requested_views(const Request& request, const Scene& scene) {
+  const View view = requested_view(request, scene);
+  if (request.stereo_m > 0.0F && request.views != 1)
+    throw Error(fmt::format("--views {}: with --stereo there are two; expected one of them", request.views));
+  return request.stereo_m > 0.0F ? both_eyes(view, request.stereo_m) : all_around(view, request.views);
 }
 
 std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air) {
@@ -251,7 +267,8 @@ Setup make_setup(const Request& request) {
   Setup setup;
   setup.scene = load_scene(request.scene);
   check_scene_lights(request, setup.scene);
-  setup.view = requested_view(request, setup.scene);
+  setup.views = requested_views(request, setup.scene);
+  setup.view = setup.views.front();
   setup.generated = place_lights(setup.scene, light_placement(request, setup.scene));
   setup.lights = pack(setup.scene.lights);
   const std::vector<shared::Light> packed = pack(setup.generated);
@@ -285,6 +302,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
       shadows_(requested_shadows(request)),
       grow_(request.grow),
       shaders_(request.shader_dir) {
+  depth_.views = static_cast<std::uint32_t>(setup.views.size());
   context_ = std::make_unique<Context>(ContextInfo{
       .device = request.device, .validation = validation, .pipeline_statistics = request.pipeline_statistics});
   gpu_scene_ = std::make_unique<GpuScene>(*context_, setup.scene);
@@ -292,7 +310,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
                                          static_cast<std::uint32_t>(setup.lights.size()),
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
   if (shadows_) renderer_->cast_shadows(*shadows_);
-  renderer_->set_frame(setup.view, setup.lights, setup.decals);
+  renderer_->set_frame(setup.views, setup.lights, setup.decals);
 }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {

@@ -49,6 +49,8 @@ struct Request {
   std::string projection = "camera";
   std::string depth = "reversed";   ///< or "standard": which way device depth runs
   std::uint32_t depth_samples = 1;  ///< a pixel, of what lights are culled with: 1, 2, 4 or 8
+  float stereo_m = 0.0F;            ///< between two eyes, which share the picture's width; 0: one eye
+  std::uint32_t views = 1;          ///< of a frame, turned about the vertical; not with two eyes
   std::string device;
   std::string shader_dir;
   bool pipeline_statistics = false;
@@ -68,6 +70,8 @@ void add_picture_options(CLI::App& command, Request& request);
 void add_option_option(CLI::App& command, Request& request);
 /// Adds `--depth` and `--depth-samples`, for commands that can draw it so.
 void add_depth_options(CLI::App& command, Request& request);
+/// Adds `--stereo`.
+void add_stereo_option(CLI::App& command, Request& request);
 /// Adds `--path`.
 void add_path_option(CLI::App& command, Request& request);
 /// Adds `--grow`.
@@ -93,7 +97,8 @@ void check_request(const Request& request, const std::string& method);
 /// A request made concrete on the host: nothing of it needs a device.
 struct Setup {
   Scene scene;
-  View view;
+  View view;                          ///< the first of these
+  std::vector<View> views;            ///< of the frame, all of one size
   std::vector<Light> generated;       ///< besides the scene's own
   std::vector<shared::Light> lights;  ///< the scene's, then the generated ones
   std::vector<gpu::DecalData> decals;
@@ -104,6 +109,7 @@ struct Setup {
 
 /// The parts of a Setup, for who keeps a scene from frame to frame. Throw Error for what the scene does not have.
 [[nodiscard]] View requested_view(const Request& request, const Scene& scene);
+[[nodiscard]] std::vector<View> requested_views(const Request& request, const Scene& scene);
 /// The generated lights. `air`: the scene's.
 [[nodiscard]] std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air);
 /// The decals. Throws Error for a capture, and for boxes that none can be.

@@ -142,6 +142,17 @@ void add_depth_options(CLI::App& command, Request& r) {
       ->capture_default_str();
 }
 
+void add_stereo_option(CLI::App& command, Request& r) {
+  command
+      .add_option(
+          "--stereo", r.stereo_m,
+          "two eyes, so many metres apart (people's: 0.064), each in its half of the picture; lights are culled "
+          "for both at once")
+      ->check(number_between(0.0, 1000.0))
+      ->type_name("METRES")
+      ->group("View");
+}
+
 void add_path_option(CLI::App& command, Request& r) {
   command.add_option("--path", r.path, "how pixels are shaded: forward, tiled-deferred, deferred or standard-deferred")
       ->type_name("NAME")

@@ -81,13 +81,15 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
                             .frames = frames,
                             .decals = setup.decals.size()},
                            lighting, std::move(rendered));
+  stats.views = setup.views.size();
   stats.shadows = shadow_stats(session.renderer().shadows());
   return stats;
 }
 
 void set_walked(Stats& stats, std::span<const Visit> visits) {
-  Verification verification(stats.width);
-  verification.add(empty_truth(stats.width, stats.height), visits);
+  const auto width = static_cast<std::uint32_t>(visits.size() / stats.height);  // several views side by side
+  Verification verification(width);
+  verification.add(empty_truth(width, stats.height), visits);
   stats.findings = verification.findings();
   if (stats.findings->unfollowed != 0)
     stats.notes.push_back(fmt::format(
@@ -111,6 +113,7 @@ nlohmann::json to_json(const Stats& s) {
                       {"path", s.path},
                       {"width", s.width},
                       {"height", s.height},
+                      {"views", s.views},
                       {"lights", s.lights},
                       {"decals", s.decals},
                       {"frames", s.frames},

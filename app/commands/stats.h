@@ -28,6 +28,7 @@ struct Stats {
   std::string path;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  std::size_t views = 1;  ///< of that size each
   std::size_t lights = 0;
   std::size_t decals = 0;
   std::uint32_t frames = 0;

@@ -34,10 +34,10 @@ struct Candidate {
   Candidate(Lighting separate_lighting, std::vector<std::string> settings, std::uint32_t width)
       : options(std::move(settings)),
         lighting(std::move(separate_lighting)),
-        separate(width),
-        fused(width),
-        decals(width),
-        fused_decals(width) {}
+        separate(width, lighting.info().depth),
+        fused(width, lighting.info().depth),
+        decals(width, lighting.info().depth),
+        fused_decals(width, lighting.info().depth) {}
   std::vector<std::string> options;
   Lighting lighting;
   Verification separate;
@@ -69,11 +69,11 @@ std::vector<std::string> wanted_methods(const VerifyOptions& o) {
   return wanted;
 }
 
-/// Calls `use` with the depth of each sample of a pixel, which the renderer then draws.
-void for_each_sample(Renderer& renderer, const std::function<void(std::span<const float>)>& use) {
-  if (renderer.depth().samples == 1) return use(renderer.read_depth());
-  for (std::uint32_t i = renderer.depth().samples; i-- != 0;) {  // the first sample last: it is drawn from there on
-    renderer.set_sample(i);
+/// Calls `use` with the depth of each of the frame's pictures, which the renderer then draws.
+void for_each_picture(Renderer& renderer, const std::function<void(std::span<const float>)>& use) {
+  if (!renderer.depth().several()) return use(renderer.read_depth());
+  for (const FramePicture& picture : renderer.all_pictures()) {
+    renderer.show(picture);
     use(renderer.draw_depth());
   }
 }
@@ -83,14 +83,15 @@ void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& ca
   for (Candidate& candidate : candidates) {
     progress(fmt::format("verify rows {} .. {}: {}", truth.first_row, truth.first_row + truth.rows,
                          candidate.lighting.info().method->name));
-    candidate.separate.add(truth, session.renderer().visit(candidate.lighting, truth));
+    const FramePicture of = session.renderer().shown();
+    candidate.separate.add(truth, session.renderer().visit(candidate.lighting, truth), of);
     if (candidate.lighting.runner().plan().fused)
-      candidate.fused.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused));
+      candidate.fused.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused), of);
   }
 }
 
 void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
-  for_each_sample(session.renderer(), [&](std::span<const float> depth) {
+  for_each_picture(session.renderer(), [&](std::span<const float> depth) {
     const View& view = session.renderer().view();
     for_each_truth({.view = view, .depth = depth, .lights = setup.lights, .rows = view.height()},
                    [&](const Truth& truth) { visit_band(session, truth, candidates); });
@@ -121,9 +122,10 @@ void visit_decals(Session& session, const Truth& truth, std::vector<Candidate>& 
   constexpr Renderer::Kind DECALS = Renderer::Kind::decals;
   for (Candidate& candidate : candidates) {
     progress(fmt::format("verify decals: {}", candidate.lighting.info().method->name));
-    candidate.decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::separate, DECALS));
+    const FramePicture of = session.renderer().shown();
+    candidate.decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::separate, DECALS), of);
     if (candidate.lighting.runner().plan().fused)
-      candidate.fused_decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused, DECALS));
+      candidate.fused_decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused, DECALS), of);
   }
 }
 
@@ -137,7 +139,7 @@ Findings decal_findings_of(Candidate& candidate) {
 void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
   const std::vector<shared::OrientedBox> boxes = boxes_of(setup.decals);
   if (boxes.empty()) return;
-  for_each_sample(session.renderer(), [&](std::span<const float> depth) {
+  for_each_picture(session.renderer(), [&](std::span<const float> depth) {
     const View& view = session.renderer().view();
     for_each_truth({.view = view,
                     .depth = depth,
@@ -151,21 +153,25 @@ void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& c
 
 /// Makes lists again and again, and counts how often they are not the first's.
 std::uint32_t changed_runs(Session& session, Candidate& candidate, std::uint32_t runs) {
-  const std::vector<Visit> first = session.renderer().visit_all(candidate.lighting);
+  const std::vector<Visit> first = visit_all(session, candidate.lighting);
   std::uint32_t changed = 0;
   for (std::uint32_t run = 1; run < runs; ++run) {
     progress(fmt::format("verify run {} of {}: {}", run + 1, runs, candidate.lighting.info().method->name));
-    if (!same_lists(session.renderer().visit_all(candidate.lighting), first)) ++changed;
+    if (!same_lists(visit_all(session, candidate.lighting), first)) ++changed;
   }
   return changed;
 }
 
-float picture_difference(Session& session, Candidate& candidate, const HdrImage& picture, const HdrImage& reference) {
+float picture_difference(Session& session, const Setup& setup, Candidate& candidate, const HdrImage& picture,
+                         const HdrImage& reference) {
   float difference = max_abs_difference(picture, reference);
   if (candidate.lighting.runner().plan().fused && candidate.lighting.info().path == ShadingPath::deferred) {
     Lighting fused =
         session.lighting(*candidate.lighting.info().method, candidate.options, ShadingPath::tiled_deferred);
-    difference = std::max(difference, max_abs_difference(session.renderer().relight(fused).image, reference));
+    const Rendered lit = setup.views.size() == 1
+                             ? session.renderer().relight(fused)
+                             : render_views(session.renderer(), fused, setup.lights, setup.decals, {});
+    difference = std::max(difference, max_abs_difference(lit.image, reference));
   }
   return difference;
 }
@@ -176,11 +182,11 @@ Stats make_row(const VerifyOptions& o, Session& session, const Setup& setup, Can
   if (o.runs > 1) candidate.findings.changed_runs = changed_runs(session, candidate, o.runs);
   progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
   session.renderer().wake(candidate.lighting);
-  Rendered rendered = render_samples(session.renderer(), candidate.lighting, setup.lights, setup.decals, {});
+  Rendered rendered = render_views(session.renderer(), candidate.lighting, setup.lights, setup.decals, {});
   const Plan& plan = candidate.lighting.runner().plan();
   std::optional<PictureDifference> difference;
   if (reference)
-    difference = {.max_abs = picture_difference(session, candidate, rendered.image, *reference),
+    difference = {.max_abs = picture_difference(session, setup, candidate, rendered.image, *reference),
                   .tolerance = picture_tolerance(plan, *reference)};
   Stats row = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1);
   row.judgement = judge(plan, candidate.findings, difference);
@@ -207,6 +213,7 @@ Stats refused_row(const VerifyOptions& o, Session& session, const Setup& setup, 
           .path = o.request.path,
           .width = setup.view.width(),
           .height = setup.view.height(),
+          .views = setup.views.size(),
           .lights = setup.lights.size(),
           .decals = setup.decals.size(),
           .ordered = method.ordered,
@@ -248,7 +255,8 @@ void write_misses(const VerifyOptions& o, std::span<Candidate> candidates, const
 void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, std::span<const Stats> rows) {
   if (o.json) return print_json(rows);
   const DeviceRow& device = session.context().row();
-  print_out("{} ({}), {} {}x{}, {} lights: {}\n", device.name, device.driver, o.request.scene, setup.view.width(),
+  print_out("{} ({}), {} {}{}x{}, {} lights: {}\n", device.name, device.driver, o.request.scene,
+            setup.views.size() == 1 ? "" : fmt::format("{} views of ", setup.views.size()), setup.view.width(),
             setup.view.height(), setup.lights.size(), setup.lights_note);
   if (rows.front().verifier == Verifier::gpu) print_out("truth by the GPU verifier\n");
   if (!rows.front().image_max_abs_diff) print_out("pictures not compared: too many lights for brute force\n");
@@ -263,24 +271,26 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
 }
 
 std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
-  return std::uint64_t{setup.view.width()} * setup.view.height() * samples * setup.lights.size();
+  return setup.views.size() * setup.view.width() * setup.view.height() * samples * setup.lights.size();
 }
 
-/// The GPU verifier knows of lights alone, and of one sample a pixel.
+/// The GPU verifier knows of lights alone, and of one view with one sample a pixel.
 Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& context) {
   const VerifierChoice choice = parse_verifier(o.verifier, context);
-  const bool several = o.request.depth_samples > 1;
+  const bool several = o.request.depth_samples > 1 || setup.views.size() > 1;
   if (setup.decals.empty() && !several) return chosen(choice, pairs_of(setup));
   if (choice == VerifierChoice::gpu)
     throw Error(fmt::format("--verifier gpu: {} are checked by the oracle alone; use --verifier oracle",
-                            several ? "several samples a pixel" : "decals"));
+                            setup.views.size() > 1        ? "several views"
+                            : o.request.depth_samples > 1 ? "several samples a pixel"
+                                                          : "decals"));
   return Verifier::oracle;
 }
 
-/// Held against rays, which need triangles, where depth has one sample a pixel.
+/// Held against rays, which need triangles, where a frame has one view, and its depth one sample a pixel.
 std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
   const Renderer& renderer = session.renderer();
-  if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().samples > 1) return std::nullopt;
+  if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().several()) return std::nullopt;
   progress("verify shadows: rays");
   return check_shadows(session.renderer(), session.shaders(), setup.scene, setup.lights);
 }
@@ -303,7 +313,7 @@ Exit verify(const VerifyOptions& o) {
   const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
   if (possible && (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context()))) {
     Lighting brute = session.lighting(parse_method("all"), {}, path);
-    reference = render_samples(session.renderer(), brute, setup.lights, setup.decals, {}).image;
+    reference = render_views(session.renderer(), brute, setup.lights, setup.decals, {}).image;
   } else {
     first = session.renderer().render(candidates.front().lighting).image;  // and its depth
   }
@@ -339,6 +349,16 @@ Run add_verify(CLI::App& app) {
   o->request.lights = 1024;
   add_common_options(*command, o->request);
   add_depth_options(*command, o->request);
+  add_stereo_option(*command, o->request);
+  command
+      ->add_option(
+          "--views", o->request.views,
+          "views of a frame, turned about the vertical by equal parts of a circle; lights are culled for all of "
+          "them at once, and each is checked; 1 to 8")
+      ->check(whole_number(1, MAX_VIEWS))
+      ->type_name("N")
+      ->group("View")
+      ->capture_default_str();
   add_decal_option(*command, o->request);
   add_shadow_options(*command, o->request);
   add_method_option(*command, o->methods, "method to check");

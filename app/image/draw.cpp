@@ -61,4 +61,16 @@ LdrImage stacked(std::span<const LdrImage> images) {
   return all;
 }
 
+HdrImage side_by_side(std::span<const HdrImage> images) {
+  HdrImage all{.height = images.front().height};
+  for (const HdrImage& image : images) all.width += image.width;
+  all.pixels.reserve(std::size_t{all.width} * all.height);
+  for (std::uint32_t y = 0; y < all.height; ++y)
+    for (const HdrImage& image : images) {
+      const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(std::size_t{y} * image.width);
+      all.pixels.insert(all.pixels.end(), row, row + image.width);
+    }
+  return all;
+}
+
 }  // namespace lamp::app

@@ -27,6 +27,9 @@ struct LdrImage {
   std::vector<glm::u8vec4> pixels;
 };
 
+/// Pictures of one height, from left to right.
+[[nodiscard]] HdrImage side_by_side(std::span<const HdrImage> images);
+
 /// Of linear Rec. 709 radiance or reflectance.
 [[nodiscard]] double luminance(const glm::vec3& linear);
 

@@ -3,6 +3,7 @@
 #include "render/antialias.h"
 
 #include <utility>
+#include <vector>
 
 #include "gpu/check.h"
 
@@ -42,14 +43,17 @@ View shifted(const View& view, glm::dvec2 offset_px) {
 
 Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
                         std::span<const gpu::DecalData> decals, const Sampling& sampling) {
-  const View view = renderer.view();
+  const std::vector<View> views = renderer.views();
+  const std::uint32_t shown = renderer.shown().view;
   const std::uint32_t of_depth = renderer.depth().samples;
   const std::uint32_t samples = of_depth > 1 ? of_depth : sampling.samples;
   const auto turn_to = [&](std::uint32_t i) {
-    if (of_depth > 1)
-      renderer.set_sample(i);
-    else if (samples > 1)
-      renderer.set_frame(shifted(view, sample_offset(i)), lights, decals);
+    if (of_depth > 1) return renderer.show({shown, i});
+    if (samples == 1) return;
+    std::vector<View> beside;
+    for (const View& view : views) beside.push_back(shifted(view, sample_offset(i)));
+    renderer.set_frame(beside, lights, decals);
+    renderer.show({.view = shown});
   };
   HdrImage sum;
   for (std::uint32_t i = 1; i < samples; ++i) {
@@ -61,6 +65,21 @@ Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const 
   add(sum, std::move(rendered.image));
   for (glm::vec4& pixel : sum.pixels) pixel /= static_cast<float>(samples);
   rendered.image = std::move(sum);
+  return rendered;
+}
+
+Rendered render_views(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
+                      std::span<const gpu::DecalData> decals, const Sampling& sampling) {
+  if (renderer.depth().views == 1) return render_samples(renderer, lighting, lights, decals, sampling);
+  std::vector<HdrImage> pictures(renderer.depth().views);
+  for (std::uint32_t view = renderer.depth().views; --view != 0;) {
+    renderer.show({.view = view});
+    pictures[view] = render_samples(renderer, lighting, lights, decals, {.samples = sampling.samples}).image;
+  }
+  renderer.show({});
+  Rendered rendered = render_samples(renderer, lighting, lights, decals, sampling);
+  pictures.front() = std::move(rendered.image);
+  rendered.image = side_by_side(pictures);
   return rendered;
 }
 

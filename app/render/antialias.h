@@ -23,11 +23,16 @@ struct Sampling {
   std::uint32_t warm_up = 0;  ///< frames before those, besides the other samples
 };
 
-/// Renders the renderer's frame: first the samples beside the pixels' centres, then the timed frames at the centres,
-/// whose numbers these are. The picture is the average of all samples. `lights` and `decals` are the frame's. Where the
-/// renderer's depth has several samples a pixel, it is those that are rendered, whatever `sampling` says, the timed
-/// ones last.
+/// Renders the renderer's frame, the view that is shown: first the samples beside the pixels' centres, then the timed
+/// frames at the centres, whose numbers these are. The picture is the average of all samples. `lights` and `decals` are
+/// the frame's. Where the renderer's depth has several samples a pixel, it is those that are rendered, whatever
+/// `sampling` says, the timed ones last.
 [[nodiscard]] Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
                                       std::span<const gpu::DecalData> decals, const Sampling& sampling);
+
+/// The same of all views of the renderer's frame, side by side in one picture, with the first view's numbers: its cull
+/// is that of all. The first stays shown.
+[[nodiscard]] Rendered render_views(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
+                                    std::span<const gpu::DecalData> decals, const Sampling& sampling);
 
 }  // namespace lamp::app

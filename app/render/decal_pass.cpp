@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gpu/check.h"
+#include "render/lighting_pipelines.h"
 #include "render/mesh_pass.h"
 
 namespace lamp::app {
@@ -40,6 +41,7 @@ vulkan::Pipeline decal_pipeline(const vulkan::Device& device, const ShaderLibrar
                                          {6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                                          {BINDING_DECALS}}};
   info.constants.push_back({CONSTANT_BOXES, 1});
+  info.constants.push_back(shown_view_constant(plan));
   info.constants.push_back({CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U});
   for (const vulkan::DescriptorBinding& binding : vulkan::lookup_bindings(plan.lookup))
     info.bindings.push_back(binding);

@@ -14,74 +14,86 @@
 
 namespace lamp::app {
 
-FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity, std::uint32_t decal_capacity) {
+FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity, std::uint32_t decal_capacity,
+                     std::uint32_t views)
+    : host_frames_(views) {
   const std::uint64_t records = std::uint64_t{light_capacity} + decal_capacity;
   const std::uint64_t light_bytes = std::max<std::uint64_t>(1, records) * sizeof(shared::Light);
   const std::uint64_t sphere_bytes = std::max<std::uint64_t>(1, records) * sizeof(shared::LightSphere);
   const std::uint64_t decal_bytes = std::max<std::uint64_t>(1, decal_capacity) * sizeof(gpu::DecalData);
   constexpr VkBufferUsageFlags STORAGE = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  frame_ = take(vulkan::Buffer::create(
-      device,
-      {.name = "frame", .bytes = sizeof(shared::Frame), .usage = STORAGE | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}));
+  frame_ = take(vulkan::Buffer::create(device, {.name = "frame",
+                                                .bytes = views * sizeof(shared::Frame),
+                                                .usage = STORAGE | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}));
   lights_ = take(vulkan::Buffer::create(device, {.name = "lights", .bytes = light_bytes, .usage = STORAGE}));
   spheres_ = take(vulkan::Buffer::create(device, {.name = "spheres", .bytes = sphere_bytes, .usage = STORAGE}));
   decals_ = take(vulkan::Buffer::create(device, {.name = "decals", .bytes = decal_bytes, .usage = STORAGE}));
-  staging_ =
-      take(vulkan::Buffer::create(device, {.name = "frame staging",
-                                           .bytes = sizeof(shared::Frame) + light_bytes + sphere_bytes + decal_bytes,
-                                           .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                           .memory = vulkan::MemoryUse::upload}));
+  staging_ = take(vulkan::Buffer::create(device, {.name = "frame staging",
+                                                  .bytes = frame_.bytes() + light_bytes + sphere_bytes + decal_bytes,
+                                                  .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                  .memory = vulkan::MemoryUse::upload}));
 }
 
-void FrameData::set(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals) {
+void FrameData::set(std::span<const View> views, std::span<const shared::Light> lights,
+                    std::span<const gpu::DecalData> decals) {
   assert((lights.size() + decals.size()) * sizeof(shared::Light) <= lights_.bytes() &&
          decals.size_bytes() <= decals_.bytes() && "make FrameData with a larger capacity");
+  assert(views.size() == host_frames_.size() && "as many views as FrameData was made for");
   host_lights_ = entity_records(lights, boxes_of(decals));
   // Room for as many as there are: plans of any capacity from there on take it.
   const auto count = static_cast<std::uint32_t>(host_lights_.size());
-  host_frame_ = view.frame(count, count);
-  host_frame_.box_count = static_cast<std::uint32_t>(decals.size());
+  for (std::uint32_t i = 0; i < views.size(); ++i) {
+    host_frames_[i] = views[i].frame(count, count);
+    host_frames_[i].box_count = static_cast<std::uint32_t>(decals.size());
+    host_frames_[i].view_index = i;
+  }
   changed_ = true;
-  const std::span<std::byte> to = staging_.mapped();
-  const auto put = [&](std::uint64_t offset, std::span<const std::byte> bytes) {
-    if (!bytes.empty()) std::memcpy(to.subspan(offset).data(), bytes.data(), bytes.size());
+  std::span<std::byte> to = staging_.mapped();
+  const auto put = [&](const vulkan::Buffer& buffer, std::span<const std::byte> bytes) {
+    if (!bytes.empty()) std::memcpy(to.data(), bytes.data(), bytes.size());
+    to = to.subspan(buffer.bytes());
   };
-  put(0, std::as_bytes(std::span(&host_frame_, 1)));
-  put(sizeof(host_frame_), std::as_bytes(std::span(host_lights_)));
   const std::vector<shared::LightSphere> spheres = bounding_spheres(host_lights_);
-  put(sizeof(host_frame_) + lights_.bytes(), std::as_bytes(std::span(spheres)));
-  put(sizeof(host_frame_) + lights_.bytes() + spheres_.bytes(), std::as_bytes(decals));
+  put(frame_, std::as_bytes(std::span(host_frames_)));
+  put(lights_, std::as_bytes(std::span(host_lights_)));
+  put(spheres_, std::as_bytes(std::span(spheres)));
+  put(decals_, std::as_bytes(decals));
 }
 
-void FrameData::set_view(const View& view) {
-  const std::uint32_t boxes = host_frame_.box_count;
-  host_frame_ = view.frame(host_frame_.light_count, host_frame_.light_capacity);
-  host_frame_.box_count = boxes;
-  std::memcpy(staging_.mapped().data(), &host_frame_, sizeof(host_frame_));
+void FrameData::set_view(const View& view, std::uint32_t index) {
+  assert(host_frames_.size() == 1 && "of one view at a time");
+  shared::Frame& frame = host_frames_.front();
+  const std::uint32_t boxes = frame.box_count;
+  frame = view.frame(frame.light_count, frame.light_capacity);
+  frame.box_count = boxes;
+  frame.view_index = index;
+  std::memcpy(staging_.mapped().data(), &frame, sizeof(frame));
   changed_ = true;
 }
 
 void FrameData::record_upload(vulkan::Recorder& recorder) {
   if (!std::exchange(changed_, false)) return;
   recorder.barrier({copies_to(frame()), copies_to(lights()), copies_to(spheres()), copies_to(decals())});
-  const auto copy = [&](const vulkan::Buffer& buffer, std::uint64_t offset, std::uint64_t bytes) {
+  std::uint64_t offset = 0;
+  const auto copy = [&](const vulkan::Buffer& buffer, std::uint64_t bytes) {
     const VkBufferCopy part{.srcOffset = offset, .size = bytes};
     if (bytes != 0) vkCmdCopyBuffer(recorder.commands(), staging_.handle(), buffer.handle(), 1, &part);
+    offset += buffer.bytes();
   };
-  copy(frame_, 0, sizeof(shared::Frame));
-  copy(lights_, sizeof(shared::Frame), host_lights_.size() * sizeof(shared::Light));
-  copy(spheres_, sizeof(shared::Frame) + lights_.bytes(), host_lights_.size() * sizeof(shared::LightSphere));
-  copy(decals_, sizeof(shared::Frame) + lights_.bytes() + spheres_.bytes(),
-       host_frame_.box_count * sizeof(gpu::DecalData));
+  copy(frame_, frame_.bytes());
+  copy(lights_, host_lights_.size() * sizeof(shared::Light));
+  copy(spheres_, host_lights_.size() * sizeof(shared::LightSphere));
+  copy(decals_, frame_of(0).box_count * sizeof(gpu::DecalData));
 }
 
-vulkan::PlanInputs FrameData::plan_inputs(const vulkan::Resource& depth) const {
+vulkan::PlanInputs FrameData::plan_inputs(std::span<const vulkan::Resource> depths) const {
   return {.frame = frame_.handle(),
           .lights = lights_.handle(),
           .spheres = spheres_.handle(),
-          .depth = depth,
+          .depth = depths.front(),
+          .depths = depths,
           .host_lights = host_lights_,
-          .host_frame = &host_frame_};
+          .host_frame = host_frames_.data()};
 }
 
 }  // namespace lamp::app

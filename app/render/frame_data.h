@@ -1,4 +1,4 @@
-// What changes every frame, on the GPU: the camera's record, the lights, and the decals behind them (entity.h).
+// What changes every frame, on the GPU: the cameras' records, the lights, and the decals behind them (entity.h).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,12 +14,14 @@ namespace lamp::app {
 
 class FrameData {
  public:
-  FrameData(const vulkan::Device& device, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0);
+  FrameData(const vulkan::Device& device, std::uint32_t light_capacity, std::uint32_t decal_capacity = 0,
+            std::uint32_t views = 1);
 
   /// Host side; the copies are recorded by the next `record_upload`.
-  void set(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
-  /// The same lights and decals, seen otherwise.
-  void set_view(const View& view);
+  void set(std::span<const View> views, std::span<const shared::Light> lights,
+           std::span<const gpu::DecalData> decals = {});
+  /// The same lights and decals, seen otherwise: by one view, in a place among a frame's.
+  void set_view(const View& view, std::uint32_t index = 0);
   /// Nothing if it was recorded before, and nothing has been set since.
   void record_upload(vulkan::Recorder& recorder);
 
@@ -33,18 +35,22 @@ class FrameData {
   [[nodiscard]] vulkan::Resource decals() const { return vulkan::Resource::storage(decals_.handle()); }
   /// The ids of lights and decals.
   [[nodiscard]] EntityRanges entities() const {
-    return entity_ranges(host_frame_.light_count - host_frame_.box_count, host_frame_.box_count);
+    return entity_ranges(frame_of(0).light_count - frame_of(0).box_count, frame_of(0).box_count);
   }
-  [[nodiscard]] vulkan::PlanInputs plan_inputs(const vulkan::Resource& depth) const;
+  /// `depths`: of each view one; they are kept by the caller.
+  [[nodiscard]] vulkan::PlanInputs plan_inputs(std::span<const vulkan::Resource> depths) const;
 
  private:
+  [[nodiscard]] const shared::Frame& frame_of(std::uint32_t view) const { return host_frames_[view]; }
+
   vulkan::Buffer frame_;
   vulkan::Buffer lights_;   ///< and a record for each decal
   vulkan::Buffer spheres_;  ///< of all these
   vulkan::Buffer decals_;
-  vulkan::Buffer staging_;  ///< shared::Frame, then the lights with the decals' records, their spheres, the decals
-  bool changed_ = true;     ///< since the last upload
-  shared::Frame host_frame_{};
+  vulkan::Buffer
+      staging_;  ///< a shared::Frame of each view, then the lights with the decals' records, their spheres, the decals
+  bool changed_ = true;  ///< since the last upload
+  std::vector<shared::Frame> host_frames_;
   std::vector<shared::Light> host_lights_;  ///< with the decals' records
 };
 

@@ -117,7 +117,7 @@ void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
     frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
   if (!decals_) return;
   record_cull(recorder, frame);
-  decals_->record(recorder, frame.data, frame.targets, runner_.lookup(frame.inputs));
+  decals_->record(recorder, frame.data, frame.targets, runner_.lookup(frame.inputs, Passes::separate, frame.view));
 }
 
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
@@ -145,7 +145,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}},
                                 .depth = &frame.targets.depth,
                                 .depth_use = Attachments::Depth::test};
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs);
+  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs, Passes::separate, frame.view);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
@@ -165,7 +165,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
 
 void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame) {
   const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}}};
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs);
+  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs, Passes::separate, frame.view);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
   bound = with_shadows(std::move(bound), frame);
@@ -184,7 +184,8 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
 
 void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate);
+  const vulkan::BoundLookUp lookup =
+      runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate, frame.view);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame_constants()},
                  {2, frame.targets.hdr.storage()},
@@ -245,7 +246,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   });
   const Attachments attachments{
       .colors = {{&frame.targets.hdr}}, .depth = &frame.targets.depth, .depth_use = Attachments::Depth::test};
-  const vulkan::BoundLookUp lookup = runner.lookup(frame.inputs);
+  const vulkan::BoundLookUp lookup = runner.lookup(frame.inputs, Passes::separate, frame.view);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),

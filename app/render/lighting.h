@@ -19,7 +19,8 @@ struct LightingFrame {
   const FrameData& data;
   const Targets& targets;
   const Geometry& geometry;
-  vulkan::PlanInputs inputs;               ///< what is culled: `data` and `targets.depth`, or more samples than those
+  vulkan::PlanInputs inputs;               ///< what is culled: `data` and `targets.depth`, or more views and samples
+  std::uint32_t view = 0;                  ///< which of them `data` is
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   glm::vec3 eye{0.0F};
   ShadowBound shadows{};        ///< what look-ups of shadows bind

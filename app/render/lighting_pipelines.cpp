@@ -16,6 +16,7 @@ namespace {
 constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_WALK = 11;
 constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
+constexpr std::uint32_t CONSTANT_SEVERAL_VIEWS = 18;
 constexpr std::uint32_t SHADE_GROUP_PX = 8;  // without a fused cull: a subgroup lies within the smallest tile
 
 template <class T>
@@ -42,7 +43,8 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
       .name = name, .constants = vulkan::lookup_constants(plan.lookup), .bindings = mesh_bindings()};
   append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
                               {CONSTANT_BOXES, info.decals ? 1U : 0U},
-                              {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U}});
+                              {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U},
+                              shown_view_constant(plan)});
   pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
@@ -55,7 +57,7 @@ vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLib
   vulkan::PipelineInfo pipeline{.name = "forward+, captured",
                                 .constants = vulkan::lookup_constants(plan.lookup),
                                 .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
-  pipeline.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)});
+  append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shown_view_constant(plan)});
   pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
@@ -78,7 +80,8 @@ vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLib
                         {CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
                         {CONSTANT_WALK, walks ? 1U : 0U},
                         {CONSTANT_FIRST_ROW, info.shaded.first},
-                        {CONSTANT_BOXES, info.decals ? 1U : 0U}};
+                        {CONSTANT_BOXES, info.decals ? 1U : 0U},
+                        shown_view_constant(plan)};
   add_shadows(pipeline, info.shadows);
   append(pipeline.constants, vulkan::lookup_constants(lookup));
   append(pipeline.bindings, vulkan::lookup_bindings(lookup));
@@ -95,6 +98,7 @@ std::span<const std::string_view> path_names() {
 Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
   return {.width = info.width,
           .height = info.height,
+          .views = info.depth.views,
           .light_capacity = info.light_capacity,
           .options = info.options,
           .traits = traits,
@@ -112,6 +116,8 @@ std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, c
   any_depth.options = take(resolve_options(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}));
   return plan_or_throw(any_depth, device);
 }
+
+vulkan::Constant shown_view_constant(const Plan& plan) { return {CONSTANT_SEVERAL_VIEWS, plan.views > 1 ? 1U : 0U}; }
 
 bool is_fused(const LightingInfo& info, const Plan& plan) {
   // Decals must be in the G-buffer before it is lit, and need the cells for that: the cull comes first.

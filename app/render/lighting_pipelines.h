@@ -59,6 +59,9 @@ struct LightingInfo {
 [[nodiscard]] std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan,
                                                  const vulkan::Device& device);
 
+/// Whether shaders ask which of several views they draw (common/shown_view.glsl).
+[[nodiscard]] vulkan::Constant shown_view_constant(const Plan& plan);
+
 /// Whether one dispatch culls and shades.
 [[nodiscard]] bool is_fused(const LightingInfo& info, const Plan& plan);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <ranges>
 
 #include "gpu/check.h"
 #include "render/antialias.h"
@@ -15,7 +16,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t MAX_PASSES = 64;
+constexpr std::uint32_t MAX_PASSES = 64;  // of a view
 
 std::unique_ptr<Targets> make_targets(const vulkan::Device& device, std::uint32_t width, std::uint32_t height) {
   const std::uint32_t limit = device.traits.max_image_size;
@@ -77,12 +78,17 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
       geometry_(context.device(), shaders, depth),
       no_shadows_(context.device()),
       light_capacity_(light_capacity),
-      timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES))) {
-  if (depth.samples == 1) return;
-  check_depth_samples(context.device(), depth.samples);
-  all_samples_ = AllSamples{
-      .data = FrameData(context.device(), light_capacity, decal_capacity),
-      .depth = SampledDepth(context.device(), shaders, {.samples = depth.samples, .width = width, .height = height})};
+      timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES * depth.views))) {
+  if (depth.several()) {
+    check_depth_samples(context.device(), depth.samples);
+    all_pictures_ = AllPictures{.data = FrameData(context.device(), light_capacity, decal_capacity, depth.views)};
+    for (std::uint32_t i = 0; i < depth.views; ++i)
+      all_pictures_->depths.emplace_back(context.device(), shaders,
+                                         SampledDepthInfo{.samples = depth.samples, .width = width, .height = height});
+    for (const SampledDepth& of_view : all_pictures_->depths) culled_depths_.push_back(of_view.image().sampled());
+  } else {
+    culled_depths_.push_back(targets_->depth.sampled());
+  }
 }
 
 void Renderer::cast_shadows(const ShadowSettings& settings) {
@@ -90,26 +96,37 @@ void Renderer::cast_shadows(const ShadowSettings& settings) {
   shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_);
 }
 
-void Renderer::set_frame(const View& view, std::span<const shared::Light> lights,
+void Renderer::set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
-  assert(view.reversed_depth() == depth_.reversed && "make a Renderer for the other direction");
-  const bool moves = view != view_;
-  view_ = view;
-  if (moves || depth_.samples > 1) forget_surfaces();
-  sample_view_ = view;
-  data_.set(view, lights, decals);
-  if (shadows_) shadows_->schedule(view, lights);
-  if (!all_samples_) return;
-  all_samples_->data.set(view, lights, decals);
-  if (moves) draw_samples();
-  set_sample(0);
+  assert(views.size() == depth_.views && "make a Renderer for another number of views");
+  assert(views.front().reversed_depth() == depth_.reversed && "make a Renderer for the other direction");
+  const bool moves = !std::ranges::equal(views, views_);
+  views_.assign(views.begin(), views.end());
+  if (moves || all_pictures_) forget_surfaces();
+  shown_ = {};
+  shown_view_ = views_.front();
+  data_.set({&shown_view_, 1}, lights, decals);
+  if (shadows_) shadows_->schedule(views_, lights);
+  if (!all_pictures_) return;
+  all_pictures_->data.set(views_, lights, decals);
+  if (moves) draw_depths();
+  show({});
 }
 
-void Renderer::set_sample(std::uint32_t sample) {
-  if (!all_samples_) return;
+void Renderer::show(const FramePicture& shown) {
+  if (!all_pictures_) return;
   forget_surfaces();
-  sample_view_ = shifted(view_, sample_places(depth_.samples)[sample] - 0.5);
-  data_.set_view(sample_view_);
+  shown_ = shown;
+  shown_view_ = views_[shown.view];
+  if (depth_.samples > 1) shown_view_ = shifted(shown_view_, sample_places(depth_.samples)[shown.sample] - 0.5);
+  data_.set_view(shown_view_, shown.view);
+}
+
+std::vector<FramePicture> Renderer::all_pictures() const {
+  std::vector<FramePicture> all;
+  for (std::uint32_t view = depth_.views; view-- != 0;)
+    for (std::uint32_t sample = depth_.samples; sample-- != 0;) all.push_back({view, sample});
+  return all;
 }
 
 void Renderer::forget_surfaces() {
@@ -118,26 +135,26 @@ void Renderer::forget_surfaces() {
   kept_.reset();
 }
 
-void Renderer::draw_samples() {
-  for (std::uint32_t i = 0; i < depth_.samples; ++i) {
-    set_sample(i);
+void Renderer::draw_depths() {
+  const std::vector<FramePicture> all = all_pictures();
+  for (const FramePicture& shown : all | std::views::reverse) {  // a view's first sample clears its others
+    show(shown);
     submit(nullptr, [&](VkCommandBuffer commands) {
       vulkan::Recorder recorder(context_.device(), commands, tracker_);
       record_upload(recorder);
       geometry_.record_depth(recorder, scene_, data_, *targets_);
-      all_samples_->depth.record(recorder, targets_->depth, i);
+      all_pictures_->depths[shown.view].record(recorder, targets_->depth, shown.sample);
     });
   }
 }
 
 vulkan::PlanInputs Renderer::plan_inputs() const {
-  return all_samples_ ? all_samples_->data.plan_inputs(all_samples_->depth.image().sampled())
-                      : data_.plan_inputs(targets_->depth.sampled());
+  return (all_pictures_ ? all_pictures_->data : data_).plan_inputs(culled_depths_);
 }
 
 void Renderer::record_upload(vulkan::Recorder& recorder) {
   data_.record_upload(recorder);
-  if (all_samples_) all_samples_->data.record_upload(recorder);
+  if (all_pictures_) all_pictures_->data.record_upload(recorder);
 }
 
 LightingFrame Renderer::lighting_frame() const {
@@ -146,8 +163,9 @@ LightingFrame Renderer::lighting_frame() const {
           .targets = *targets_,
           .geometry = geometry_,
           .inputs = plan_inputs(),
+          .view = shown_.view,
           .kept = kept_ ? &*kept_ : nullptr,
-          .eye = glm::vec3(sample_view_.world_from_view()[3]),
+          .eye = glm::vec3(shown_view_.world_from_view()[3]),
           .shadows = shadow_bound()};
 }
 
@@ -324,10 +342,10 @@ std::vector<float> Renderer::draw_depth() {
 
 CapturedFrame Renderer::capture(Lighting* decals) {
   draw_surfaces(decals);
-  return decode(sample_view_, {.depth = read_depth(),
-                               .base_color = read_texels<glm::u8vec4>(targets_->base_color),
-                               .surface = read_texels<glm::uvec2>(targets_->surface),
-                               .emission = read_texels<glm::u16vec4>(targets_->emission)});
+  return decode(shown_view_, {.depth = read_depth(),
+                              .base_color = read_texels<glm::u8vec4>(targets_->base_color),
+                              .surface = read_texels<glm::uvec2>(targets_->surface),
+                              .emission = read_texels<glm::u16vec4>(targets_->emission)});
 }
 
 vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
@@ -341,6 +359,7 @@ vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
   const Plan& plan = pass.lighting->runner().plan();
   const LookUp& lookup = is_fused(pass) ? plan.fused->lookup : plan.lookup;
   info.constants = vulkan::lookup_constants(lookup);
+  info.constants.push_back(shown_view_constant(plan));
   const glm::uvec2 group_px = group_of(pass);
   info.constants.push_back({0, group_px.x});
   info.constants.push_back({1, group_px.y});
@@ -374,7 +393,7 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
       uses.push_back({.resource = storage.resource, .stages = COMPUTE, .access = storage.access});
     }
     if (pass.lighting != nullptr) {
-      const vulkan::BoundLookUp lookup = pass.lighting->runner().lookup(inputs, pass.which);
+      const vulkan::BoundLookUp lookup = pass.lighting->runner().lookup(inputs, pass.which, shown_.view);
       bound.insert(bound.end(), lookup.resources.begin(), lookup.resources.end());
       uses.insert(uses.end(), lookup.uses.begin(), lookup.uses.end());
     }

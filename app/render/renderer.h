@@ -73,12 +73,23 @@ class Renderer {
 
   /// Camera, lights and decals of the next frames; depth runs as the renderer was told. A Lighting shows decals only if
   /// it was made for them.
-  void set_frame(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {});
+  void set_frame(const View& view, std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals = {}) {
+    set_frame(std::span(&view, 1), lights, decals);
+  }
+  /// The same with as many views as the renderer was told, all of the targets' size.
+  void set_frame(std::span<const View> views, std::span<const shared::Light> lights,
+                 std::span<const gpu::DecalData> decals = {});
 
-  /// Where depth has several samples a pixel, lights are culled with all of them, and frames draw and shade one: the
-  /// pixels are seen through that sample's place. The first, unless another is chosen, until the next `set_frame`.
-  void set_sample(std::uint32_t sample);
+  /// Where there are several views, or several samples a pixel, lights are culled for all of them at once, and frames
+  /// draw and shade one: the first, unless another is chosen, until the next `set_frame`. Pixels of a sample are seen
+  /// through its place.
+  void show(const FramePicture& shown);
+  /// All of a frame; the first comes last, so that who goes through them leaves it shown.
+  [[nodiscard]] std::vector<FramePicture> all_pictures() const;
   [[nodiscard]] const HostDepth& depth() const { return depth_; }
+  /// Of the frame, not through a sample.
+  [[nodiscard]] const std::vector<View>& views() const { return views_; }
+  [[nodiscard]] const FramePicture& shown() const { return shown_; }
 
   /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
@@ -148,8 +159,8 @@ class Renderer {
   [[nodiscard]] const FrameData& data() const { return data_; }
   [[nodiscard]] Context& context() { return context_; }
   [[nodiscard]] const vulkan::Device& device() const { return context_.device(); }
-  /// Through the sample that is drawn.
-  [[nodiscard]] const View& view() const { return sample_view_; }
+  /// That is drawn, through its sample.
+  [[nodiscard]] const View& view() const { return shown_view_; }
   [[nodiscard]] EntityRanges entities() const { return data_.entities(); }
 
  private:
@@ -163,7 +174,7 @@ class Renderer {
   [[nodiscard]] vulkan::PlanInputs plan_inputs() const;
   void record_upload(vulkan::Recorder& recorder);
   void forget_surfaces();
-  void draw_samples();
+  void draw_depths();
   template <class Texel>
   [[nodiscard]] std::vector<Texel> read_texels(const GpuImage& image);
 
@@ -174,16 +185,18 @@ class Renderer {
   std::unique_ptr<Targets> targets_;
   FrameData data_;
   Geometry geometry_;
-  View view_;
-  View sample_view_;
-  /// What lights are culled with where depth has several samples a pixel.
-  struct AllSamples {
-    FrameData data;  ///< of view_
-    SampledDepth depth;
+  std::vector<View> views_;
+  FramePicture shown_;
+  View shown_view_;
+  /// What lights are culled with where there are several views, or several samples a pixel.
+  struct AllPictures {
+    FrameData data;
+    std::vector<SampledDepth> depths;  ///< one a view
   };
-  std::optional<AllSamples> all_samples_;
-  bool surfaces_drawn_ = false;           ///< the G-buffer has those of sample_view_, without decals
-  std::optional<CapturedSurfaces> kept_;  ///< of sample_view_
+  std::optional<AllPictures> all_pictures_;
+  std::vector<vulkan::Resource> culled_depths_;  ///< one a view
+  bool surfaces_drawn_ = false;                  ///< the G-buffer has those of shown_view_, without decals
+  std::optional<CapturedSurfaces> kept_;         ///< of shown_view_
   NoShadows no_shadows_;
   std::optional<Shadows> shadows_;
   std::uint32_t light_capacity_;

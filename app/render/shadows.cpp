@@ -133,11 +133,11 @@ void Shadows::make_pipelines(const vulkan::Device& device, const ShaderLibrary& 
   masked_ = take(vulkan::Pipeline::graphics(device, draw, shaders.spirv("shadow"), shaders.spirv("depth"), state));
 }
 
-void Shadows::schedule(const View& view, std::span<const shared::Light> lights) {
+void Shadows::schedule(std::span<const View> views, std::span<const shared::Light> lights) {
   const auto shadowed = lights.first(std::min<std::size_t>(lights.size(), settings_.lights));
   if (std::exchange(changed_, true)) schedule_.redraw_all();  // nobody drew the last one
-  const ShadowFrame frame = take(
-      schedule_.schedule({.views = std::span(&view, 1), .lights = shadowed, .budget_texels = settings_.budget_texels}));
+  const ShadowFrame frame =
+      take(schedule_.schedule({.views = views, .lights = shadowed, .budget_texels = settings_.budget_texels}));
   counts_ = frame.counts;
   waiting_.assign(frame.waiting.begin(), frame.waiting.end());
   without_.assign(frame.without.begin(), frame.without.end());

@@ -55,7 +55,7 @@ class Shadows {
           std::uint32_t light_capacity);
 
   /// Of the next frame.
-  void schedule(const View& view, std::span<const shared::Light> lights);
+  void schedule(std::span<const View> views, std::span<const shared::Light> lights);
   /// Draws and uploads what the last `schedule` asked for; nothing if that is done.
   void record(vulkan::Recorder& recorder);
 

@@ -63,7 +63,7 @@ Findings of_both(Findings separate, const Findings& fused) {
   return separate;
 }
 
-void Verification::add(const Truth& truth, std::span<const Visit> visits) {
+void Verification::add(const Truth& truth, std::span<const Visit> visits, const FramePicture& of) {
   assert(visits.size() + 1 == truth.offsets.size() && "visit the rows that the truth speaks of");
   sums_.boundary_pairs += truth.boundary_pairs;
   std::uint64_t last_cell = ~0ULL;
@@ -71,10 +71,10 @@ void Verification::add(const Truth& truth, std::span<const Visit> visits) {
   for (std::size_t pixel = 0; pixel < visits.size(); ++pixel) {
     if (visits[pixel].cell == gpu::SKY_CELL) continue;
     if (visits[pixel].ended) {
-      if (sums_.unfollowed++ == 0) sums_.first_unfollowed = words_of_pixel(truth, pixel);
+      if (sums_.unfollowed++ == 0) sums_.first_unfollowed = words_of_pixel(truth, pixel, of);
       continue;
     }
-    add_pixel(truth, pixel, visits[pixel]);
+    add_pixel(truth, pixel, visits[pixel], of);
     if (visits[pixel].cell != last_cell)
       cell_lengths_.push_back(std::uint64_t{visits[pixel].cell} << 32 | visits[pixel].visited);
     last_cell = visits[pixel].cell;
@@ -87,20 +87,26 @@ void Verification::add(const Truth& truth, std::span<const Visit> visits) {
   sort_unique(cell_lengths_);
 }
 
-std::string Verification::words_of_pixel(const Truth& truth, std::size_t pixel) const {
-  return fmt::format("pixel ({}, {})", pixel % width_, truth.first_row + pixel / width_);
+std::string Verification::words_of_pixel(const Truth& truth, std::size_t pixel, const FramePicture& of) const {
+  std::string words;
+  if (depth_.views > 1) words += fmt::format("view {}, ", of.view);
+  if (depth_.samples > 1) words += fmt::format("sample {}, ", of.sample);
+  return words + fmt::format("pixel ({}, {})", pixel % width_, truth.first_row + pixel / width_);
 }
 
-void Verification::add_pixel(const Truth& truth, std::size_t pixel, const Visit& visit) {
+void Verification::add_pixel(const Truth& truth, std::size_t pixel, const Visit& visit, const FramePicture& of) {
   sums_.missed += visit.missed;
   sums_.evaluations += visit.visited;
   sums_.useful += truth.offsets[pixel + 1] - truth.offsets[pixel];
   sums_.list_max = std::max(sums_.list_max, visit.visited);
   sums_.unordered = sums_.unordered || visit.unordered != 0;
-  if (visit.missed != 0)
-    misses_.push_back({static_cast<std::uint32_t>(std::size_t{width_} * truth.first_row + pixel), visit.missed});
+  if (visit.missed != 0) {
+    const std::size_t row = truth.first_row + pixel / width_;
+    const std::size_t in_picture = (row * depth_.views + of.view) * width_ + pixel % width_;
+    misses_.push_back({static_cast<std::uint32_t>(in_picture), visit.missed});
+  }
   if (visit.missed != 0 && sums_.first_miss.empty())
-    sums_.first_miss = fmt::format("{}: light {}", words_of_pixel(truth, pixel), visit.first_missed);
+    sums_.first_miss = fmt::format("{}: light {}", words_of_pixel(truth, pixel, of), visit.first_missed);
   for (std::uint32_t i = truth.offsets[pixel]; i < truth.offsets[pixel + 1]; ++i)
     cell_lights_.push_back(std::uint64_t{visit.cell} << 32 | truth.lights[i]);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "oracle/reference.h"
+#include "render/host_depth.h"
 #include "render/visit.h"
 
 namespace lamp::app {
@@ -28,7 +29,7 @@ inline constexpr std::uint64_t ORACLE_PAIRS = 20'000'000'000;
 
 /// A pixel whose list lacks lights that reach it.
 struct PixelMisses {
-  std::uint32_t pixel = 0;  ///< x + width * y
+  std::uint32_t pixel = 0;  ///< x + width * y of the picture, in which views stand side by side
   std::uint32_t missed = 0;
 
   friend bool operator==(const PixelMisses&, const PixelMisses&) = default;
@@ -68,17 +69,19 @@ struct Findings {
 /// Collects findings over the bands of a picture.
 class Verification {
  public:
-  explicit Verification(std::uint32_t width) : width_(width) {}
-  void add(const Truth& truth, std::span<const Visit> visits);
+  /// `width`: of a view.
+  explicit Verification(std::uint32_t width, const HostDepth& depth = {}) : width_(width), depth_(depth) {}
+  void add(const Truth& truth, std::span<const Visit> visits, const FramePicture& of = {});
   [[nodiscard]] Findings findings() const;
   /// Where lights are missed, in the order of `add`.
   [[nodiscard]] std::span<const PixelMisses> misses() const { return misses_; }
 
  private:
-  [[nodiscard]] std::string words_of_pixel(const Truth& truth, std::size_t pixel) const;
-  void add_pixel(const Truth& truth, std::size_t pixel, const Visit& visit);
+  [[nodiscard]] std::string words_of_pixel(const Truth& truth, std::size_t pixel, const FramePicture& of) const;
+  void add_pixel(const Truth& truth, std::size_t pixel, const Visit& visit, const FramePicture& of);
 
   std::uint32_t width_;
+  HostDepth depth_;
   Findings sums_;
   std::vector<PixelMisses> misses_;
   std::vector<std::uint64_t> cell_lights_;   ///< cell << 32 | light, sorted and unique after each band

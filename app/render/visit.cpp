@@ -62,9 +62,11 @@ class Visitor {
 
   std::vector<Visit> run() {
     while (met_.size() + 1 < truth_.offsets.size()) walk(part_from(truth_, met_.size(), max_bytes()));
+    const auto first_cell = static_cast<std::uint32_t>(renderer_.shown().view *
+                                                       lighting_.runner().plan().cells);  // come again from 2^32 on
     for (const gpu::Met& met : met_)
       visits_.push_back({.visited = met.visited,
-                         .cell = met.cell,
+                         .cell = met.cell == gpu::SKY_CELL ? met.cell : first_cell + met.cell,
                          .hash = met.hash,
                          .unordered = met.unordered != 0,
                          .ended = met.ended != 0});

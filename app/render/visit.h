@@ -10,7 +10,7 @@ namespace lamp::app {
 
 struct Visit {
   std::uint32_t visited = 0;         ///< lights walked
-  std::uint32_t cell = 0;            ///< of the look-up; SKY_CELL for sky
+  std::uint32_t cell = 0;            ///< of the look-up, views one behind the other; SKY_CELL for sky
   std::uint32_t missed = 0;          ///< lights of the truth that the walk did not bring
   std::uint32_t first_missed = ~0U;  ///< the least of them
   std::uint32_t hash = 0;            ///< of the lights walked, in their order

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <vector>
 
 #include "error.h"
@@ -108,6 +110,11 @@ void check_projection_name(std::string_view projection) {
                           fmt::join(nearest_names(projection, PROJECTIONS), ", ")));
 }
 
+/// The same view from elsewhere: `moved` of its view space.
+View placed(const View& view, const glm::dmat4& moved) {
+  return View::create(view.width(), view.height(), view.clip_from_view(), moved * view.view_from_world()).value();
+}
+
 }  // namespace
 
 Camera flight_camera(const Flight& flight, std::uint32_t frame) {
@@ -168,6 +175,20 @@ const Camera& find_camera(const Scene& scene, std::string_view name) {
   throw Error(fmt::format("{}: camera '{}': there is no such camera; {} {}", scene.name, name,
                           names.size() > MOST_NAMED ? "the nearest are" : "there are",
                           fmt::join(nearest_names(name, names, MOST_NAMED), ", ")));
+}
+
+std::vector<View> both_eyes(const View& view, double apart_m) {
+  std::vector<View> eyes;
+  for (const double to_the_right : {-0.5 * apart_m, 0.5 * apart_m})
+    eyes.push_back(placed(view, glm::translate(glm::dmat4(1.0), glm::dvec3(-to_the_right, 0.0, 0.0))));
+  return eyes;
+}
+
+std::vector<View> all_around(const View& view, std::uint32_t count) {
+  std::vector<View> views{view};
+  for (std::uint32_t i = 1; i < count; ++i)
+    views.push_back(placed(view, glm::rotate(glm::dmat4(1.0), glm::two_pi<double>() * i / count, {0.0, 1.0, 0.0})));
+  return views;
 }
 
 }  // namespace lamp::app

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lamplight/view.h"
 #include "scene/scene.h"
@@ -28,6 +29,13 @@ namespace lamp::app {
 /// The view of a camera for a picture. Throws Error for an unknown projection (with the nearest names) or a bad size.
 [[nodiscard]] View view_of(const Camera& camera, std::uint32_t width, std::uint32_t height,
                            std::string_view projection);
+
+/// The views of two eyes beside a view, left and right, so many metres apart and looking the same way. Each has the
+/// size and projection of `view`.
+[[nodiscard]] std::vector<View> both_eyes(const View& view, double apart_m);
+
+/// `view` and others that stand where it does, turned about its vertical by equal parts of a circle.
+[[nodiscard]] std::vector<View> all_around(const View& view, std::uint32_t count);
 
 /// The scene's camera of that name, or its first when the name is empty. Throws Error with the names there are.
 [[nodiscard]] const Camera& find_camera(const Scene& scene, std::string_view name);

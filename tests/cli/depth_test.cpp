@@ -1,6 +1,5 @@
-// --depth and --depth-samples: every method misses nothing at any sample, whichever way depth runs; bench takes both;
-// what they do not go with is refused.
-// SPDX-License-Identifier: Apache-2.0
+// --depth, --depth-samples, --stereo, --views: every method misses nothing at any sample of any view, whichever way
+// depth runs; bench takes the first two; what they do not go with is refused. SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_test.h"
@@ -17,6 +16,16 @@ const Arguments SMALL{"--lights", "70", "--size", "37x23"};
 Arguments with(Arguments arguments, const Arguments& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+/// Of a PNG file's header: width, then height.
+std::pair<unsigned, unsigned> size_of_png(const std::string& bytes) {
+  const auto number_at = [&](std::size_t at) {
+    unsigned number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number = number << 8U | static_cast<unsigned char>(bytes.at(at + i));
+    return number;
+  };
+  return {number_at(16), number_at(20)};
 }
 
 TEST_F(DepthTest, NoMethodMissesALightAtAnySample) {
@@ -36,6 +45,31 @@ TEST_F(DepthTest, VerifiesDecalsAtEverySample) {
                                  SMALL));
   EXPECT_EQ(rows.at(0).at("missed"), 0);
   EXPECT_GT(rows.at(0).at("decals"), 0);
+}
+
+TEST_F(DepthTest, NoMethodMissesALightInAnyView) {
+  const auto rows = json_of(with({"verify", "posts", "--views", "3", "--json"}, SMALL));
+  EXPECT_GE(rows.size(), 20);
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.at("method"));
+    EXPECT_EQ(row.at("views"), 3);
+    if (!row.at("approximate").get<bool>()) {
+      EXPECT_EQ(row.at("missed"), 0);
+    }
+  }
+}
+
+TEST_F(DepthTest, BothEyesShareThePicture) {
+  const Arguments even{"--lights", "70", "--size", "38x24", "--method", "lamplight"};
+  const auto stats = json_of(with(
+      {"render", "posts", "--stereo", "0.5", "--samples", "1", "--heatmap", "heat.png", "--out", "eyes.png", "--json"},
+      even));
+  EXPECT_EQ(stats.at("views"), 2);
+  EXPECT_EQ(stats.at("width"), 19);
+  EXPECT_EQ(size_of_png(read("eyes.png")), std::pair(38U, 24U));
+  EXPECT_EQ(size_of_png(read("heat.png")).first, 38U);
+  const auto rows = json_of(with({"verify", "posts", "--stereo", "0.5", "--depth-samples", "4", "--json"}, even));
+  EXPECT_EQ(rows.at(0).at("missed"), 0);
 }
 
 TEST_F(DepthTest, IsMeasured) {
@@ -59,7 +93,13 @@ TEST_F(DepthTest, WhatDoesNotGoTogetherIsRefused) {
   expect_error(BAD_INPUT, {"compare", "tiled", "tight", "plane", "--depth", "standard"}, {"--depth"});
   expect_error(NO_DEVICE, with({"render", "plane", "--depth-samples", "8", "--device", "llvmpipe"}, SMALL),
                {"depth of 8 samples a pixel", "has depth images of 1, 4"});
+  expect_error(BAD_INPUT, with({"render", "plane", "--stereo", "0.064"}, SMALL), {"--size 37x23", "even width"});
+  expect_error(BAD_INPUT, {"verify", "plane", "--views", "9"}, {"--views", "1 to 8"});
+  expect_error(BAD_INPUT, {"verify", "plane", "--views", "3", "--stereo", "1"}, {"--views 3", "--stereo"});
+  expect_error(BAD_INPUT, {"verify", "plane", "--views", "2", "--verifier", "gpu"},
+               {"--verifier gpu", "several views"});
   static_cast<void>(output_of(with({"capture", "plane", "--out", "folder"}, SMALL)));
+  expect_error(BAD_INPUT, {"verify", "folder", "--views", "2"}, {"--views", "is one view"});
   expect_error(BAD_INPUT, {"verify", "folder", "--depth", "standard"}, {"--depth standard", "expected reversed"});
   expect_error(BAD_INPUT, {"verify", "folder", "--depth-samples", "4"}, {"--depth-samples 4", "expected 1"});
 }

@@ -1,5 +1,5 @@
-// The tool's frames with depth as hosts have it: pictures are those of reversed depth, and those of each sample.
-// SPDX-License-Identifier: Apache-2.0
+// The tool's frames with depth and views as hosts have them: pictures are those of reversed depth, those of each
+// sample, and those that each view has alone. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include "gpu/method_check.h"
@@ -101,12 +101,51 @@ TEST_F(HostDepths, ListsOfTheCentresLackLightsOfSamples) {
   static_cast<void>(one.draw_depth());
   std::uint64_t missed = 0;
   for (std::uint32_t sample = 0; sample < 4; ++sample) {
-    four.set_sample(sample);
+    four.show({.sample = sample});
     const std::vector<float> depth = four.draw_depth();
     const Truth lit = truth({.view = four.view(), .depth = depth, .lights = lights_, .rows = HEIGHT});
     for (const Visit& visit : four.visit(of_four, lit)) EXPECT_EQ(visit.missed, 0);
     for (const Visit& visit : one.visit(of_one, lit)) missed += visit.missed;
   }
+  EXPECT_GT(missed, 100);
+}
+
+TEST_F(HostDepths, EachViewIsShadedAsAPictureOfItsOwn) {
+  const std::vector<View> views = all_around(view_, 3);
+  Renderer one = renderer({});
+  Renderer together(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, LIGHTS, 0, {.views = 3});
+  together.set_frame(views, lights_);
+  for (const ShadingPath path : {ShadingPath::forward, ShadingPath::tiled_deferred, ShadingPath::deferred}) {
+    std::vector<HdrImage> alone;
+    for (const View& view : views) {
+      one.set_frame(view, lights_);
+      alone.push_back(picture(one, "all", path));
+    }
+    for (const char* method : {"tiled", "clustered", "lamplight"}) {
+      SCOPED_TRACE(fmt::format("{} {}", method, path_names()[static_cast<std::size_t>(path)]));
+      Lighting lit = lighting(together.depth(), method, path);
+      const HdrImage shown = render_views(together, lit, lights_, {}, {}).image;
+      EXPECT_LE(max_abs_difference(shown, side_by_side(alone)), 1e-4F);
+    }
+  }
+}
+
+// A check of one view alone would not find what the lists of another lack.
+TEST_F(HostDepths, ListsOfOneViewLackLightsOfAnother) {
+  const std::vector<View> eyes = both_eyes(view_, 1.0);
+  Renderer two(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, LIGHTS, 0, {.views = 2});
+  two.set_frame(eyes, lights_);
+  Lighting of_two = lighting(two.depth(), "tight", ShadingPath::deferred);
+  Renderer left = renderer({});
+  left.set_frame(eyes[0], lights_);
+  static_cast<void>(left.draw_depth());
+  Lighting of_left = lighting({}, "tight", ShadingPath::deferred);
+  two.show({.view = 1});
+  const std::vector<float> depth = two.draw_depth();
+  const Truth lit = truth({.view = eyes[1], .depth = depth, .lights = lights_, .rows = HEIGHT});
+  for (const Visit& visit : two.visit(of_two, lit)) EXPECT_EQ(visit.missed, 0);
+  std::uint64_t missed = 0;
+  for (const Visit& visit : left.visit(of_left, lit)) missed += visit.missed;
   EXPECT_GT(missed, 100);
 }
 

@@ -14,7 +14,7 @@ OverDepth::OverDepth(const View& view, GpuImage depth, const std::vector<shared:
     : size_(view.width(), view.height()),
       depth_(std::move(depth)),
       data_(test_context().device(), static_cast<std::uint32_t>(lights.size())) {
-  data_.set(view, lights);
+  data_.set({&view, 1}, lights);
 }
 
 std::vector<std::uint32_t> OverDepth::per_pixel(const std::string& shader, vulkan::PlanRunner& runner, Passes which) {
@@ -24,7 +24,8 @@ std::vector<std::uint32_t> OverDepth::per_pixel(const std::string& shader, vulka
 std::vector<std::vector<std::uint32_t>> OverDepth::per_pixel(const std::vector<std::string>& shaders,
                                                              vulkan::PlanRunner& runner, Passes which,
                                                              std::uint32_t words) {
-  const vulkan::PlanInputs inputs = data_.plan_inputs(depth_.sampled());
+  const vulkan::Resource depth = depth_.sampled();
+  const vulkan::PlanInputs inputs = data_.plan_inputs({&depth, 1});
   const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
   const bool fused = which == Passes::fused;
   const glm::uvec2 group =

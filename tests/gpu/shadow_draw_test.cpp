@@ -135,7 +135,7 @@ TEST_P(ShadowDraw, ShowsWhatRaysMeet) {
   Shadows shadows(test_context(), shader_library(), scene.gpu, {.points = GetParam(), .atlas_size = ATLAS},
                   static_cast<std::uint32_t>(lights.size()));
   vulkan::AccessTracker tracker;
-  shadows.schedule(view, lights);
+  shadows.schedule({&view, 1}, lights);
   EXPECT_GE(shadows.counts().redrawn, 3U);
   draw(shadows, tracker);
   const std::vector<float> texels = read_atlas(shadows, tracker);
@@ -153,13 +153,13 @@ TEST_P(ShadowDraw, ShowsWhatRaysMeet) {
   // Drawn again in the same squares after a move, with nothing of before left, and then not at all.
   std::vector<shared::Light> moved = lights;
   moved[0].position.x += 1.0F;
-  shadows.schedule(view, moved);
+  shadows.schedule({&view, 1}, moved);
   draw(shadows, tracker);
-  shadows.schedule(view, lights);
+  shadows.schedule({&view, 1}, lights);
   draw(shadows, tracker);
   EXPECT_EQ(shadows.counts().redrawn, 1U);
   EXPECT_EQ(read_atlas(shadows, tracker), texels);
-  shadows.schedule(view, lights);
+  shadows.schedule({&view, 1}, lights);
   EXPECT_EQ(shadows.counts().redrawn, 0U);
 }
 
@@ -172,7 +172,7 @@ TEST_F(GpuTest, LeavesCastShadowsWithHoles) {
   Shadows shadows(test_context(), shader_library(), scene.gpu, {.atlas_size = ATLAS},
                   static_cast<std::uint32_t>(lights.size()));
   vulkan::AccessTracker tracker;
-  shadows.schedule(view, lights);
+  shadows.schedule({&view, 1}, lights);
   draw(shadows, tracker);
   std::uint32_t through = 0;
   std::uint32_t holes = 0;

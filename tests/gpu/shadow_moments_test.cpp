@@ -95,7 +95,7 @@ TEST_P(ShadowBlur, AreTheBlurOfTheirOwnSquare) {
                   {.filter = ShadowFilter::vsm, .points = GetParam(), .atlas_size = ATLAS},
                   static_cast<std::uint32_t>(lights.size()));
   vulkan::AccessTracker tracker;
-  shadows.schedule(view, lights);
+  shadows.schedule({&view, 1}, lights);
   ASSERT_GE(shadows.counts().shadowed, 4U);
   test_context().submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(test_context().device(), commands, tracker);

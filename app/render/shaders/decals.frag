@@ -8,6 +8,7 @@
 #include "lamplight/shared/frame.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+#include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
 #include "common/decals.glsl"

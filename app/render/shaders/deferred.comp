@@ -18,6 +18,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   DirectionalData directional_lights[];
 };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
+#include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
 #include "common/shade_group.glsl"

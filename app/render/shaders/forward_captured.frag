@@ -12,6 +12,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   Surroundings surroundings;
   DirectionalData directional_lights[];
 };
+#include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
 #include "common/shade_cell.glsl"

@@ -14,6 +14,7 @@ layout(push_constant) uniform Push {
   uint end_pixel;
   uint origin_row;  // of the dispatch
 };
+#include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "lookup/parts/each.glsl"
 #include "common/frame.glsl"

@@ -23,6 +23,7 @@ layout(push_constant) uniform Push {
   uint two;  // for loops_ended
 };
 #include "common/loops_ended.glsl"
+#include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "lookup/parts/each.glsl"
 #include "common/frame.glsl"

@@ -18,6 +18,7 @@ layout(push_constant) uniform Push {
   uint end_id;
   uint end_mark;  // of them, those that have a mark: there may be ids that nobody has
 };
+#include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "lookup/parts/each.glsl"
 #include "common/frame.glsl"

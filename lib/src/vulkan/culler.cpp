@@ -99,6 +99,7 @@ Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
       return Error{"depth offset", "expected where the picture begins in the depth image, got " +
                                        std::to_string(view.depth_offset.x) + ", " +
                                        std::to_string(view.depth_offset.y)};
+    seen.records[i].view_index = static_cast<std::uint32_t>(i);
     seen.records[i].depth_offset_px = {view.depth_offset.x, view.depth_offset.y};
     seen.depths[i] = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                       .image = view.depth_image,

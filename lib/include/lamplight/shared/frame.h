@@ -22,10 +22,10 @@ struct Frame {
   float stretch;          // the largest share by which view_from_world may change a length; 0: it is rigid
   uint sky_bits;          // device depth of the sky, as bits: 0.0 where depth is reversed, else 1.0
   uvec2 depth_offset_px;  // where the picture begins in the depth image
+  uint view_index;        // its place among the frame's views, for shaders that draw one of several
   uint reserved0;
   uint reserved1;
   uint reserved2;
-  uint reserved3;
 };
 
 #ifdef __cplusplus
