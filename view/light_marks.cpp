@@ -77,6 +77,31 @@ bool draw_light(const Marks& marks, const shared::Light& light, bool outlined) {
   return true;
 }
 
+/// To be popped by the caller.
+ImDrawList& clipped_to(const ScreenRect& picture) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.PushClipRect({static_cast<float>(picture.min.x), static_cast<float>(picture.min.y)},
+                    {static_cast<float>(picture.max.x), static_cast<float>(picture.max.y)});
+  return draw;
+}
+
+void draw_box(const Marks& marks, const shared::OrientedBox& box) {
+  const glm::vec3 axes[] = {box.half_extents.x * box.axis_x, box.half_extents.y * box.axis_y,
+                            box.half_extents.z * box.axis_z};
+  const auto corner = [&](std::uint32_t number) {
+    glm::vec3 at = box.center;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) at += (number >> axis & 1U) != 0 ? axes[axis] : -axes[axis];
+    return marks.at(at);
+  };
+  for (std::uint32_t from = 0; from < 8; ++from)
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      if ((from >> axis & 1U) != 0) continue;
+      const auto a = corner(from);
+      const auto b = corner(from | 1U << axis);
+      if (a && b) marks.draw.AddLine(*a, *b, IM_COL32(120, 255, 160, 200), 1.0F);
+    }
+}
+
 }  // namespace
 
 std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& position) {
@@ -88,9 +113,7 @@ std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& pos
 void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& picture) {
   const bool one = shown.state.light && *shown.state.light < shown.lights->size();
   if (which == LightMarks::none && !one) return;
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.PushClipRect({static_cast<float>(picture.min.x), static_cast<float>(picture.min.y)},
-                    {static_cast<float>(picture.max.x), static_cast<float>(picture.max.y)});
+  ImDrawList& draw = clipped_to(picture);
   const Marks marks{.view = shown.view, .picture = picture, .draw = draw};
   if (which == LightMarks::cell && shown.inspection) {
     for (const ListedLight& light : shown.inspection->lights) draw_light(marks, (*shown.lights)[light.light], true);
@@ -105,6 +128,13 @@ void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& pi
     draw_light(marks, light, true);
     if (const auto at = marks.at(light.position)) draw.AddCircle(*at, 3.0F * DOT_PX, IM_COL32_WHITE, 16, 2.0F);
   }
+  draw.PopClipRect();
+}
+
+void draw_decal_boxes(const Shown& shown, const ScreenRect& picture) {
+  ImDrawList& draw = clipped_to(picture);
+  const Marks marks{.view = shown.view, .picture = picture, .draw = draw};
+  for (const shared::OrientedBox& box : shown.decals) draw_box(marks, box);
   draw.PopClipRect();
 }
 

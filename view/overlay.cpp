@@ -149,7 +149,52 @@ Overlaid missed(const Walked& walked) {
       .legend = legend};
 }
 
+Overlaid difference(const Walked& walked) {
+  Legend legend{.overlay = Overlay::difference};
+  const auto more = [&](std::size_t i) {
+    return static_cast<std::int64_t>(walked.visits[i].visited) - static_cast<std::int64_t>(walked.other[i].visited);
+  };
+  std::uint64_t seen = 0;
+  for (std::size_t i = 0; i < walked.visits.size(); ++i) {
+    if (walked.visits[i].cell == SKY_CELL) continue;
+    ++seen;
+    legend.cells += more(i) != 0 ? 1 : 0;
+    legend.mean += static_cast<double>(more(i));
+    legend.max = std::max(legend.max, std::abs(static_cast<double>(more(i))));
+  }
+  if (seen != 0) legend.mean /= static_cast<double>(seen);
+  legend.high = std::max(legend.max, 1.0);
+  return {.pixels = for_pixels(walked,
+                               [&](std::size_t i) {
+                                 const glm::vec3 color(more(i) > 0 ? FIRST_WALKS_MORE : SECOND_WALKS_MORE);
+                                 // By the root, so that single lights show beside hundreds.
+                                 const double share = std::sqrt(std::abs(static_cast<double>(more(i))) / legend.high);
+                                 return rgba(glm::u8vec3(color * static_cast<float>(share) + 0.5F), MAP_ALPHA);
+                               }),
+          .legend = legend};
+}
+
 }  // namespace
+
+std::vector<ListLengths> list_lengths(std::span<const Visit> visits) {
+  std::unordered_map<std::uint32_t, std::uint32_t> lengths;
+  for (const Visit& visit : visits) {
+    if (visit.cell == SKY_CELL) continue;
+    std::uint32_t& length = lengths[visit.cell];
+    length = std::max(length, visit.visited);
+  }
+  std::vector<ListLengths> bins;
+  for (const auto& [cell, length] : lengths) {
+    const auto place = static_cast<std::size_t>(length == 0 ? 0 : 1 + std::bit_width(length - 1));
+    while (bins.size() <= place) {
+      const std::uint64_t high = bins.empty() ? 0 : std::uint64_t{1} << (bins.size() - 1);
+      bins.push_back({.low = bins.empty() ? 0 : bins.back().high + 1,
+                      .high = static_cast<std::uint32_t>(std::min<std::uint64_t>(high, ~0U))});
+    }
+    ++bins[place].cells;
+  }
+  return bins;
+}
 
 glm::u8vec3 palette_color(Palette palette, double position) {
   constexpr std::array<glm::u8vec3, 2> GREY{{{20, 20, 20}, {255, 255, 255}}};
@@ -176,6 +221,8 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
       return app::overflow(walked);
     case Overlay::missed:
       return app::missed(walked);
+    case Overlay::difference:
+      return difference(walked);
     case Overlay::none:
       break;
   }

@@ -17,6 +17,7 @@ struct Walked {
   const View& view;
   std::span<const Visit> visits;
   std::span<const float> depth;  ///< device depth, for Overlay::depth_range
+  std::span<const Visit> other;  ///< of the second method, for Overlay::difference
   std::uint32_t lights = 0;      ///< of the frame
   bool overflowed = false;       ///< some cells did not fit
   double scale_max = 0.0;        ///< the top of the scale; 0: from what is walked
@@ -30,7 +31,8 @@ struct Legend {
   double mean = 0.0;
   double max = 0.0;
   std::uint64_t cells = 0;  ///< that hold pixels; of Overlay::overflow, pixels that walk every light; of
-                            ///< Overlay::missed, pixels that miss one, and `max` is of how many pairs
+                            ///< Overlay::missed, pixels that miss one, and `max` is of how many pairs; of
+                            ///< Overlay::difference, pixels that differ, and `mean` is of the first less the second
 };
 
 /// RGBA of every pixel, eight bits each, red lowest. Alpha 0 leaves the picture as it is.
@@ -39,6 +41,22 @@ struct Overlaid {
   Legend legend;
 };
 [[nodiscard]] Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked);
+
+/// Cells whose lists have from `low` to `high` lights.
+struct ListLengths {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  std::uint64_t cells = 0;
+
+  friend bool operator==(const ListLengths&, const ListLengths&) = default;
+};
+/// Of the cells that hold a pixel: 0, 1, 2, 3 to 4, 5 to 8 and so on, up to the longest list. A cell whose pixels walk
+/// different lists counts with the longest.
+[[nodiscard]] std::vector<ListLengths> list_lengths(std::span<const Visit> visits);
+
+/// Colours of Overlay::difference: where the first walks more lights, and where the second does.
+inline constexpr glm::u8vec3 FIRST_WALKS_MORE{255, 150, 20};
+inline constexpr glm::u8vec3 SECOND_WALKS_MORE{50, 130, 255};
 
 /// A colour of the scale, at 0 .. 1.
 [[nodiscard]] glm::u8vec3 palette_color(Palette palette, double position);

@@ -111,6 +111,7 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
   Widgets::row("lights", fmt::format("{} listed, {} reach the pixel", found.lights.size(), reaching));
   Widgets::row("the cell", words_of(found.proof));
   draw_lights(found, state, widgets);
+  Widgets::note("Tests see the cell's pixels; the method's own cell may be larger.");
   edit_light(shown, state, widgets);
 }
 

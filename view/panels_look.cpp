@@ -68,9 +68,29 @@ void legend_text(const Legend& legend) {
                                          legend.cells, legend.max)
                                  .c_str());
       break;
+    case Overlay::difference:
+      ImGui::TextUnformatted(fmt::format("{} pixels walk other numbers of lights: A {:+.1f} on average, {:.0f} at most",
+                                         legend.cells, legend.mean, legend.max)
+                                 .c_str());
+      break;
     case Overlay::none:
       break;
   }
+}
+
+/// Which colour stands for which of two methods.
+void draw_sides() {
+  for (const auto& [color, words] :
+       {std::pair(FIRST_WALKS_MORE, "A walks more"), std::pair(SECOND_WALKS_MORE, "B walks more")}) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, color_of(color));
+    ImGui::Dummy({side, side});
+    ImGui::SameLine();
+    ImGui::TextUnformatted(words);
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
 }
 
 }  // namespace
@@ -88,8 +108,12 @@ void look_panel(PanelFrame& p) {
   }
   p.widgets.choose_word(
       "overlay", p.state.overlay, overlay_names(),
-      "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, or "
-      "those that did not fit.");
+      "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, those that did not "
+      "fit, what is missed, or how two methods differ.",
+      [&](std::string_view name) {
+        const bool needs_two = name == overlay_names()[static_cast<std::size_t>(Overlay::difference)];
+        return needs_two && !p.state.against ? std::string("needs a second method: see A against B, or press B") : "";
+      });
   p.widgets.choose_word("palette", p.state.palette, palette_names(),
                         "Colours of the scale. Blue-yellow and grey can be read with any colour vision.");
   bool dynamic = p.state.resolution == 0.0F;
@@ -111,6 +135,10 @@ void legend_window(const Shown& shown, const ScreenRect& picture) {
     legend_text(legend);
     if (legend.overlay == Overlay::heat || legend.overlay == Overlay::depth_range)
       draw_scale(legend, shown.state.palette);
+    if (legend.overlay == Overlay::difference) draw_sides();
+    if (shown.picture_difference)
+      ImGui::TextUnformatted(
+          fmt::format("largest difference of the two pictures: {:.3g}", *shown.picture_difference).c_str());
   }
   ImGui::End();
 }

@@ -30,6 +30,25 @@ void draw_times(const Times& times) {
   ImGui::EndTable();
 }
 
+/// A bar for each range of lengths, as wide as it has cells.
+void draw_lengths(std::span<const ListLengths> lengths) {
+  std::uint64_t most = 1;
+  for (const ListLengths& bin : lengths) most = std::max(most, bin.cells);
+  const float width = ImGui::GetWindowWidth() * 0.4F;
+  for (const ListLengths& bin : lengths) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFontSize();
+    const float part = static_cast<float>(bin.cells) / static_cast<float>(most);
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + std::max(1.0F, part * width), at.y + height},
+                                              ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+    ImGui::Dummy({width, height});
+    ImGui::SameLine();
+    const std::string lights =
+        bin.low == bin.high ? fmt::format("{}", bin.low) : fmt::format("{} to {}", bin.low, bin.high);
+    ImGui::TextUnformatted(fmt::format("{} lights: {} cells", lights, bin.cells).c_str());
+  }
+}
+
 }  // namespace
 
 void times_panel(PanelFrame& p) {
@@ -41,7 +60,14 @@ void times_panel(PanelFrame& p) {
   if (stats.findings)
     Widgets::row("lists", fmt::format("{:.1f} lights on average, {} at most", stats.findings->list_mean(),
                                       stats.findings->list_max));
+  p.widgets.check("list lengths", p.state.list_lengths, "Counts with every picture how long the cells' lists are.");
+  if (p.state.list_lengths && !p.shown.first.lengths.empty()) draw_lengths(p.shown.first.lengths);
   Widgets::row("overflowed", fmt::format("{} cells", stats.rendered.counters.overflowed_cells));
+  if (stats.rendered.counters.overflowed_cells != 0) {
+    const std::string reason = p.state.request.grow ? "lists are as long as options and device allow" : "";
+    if (p.widgets.button("make room for them", "Enlarges lists until every light fits.", reason))
+      p.state.request.grow = true;
+  }
   for (const auto& [name, bytes] : stats.bytes)
     Widgets::row(name, fmt::format("{:.3f} MB", static_cast<double>(bytes) * 1e-6));
 }

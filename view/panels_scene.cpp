@@ -108,6 +108,8 @@ void lights_panel(PanelFrame& p) {
   p.widgets.choose_word(
       "show lights", p.state.light_marks, light_mark_names(),
       "Draws where lights are and how far they reach: none, those of the cell that you look into, or all.");
+  p.widgets.check("decal boxes", p.state.decal_boxes, "Draws the outlines of all decals.",
+                  p.shown.decals.empty() ? "there are no decals" : "");
   if (!p.state.edits.empty() && p.widgets.button(fmt::format("undo the changes of {} lights", p.state.edits.size()),
                                                  "Every light becomes again what the options make it."))
     p.state.edits.clear();

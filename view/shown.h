@@ -21,6 +21,7 @@ struct ShownSide {
   Stats stats;  ///< as `lamp render --json` has them
   bool by_auto = false;
   Legend legend;
+  std::vector<ListLengths> lengths;  ///< where lists were walked
 };
 
 struct Shown {
@@ -31,13 +32,15 @@ struct Shown {
   float exposure = 1.0F;
   View view;
   std::shared_ptr<const std::vector<shared::Light>> lights;
+  std::vector<shared::OrientedBox> decals;
   std::uint32_t flight_frames = 0;  ///< 0: the scene has no flight
   bool captured = false;
   std::vector<std::string> cameras;  ///< of the scene
   Camera scene_camera;               ///< where the view is, unless the scene is captured
   std::vector<std::string> notes;    ///< of the scene's loader
   ShownSide first;
-  std::optional<ShownSide> second;  ///< right of the divider
+  std::optional<ShownSide> second;          ///< right of the divider
+  std::optional<float> picture_difference;  ///< of the two's pictures, the largest; with Overlay::difference
   std::optional<Inspection> inspection;
 };
 

@@ -11,6 +11,7 @@
 #include "commands/pictures.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
+#include "render/judgement.h"
 #include "render/pixel_lights.h"
 #include "render/verification.h"
 #include "scene/flight.h"
@@ -190,26 +191,39 @@ std::vector<Visit> Stage::checked_visits(Lighting& lighting) {
   return visits;
 }
 
-Legend Stage::lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
-                       std::uint32_t first_x, std::uint32_t end_x) {
+std::vector<Visit> Stage::visits_of_other(const Overlaying& o) {
+  const Request& r = o.state.request;
+  const Against& against = *o.state.against;
+  const Chosen other = o.second ? lighting(r, r.method, r.options) : lighting(r, against.method, against.options);
+  return renderer_->visit_all(other.lighting);
+}
+
+Legend Stage::lay_over(const Overlaying& o) {
   const View& view = renderer_->view();
-  if (state.overlay == Overlay::depth_range || state.overlay == Overlay::missed) depth_ = renderer_->read_depth();
-  if (state.overlay == Overlay::missed)
-    visits_ = checked_visits(lighting);
-  else
-    visits_ = renderer_->visit_all(lighting);
-  const Overlaid made = make_overlay(state.overlay, state.palette,
+  const Overlay overlay = o.state.overlay;
+  if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
+  visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
+  const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
+  const Overlaid made = make_overlay(overlay, o.state.palette,
                                      {.view = view,
-                                      .visits = visits_,
+                                      .visits = o.second && !other.empty() ? other : visits_,
                                       .depth = depth_,
+                                      .other = o.second ? visits_ : other,
                                       .lights = static_cast<std::uint32_t>(lights_->lights->size()),
-                                      .overflowed = overflowed,
-                                      .scale_max = scale_max});
+                                      .overflowed = o.overflowed,
+                                      .scale_max = o.scale_max});
   const std::span<std::uint32_t> to = display_->overlay();
   for (std::uint32_t y = 0; y < view.height(); ++y)
-    for (std::uint32_t x = first_x; x < std::min(end_x, view.width()); ++x)
+    for (std::uint32_t x = o.first_x; x < std::min(o.end_x, view.width()); ++x)
       to[x + std::size_t{view.width()} * y] = made.pixels[x + std::size_t{view.width()} * y];
   return made.legend;
+}
+
+float Stage::picture_difference(const ViewState& state) {
+  const Request& r = state.request;
+  const HdrImage first = renderer_->relight(lighting(r, r.method, r.options).lighting).image;
+  const Against& against = *state.against;
+  return max_abs_difference(first, renderer_->relight(lighting(r, against.method, against.options).lighting).image);
 }
 
 Inspected Stage::inspected(Lighting& lighting) {
@@ -246,11 +260,21 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
     });
     if (sets_exposure) shown.exposure = exposure ? *exposure : display_->exposure();
     ShownSide made = side(state, chosen, std::move(rendered));
-    const bool overlaid = state.overlay != Overlay::none;
+    const bool overlaid = state.overlay != Overlay::none && (state.overlay != Overlay::difference || state.against);
     if (overlaid)
-      made.legend = lay_over(state, chosen.lighting, made.stats.rendered.counters.overflowed_cells != 0,
-                             sets_exposure ? 0.0 : shown.first.legend.high, first, end);
-    if (overlaid) set_walked(made.stats, visits_);
+      made.legend = lay_over({.state = state,
+                              .lighting = chosen.lighting,
+                              .second = !sets_exposure,
+                              .overflowed = made.stats.rendered.counters.overflowed_cells != 0,
+                              .scale_max = sets_exposure ? 0.0 : shown.first.legend.high,
+                              .first_x = first,
+                              .end_x = end});
+    else if (state.list_lengths)
+      visits_ = renderer_->visit_all(chosen.lighting);
+    if (overlaid || state.list_lengths) {
+      set_walked(made.stats, visits_);
+      made.lengths = list_lengths(visits_);
+    }
     renderer_->also([&](vulkan::Recorder& recorder) {
       display_->record(recorder, renderer_->targets(),
                        {.exposure = shown.exposure, .first_x = first, .end_x = end, .overlaid = overlaid});
@@ -264,8 +288,10 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
     set_walked(shown.first.stats, visits_);
   }
   if (state.against) shown.second = draw_side(state.against->method, state.against->options, end_x, width, false).first;
+  if (state.against && state.overlay == Overlay::difference) shown.picture_difference = picture_difference(state);
   shown.made_anew = std::exchange(made_anew_, false);
   shown.image = display_->image();
+  shown.decals = boxes_of(lights_->decals);
   shown.flight_frames = scene.flight ? scene.flight->frames : 0;
   shown.captured = scene.captured.has_value();
   for (const Camera& camera : scene.cameras) shown.cameras.push_back(camera.name);

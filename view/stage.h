@@ -60,9 +60,21 @@ class Stage {
   [[nodiscard]] Chosen lighting(const Request& request, const std::string& method,
                                 const std::vector<std::string>& options);
   [[nodiscard]] ShownSide side(const ViewState& state, const Chosen& chosen, Rendered rendered) const;
-  /// Lays the state's overlay over columns of the picture that `chosen` made last.
-  [[nodiscard]] Legend lay_over(const ViewState& state, Lighting& lighting, bool overflowed, double scale_max,
-                                std::uint32_t first_x, std::uint32_t end_x);
+  /// An overlay of columns of the picture that `lighting` made last.
+  struct Overlaying {
+    const ViewState& state;
+    Lighting& lighting;
+    bool second = false;  ///< right of the divider
+    bool overflowed = false;
+    double scale_max = 0.0;
+    std::uint32_t first_x = 0;
+    std::uint32_t end_x = 0;
+  };
+  [[nodiscard]] Legend lay_over(const Overlaying& o);
+  /// What the other of the two methods walks.
+  [[nodiscard]] std::vector<Visit> visits_of_other(const Overlaying& o);
+  /// The largest difference of the two methods' pictures.
+  [[nodiscard]] float picture_difference(const ViewState& state);
   /// Of all pixels, against the oracle's truth of `depth_`.
   [[nodiscard]] std::vector<Visit> checked_visits(Lighting& lighting);
   [[nodiscard]] Inspected inspected(Lighting& lighting);

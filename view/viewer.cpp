@@ -27,6 +27,7 @@ std::string drawing_key(ViewState state) {
   state.speed = 0.0F;
   state.resolution = 0.0F;
   state.light_marks = LightMarks::none;
+  state.decal_boxes = false;
   return to_json(state).dump();
 }
 
@@ -276,6 +277,10 @@ nlohmann::json Viewer::report() const {
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
   if (proof_) json["proof"] = words_of(*proof_);
+  if (shown_.picture_difference) json["picture_difference"] = *shown_.picture_difference;
+  if (shown_.first.legend.overlay == Overlay::difference) json["differing_pixels"] = shown_.first.legend.cells;
+  if (!shown_.first.lengths.empty()) json["longest_lists"] = shown_.first.lengths.back().high;
+  json["decals_shown"] = shown_.decals.size();
   if (shown_.first.legend.overlay == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;
   for (const OtherList& list : others_)
     json["others"][list.method] = {{"lights", list.lights}, {"reaching", list.reaching}, {"refused", list.refused}};

@@ -124,6 +124,7 @@ void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
 
 void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   if (shown_.number != 0) draw_light_marks(state_.light_marks, shown_, picture_);
+  if (shown_.number != 0 && state_.decal_boxes) draw_decal_boxes(shown_, picture_);
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);
   legend_window(shown_, picture_);

@@ -52,9 +52,9 @@ class Widgets {
   /// The same for an enumeration whose values are the names' places.
   template <class Word>
   bool choose_word(const std::string& label, Word& value, std::span<const std::string_view> names,
-                   const std::string& tip) {
+                   const std::string& tip, const std::function<std::string(std::string_view)>& reason_of = {}) {
     std::string name(names[static_cast<std::size_t>(value)]);
-    if (!choose(label, name, names, tip)) return false;
+    if (!choose(label, name, names, tip, reason_of)) return false;
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == name) value = static_cast<Word>(i);
     return true;

@@ -22,8 +22,9 @@ enum class Overlay : std::uint8_t {
   depth_range,  ///< how deep the surfaces of a cell's pixels reach from front to back
   overflow,     ///< cells that did not fit, in a signal colour
   missed,       ///< pixels whose list lacks a light that reaches them, likewise
+  difference,   ///< lights that one of two methods walks and the other does not; of two methods alone
 };
-/// "none", "heat", "cells", "depth-range", "overflow", "missed", in the order of Overlay.
+/// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
 
 /// Colours of the heat map.
@@ -62,6 +63,8 @@ struct ViewState {
   Overlay overlay = Overlay::none;
   Palette palette = Palette::rainbow;
   LightMarks light_marks = LightMarks::none;
+  bool decal_boxes = false;            ///< outlines of all decals
+  bool list_lengths = false;           ///< how long lists are is counted with every picture
   std::optional<glm::uvec2> picked;    ///< pixel that is looked into, of the size asked for
   std::optional<std::uint32_t> light;  ///< that is looked at: its marks stand out
   std::optional<Against> against;

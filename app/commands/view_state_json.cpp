@@ -58,6 +58,8 @@ void for_each_field(Fields&& at, State& s) {
   at.word("overlay", s.overlay, overlay_names());
   at.word("palette", s.palette, palette_names());
   at.word("light_marks", s.light_marks, light_mark_names());
+  at.flag("decal_boxes", s.decal_boxes);
+  at.flag("list_lengths", s.list_lengths);
   at.pixel("picked", s.picked);
   at.maybe("light", s.light, MAX_LIGHTS - 1);
   at.against("against", s.against);

@@ -70,6 +70,31 @@ TEST(Overlays, MissedMarksPixelsThatLackALight) {
   EXPECT_NE(made.pixels[1], made.pixels[2]);
 }
 
+TEST(Overlays, DifferenceSaysWhichWalksMore) {
+  const View view = small_view();
+  std::vector<Visit> other = VISITS;
+  other[1].visited = 7;
+  other[2].visited = 8;
+  const Overlaid made =
+      make_overlay(Overlay::difference, Palette::grey, {.view = view, .visits = VISITS, .other = other});
+  EXPECT_EQ(made.legend.cells, 2);
+  EXPECT_EQ(made.legend.max, 4.0);
+  EXPECT_EQ(made.legend.mean, -1.0);
+  EXPECT_EQ(color(made.pixels[1]), SECOND_WALKS_MORE);
+  EXPECT_EQ(color(made.pixels[2]), glm::u8vec3(glm::vec3(FIRST_WALKS_MORE) / 2.0F + 0.5F));
+  EXPECT_EQ(color(made.pixels[3]), glm::u8vec3(0));
+}
+
+TEST(ListLengthsTest, CountCells) {
+  EXPECT_TRUE(list_lengths({}).empty());
+  const std::vector<ListLengths> expected{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 4, 1}, {5, 8, 0}, {9, 16, 1}};
+  EXPECT_EQ(list_lengths(VISITS), expected);
+  const std::vector<Visit> ends{{.visited = 0, .cell = 1}, {.visited = 1, .cell = 2}, {.visited = ~0U, .cell = 3}};
+  EXPECT_EQ(list_lengths(ends).size(), 34U);
+  EXPECT_EQ(list_lengths(ends).front().cells, 1U);
+  EXPECT_EQ(list_lengths(ends).back(), (ListLengths{(1U << 31U) + 1, ~0U, 1}));
+}
+
 TEST(Overlays, DimTheSky) {
   const View view = small_view();
   for (const Overlay overlay :

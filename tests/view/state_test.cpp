@@ -55,6 +55,8 @@ ViewState full_state() {
   state.overlay = Overlay::depth_range;
   state.palette = Palette::grey;
   state.light_marks = LightMarks::cell;
+  state.decal_boxes = true;
+  state.list_lengths = true;
   state.picked = glm::uvec2(7, 9);
   state.light = 3;
   state.against = Against{.method = "clustered", .options = {"tile=64"}, .divider = 0.25F};
