@@ -32,7 +32,7 @@ set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "light culling on the GPU (shared library)
 ${about}This package contains the library that programs are linked with.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblamplight-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${runtime} ${same_version}, libvulkan-dev, libglm-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${runtime} ${same_version}, libvulkan-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "light culling on the GPU (headers and shaders)
 ${about}This package contains what programs are built with: headers, the shaders that
 theirs include, and files for CMake and pkg-config.")

@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <map>

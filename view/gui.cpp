@@ -5,6 +5,7 @@
 
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <limits>

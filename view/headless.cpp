@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/headless.h"
 
+#include <glm/glm.hpp>
 #include <memory>
 
 #include "view/offscreen.h"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 
 #include "gpu/context.h"
 #include "view/script.h"

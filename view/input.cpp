@@ -3,6 +3,7 @@
 #include "view/input.h"
 
 #include <algorithm>
+#include <glm/glm.hpp>
 
 namespace lamp::app {
 namespace {

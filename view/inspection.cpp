@@ -58,7 +58,8 @@ std::vector<std::uint32_t> near_lights(std::span<const shared::Light> lights, co
   constexpr float WIDER = 1.001F;
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const glm::vec3 to_box = lights[i].position - glm::clamp(lights[i].position, box.min, box.max);
+    const glm::vec3 position = lights[i].position;
+    const glm::vec3 to_box = position - glm::clamp(position, box.min, box.max);
     if (glm::length(to_box) <= WIDER * lights[i].range) near.push_back(i);
   }
   return near;

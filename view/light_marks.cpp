@@ -3,6 +3,7 @@
 #include "view/light_marks.h"
 
 #include <imgui.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <array>
@@ -40,11 +41,13 @@ struct Marks {
 };
 
 ImU32 mark_color(const shared::Light& light, float alpha) {
-  const glm::vec3 color = light.intensity / std::max({light.intensity.r, light.intensity.g, light.intensity.b, 1e-6F});
+  const glm::vec3 intensity = light.intensity;
+  const glm::vec3 color = intensity / std::max({intensity.r, intensity.g, intensity.b, 1e-6F});
   return ImGui::GetColorU32(ImVec4(color.r, color.g, color.b, alpha));
 }
 
 void draw_cone(const Marks& marks, const shared::Light& light) {
+  const glm::vec3 apex_at = light.position;
   const glm::vec3 axis = light.direction;
   const glm::vec3 side = std::abs(axis.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
   const glm::vec3 u = glm::normalize(glm::cross(axis, side));
@@ -52,10 +55,10 @@ void draw_cone(const Marks& marks, const shared::Light& light) {
   const float along = light.range * std::cos(light.outer_angle);
   const float across = light.range * std::sin(light.outer_angle);
   const ImU32 color = mark_color(light, 0.6F);
-  marks.ring(light.position + along * axis, across * u, across * v, color);
-  const auto apex = marks.at(light.position);
+  marks.ring(apex_at + along * axis, across * u, across * v, color);
+  const auto apex = marks.at(apex_at);
   for (const glm::vec3& edge : {u, -u, v, -v})
-    if (const auto end = marks.at(light.position + along * axis + across * edge); apex && end)
+    if (const auto end = marks.at(apex_at + along * axis + across * edge); apex && end)
       marks.draw.AddLine(*apex, *end, color);
 }
 
@@ -66,7 +69,7 @@ bool draw_light(const Marks& marks, const shared::Light& light, bool outlined) {
     if (light.type == shared::LIGHT_SPOT) {
       draw_cone(marks, light);
     } else {
-      const glm::mat3 world_from_view(marks.view.world_from_view());
+      const glm::mat3 world_from_view(glm::dmat4(marks.view.world_from_view()));
       marks.ring(light.position, light.range * world_from_view[0], light.range * world_from_view[1],
                  mark_color(light, 0.6F));
     }
@@ -86,8 +89,8 @@ ImDrawList& clipped_to(const ScreenRect& picture) {
 }
 
 void draw_box(const Marks& marks, const shared::OrientedBox& box) {
-  const glm::vec3 axes[] = {box.half_extents.x * box.axis_x, box.half_extents.y * box.axis_y,
-                            box.half_extents.z * box.axis_z};
+  const glm::vec3 axes[] = {box.half_extents.x * glm::vec3(box.axis_x), box.half_extents.y * glm::vec3(box.axis_y),
+                            box.half_extents.z * glm::vec3(box.axis_z)};
   const auto corner = [&](std::uint32_t number) {
     glm::vec3 at = box.center;
     for (std::uint32_t axis = 0; axis < 3; ++axis) at += (number >> axis & 1U) != 0 ? axes[axis] : -axes[axis];
@@ -105,7 +108,8 @@ void draw_box(const Marks& marks, const shared::OrientedBox& box) {
 }  // namespace
 
 std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& position) {
-  const glm::dvec4 clip = view.clip_from_view() * view.view_from_world() * glm::dvec4(position, 1.0);
+  const glm::dvec4 clip =
+      glm::dmat4(view.clip_from_view()) * glm::dmat4(view.view_from_world()) * glm::dvec4(position, 1.0);
   if (!(clip.w > 1e-6) || clip.z > clip.w) return std::nullopt;
   return glm::vec2(0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w);
 }

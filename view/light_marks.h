@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "view/gui.h"
 #include "view/shown.h"
 

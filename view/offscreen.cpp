@@ -3,6 +3,7 @@
 #include "view/offscreen.h"
 
 #include <cstring>
+#include <glm/glm.hpp>
 
 #include "gpu/check.h"
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "image/image.h"
 #include "view/gui.h"
 

@@ -1,6 +1,7 @@
 // All keys, over the picture.
 // SPDX-License-Identifier: Apache-2.0
 #include <imgui.h>
+#include <glm/glm.hpp>
 
 #include "view/keys.h"
 #include "view/panels.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <imgui.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>

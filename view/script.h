@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 
 #include "commands/view_state.h"
 

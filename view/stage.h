@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <glm/glm.hpp>
 #include <list>
 #include <memory>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "view/swapchain.h"
 
 #include <fmt/format.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <mutex>

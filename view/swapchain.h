@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "gpu/context.h"

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 
@@ -152,7 +153,7 @@ bool Widgets::slide(const std::string& label, std::uint32_t& value, const Limits
   return changed;
 }
 
-bool Widgets::move(const std::string& label, glm::vec3& value, float step, const std::string& tip) {
+bool Widgets::move(const std::string& label, Vec3& value, float step, const std::string& tip) {
   before(label);
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
   const bool changed = ImGui::DragFloat3(unique(label).c_str(), &value.x, step);
@@ -160,7 +161,7 @@ bool Widgets::move(const std::string& label, glm::vec3& value, float step, const
   return changed;
 }
 
-bool Widgets::color(const std::string& label, glm::vec3& value, const std::string& tip) {
+bool Widgets::color(const std::string& label, Vec3& value, const std::string& tip) {
   before(label);
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
   const bool changed = ImGui::ColorEdit3(unique(label).c_str(), &value.x, ImGuiColorEditFlags_Float);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -70,8 +71,8 @@ class Widgets {
   bool slide(const std::string& label, std::uint32_t& value, const Limits& limits, const std::string& tip,
              const std::string& reason = "");
   /// Three numbers that are dragged, `step` a pixel.
-  bool move(const std::string& label, glm::vec3& value, float step, const std::string& tip);
-  bool color(const std::string& label, glm::vec3& value, const std::string& tip);
+  bool move(const std::string& label, Vec3& value, float step, const std::string& tip);
+  bool color(const std::string& label, Vec3& value, const std::string& tip);
   /// A row of a table, by its first cell. True when it was clicked.
   bool pick(const std::string& label, bool picked);
   /// True when the text was changed and the widget left.

@@ -3,6 +3,7 @@
 #include "view/window.h"
 
 #include <fmt/format.h>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <chrono>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 

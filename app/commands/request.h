@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <string>

@@ -70,11 +70,11 @@ void apply_edits(const ViewState& state, std::span<shared::Light> lights) {
 }
 
 Light unpacked(const shared::Light& light) {
-  const float intensity = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+  const float intensity = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
   return {.type = static_cast<LightType>(light.type),
           .position = light.position,
           .range = light.range,
-          .color = intensity > 0.0F ? light.intensity / intensity : glm::vec3(1.0F),
+          .color = intensity > 0.0F ? glm::vec3(light.intensity) / intensity : glm::vec3(1.0F),
           .intensity = intensity,
           .direction = light.direction,
           .inner_angle = light.inner_angle,

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>

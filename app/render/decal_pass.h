@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "render/frame_data.h"

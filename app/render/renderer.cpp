@@ -165,7 +165,7 @@ LightingFrame Renderer::lighting_frame() const {
           .inputs = plan_inputs(),
           .view = shown_.view,
           .kept = kept_ ? &*kept_ : nullptr,
-          .eye = glm::vec3(shown_view_.world_from_view()[3]),
+          .eye = glm::vec3(glm::dmat4(shown_view_.world_from_view())[3]),
           .shadows = shadow_bound()};
 }
 

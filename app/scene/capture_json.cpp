@@ -57,7 +57,7 @@ View view_of(const JsonObject& frame, DepthKind kind) {
     frame.fail(fmt::format("width and height are {} and {}, expected at most {} pixels", width, height, MOST_PIXELS));
   const Result<View> view = View::create(width, height, clip_from_view, matrix_of(frame, "view_from_world"));
   if (!view) frame.fail(view.error().message);
-  const glm::dvec3 reach = glm::abs(glm::dvec3(view.value().world_from_view()[3]));
+  const glm::dvec3 reach = glm::abs(glm::dvec3(glm::dmat4(view.value().world_from_view())[3]));
   const double furthest = std::max({reach.x, reach.y, reach.z});
   if (!(furthest <= FURTHEST_M))
     frame.fail(

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 8> LIGHT_KEYS{"type",      "position",  "
 void check(std::span<const Light> lights, const std::string& file) {
   if (const auto error = check_lights(lights)) throw Error(fmt::format("{}: {}", file, error->text()));
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const glm::vec3 reach = glm::abs(lights[i].position);
+    const glm::vec3 reach = glm::abs(glm::vec3(lights[i].position));
     const float furthest = std::max({reach.x, reach.y, reach.z});
     if (furthest > FURTHEST_M)
       throw Error(
@@ -69,8 +69,8 @@ Light light_of(std::span<const float> row) {
 std::array<float, LIGHT_COLUMNS> row_of(const Light& l) {
   return {l.position.x,  l.position.y,
           l.position.z,  l.range,
-          l.color.r,     l.color.g,
-          l.color.b,     l.intensity,
+          l.color.x,     l.color.y,
+          l.color.z,     l.intensity,
           l.direction.x, l.direction.y,
           l.direction.z, l.inner_angle,
           l.outer_angle, l.type == LightType::spot ? 1.0F : 0.0F};

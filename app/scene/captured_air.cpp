@@ -41,7 +41,8 @@ std::vector<Sample> nearer_samples(const CapturedFrame& frame) {
 }
 
 glm::dvec3 world_position(const View& view, const Sample& sample) {
-  return {view.world_from_view() * glm::dvec4(view.view_position(sample.pixel, sample.z_view), 1.0)};
+  return {glm::dmat4(view.world_from_view()) *
+          glm::dvec4(glm::dvec3(view.view_position(sample.pixel, sample.z_view)), 1.0)};
 }
 
 double diagonal_of(const View& view, const std::vector<Sample>& samples) {
@@ -61,7 +62,7 @@ struct Cells {
 
   [[nodiscard]] Cell at(const Sample& sample) const {
     const glm::dvec3 place =
-        glm::floor((world_position(view, sample) - glm::dvec3(view.world_from_view()[3])) / cell_m);
+        glm::floor((world_position(view, sample) - glm::dvec3(glm::dmat4(view.world_from_view())[3])) / cell_m);
     return {place.x, place.y, place.z};
   }
 
@@ -105,7 +106,7 @@ OpenAir find_open_air(const CapturedFrame& frame) {
   if (chosen.empty()) chosen.push_back({});  // around the eye: nothing is known of elsewhere
 
   OpenAir result{.cell_m = static_cast<float>(cells.cell_m), .diagonal_m = static_cast<float>(diagonal_m)};
-  const glm::dvec3 eye(frame.view.world_from_view()[3]);
+  const glm::dvec3 eye(glm::dmat4(frame.view.world_from_view())[3]);
   for (const Cell& cell : chosen)
     result.cells.push_back({.min = glm::vec3(eye + cells.cell_m * glm::dvec3(cell[0], cell[1], cell[2]))});
   return result;

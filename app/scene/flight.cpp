@@ -112,7 +112,8 @@ void check_projection_name(std::string_view projection) {
 
 /// The same view from elsewhere: `moved` of its view space.
 View placed(const View& view, const glm::dmat4& moved) {
-  return View::create(view.width(), view.height(), view.clip_from_view(), moved * view.view_from_world()).value();
+  return View::create(view.width(), view.height(), view.clip_from_view(), moved * glm::dmat4(view.view_from_world()))
+      .value();
 }
 
 }  // namespace

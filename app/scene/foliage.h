@@ -4,6 +4,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "scene/mesh_builder.h"
 
 namespace lamp::app::procedural {

@@ -38,7 +38,7 @@ void add_pixels(const CapturedFrame& frame, SceneInfo& info) {
       const float depth = frame.depth[std::size_t{y} * view.width() + x];
       if (!(depth > 0.0F)) continue;
       const glm::dvec3 position = view.view_position({x + 0.5, y + 0.5}, view.z_view(depth));
-      grow(info.bounds, glm::vec3(view.world_from_view() * glm::dvec4(position, 1.0)));
+      grow(info.bounds, glm::vec3(glm::dmat4(view.world_from_view()) * glm::dvec4(position, 1.0)));
       ++info.covered_pixels;
     }
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <string>
 
 namespace lamp {
@@ -14,15 +15,15 @@ namespace {
 constexpr double BOUND_ROOM = 1.0 + 1e-4;
 constexpr float AXIS_TOLERANCE = 1e-4F;
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string fault(const shared::OrientedBox& box) {
   if (!finite(box.center)) return "center must be finite";
-  const glm::vec3& half = box.half_extents;
+  const Vec3& half = box.half_extents;
   if (!finite(half) || half.x <= 0.0F || half.y <= 0.0F || half.z <= 0.0F)
     return "half extents must be finite and > 0 m, got (" + std::to_string(half.x) + ", " + std::to_string(half.y) +
            ", " + std::to_string(half.z) + ")";
-  const std::array axes{box.axis_x, box.axis_y, box.axis_z};
+  const std::array<glm::vec3, 3> axes{box.axis_x, box.axis_y, box.axis_z};
   for (std::size_t i = 0; i < 3; ++i) {
     const float length = glm::dot(axes[i], axes[i]);
     const float across = glm::dot(axes[i], axes[(i + 1) % 3]);

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -19,8 +20,8 @@ namespace {
 // pi/2 as a 32-bit number lies a little above pi/2; it stands for a half-angle of exactly 90 degrees.
 constexpr float RIGHT_ANGLE = std::numbers::pi_v<float> / 2.0F;
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool at_least_zero(const glm::vec3& v) { return v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F; }
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool at_least_zero(const Vec3& v) { return v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F; }
 
 // False for a NaN.
 bool within(float value, float low, float high) { return value >= low && value <= high; }
@@ -30,7 +31,7 @@ std::string show(float value) {
   text << value;
   return text.str();
 }
-std::string show(const glm::vec3& value) {
+std::string show(const Vec3& value) {
   std::ostringstream text;
   text << '(' << value.x << ", " << value.y << ", " << value.z << ')';
   return text.str();
@@ -54,10 +55,10 @@ std::string fault(const Light& light) {
   if (!std::isfinite(light.intensity) || light.intensity < 0.0F) {
     return expected("intensity must be finite and >= 0 candela", light.intensity);
   }
-  const glm::vec3 power = light.color * light.intensity;
+  const glm::vec3 power = glm::vec3(light.color) * light.intensity;
   if (!finite(power)) return expected("color times intensity must fit 32 bits", power);
   if (light.type == LightType::point) return {};
-  if (!finite(light.direction) || light.direction == glm::vec3(0.0F)) {
+  if (!finite(light.direction) || light.direction == Vec3{}) {
     return expected("direction must be finite and not 0", light.direction);
   }
   if (!within(light.outer_angle, 0.0F, RIGHT_ANGLE)) {
@@ -70,7 +71,7 @@ std::string fault(const Light& light) {
   return {};
 }
 
-constexpr shared::LightSphere NO_SPHERE{.center = glm::vec3(0.0F), .radius = shared::REACHES_NOTHING};
+constexpr shared::LightSphere NO_SPHERE{.center = {}, .radius = shared::REACHES_NOTHING};
 constexpr float COS_45 = 0.70710678F;
 
 /// `value` or `other`, without a branch: points and spots come in no order that a processor could foresee.
@@ -96,7 +97,7 @@ shared::Light pack(const Light& light) {
   shared::Light packed{};
   packed.position = light.position;
   packed.range = light.range;
-  packed.intensity = light.color * light.intensity;
+  packed.intensity = glm::vec3(light.color) * light.intensity;
   packed.type = static_cast<std::uint32_t>(light.type);
   packed.direction = {0.0F, 0.0F, -1.0F};
   if (light.type == LightType::point) return packed;

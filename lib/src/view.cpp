@@ -9,6 +9,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -29,7 +30,7 @@ std::string entry(std::string_view matrix, int column, int row) {
 }
 
 // Rounds to 32 bits, or names the first entry that is no finite 32-bit number.
-std::optional<Error> round_to_float(std::string_view name, glm::dmat4& matrix) {
+std::optional<Error> round_to_float(std::string_view name, DMat4& matrix) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
       double& value = matrix[column][row];
@@ -45,9 +46,9 @@ std::optional<Error> round_to_float(std::string_view name, glm::dmat4& matrix) {
 }
 
 // clip.z = a z + b and clip.w = c z + d, so device depth grows towards the eye if and only if a d - b c > 0.
-double depth_slope(const glm::dmat4& p) { return p[2][2] * p[3][3] - p[3][2] * p[2][3]; }
+double depth_slope(const DMat4& p) { return p[2][2] * p[3][3] - p[3][2] * p[2][3]; }
 
-std::optional<Error> check_projection(const glm::dmat4& p) {
+std::optional<Error> check_projection(const DMat4& p) {
   constexpr std::array<std::array<int, 2>, 6> ZEROS{{{0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}}};
   for (const auto [column, row] : ZEROS) {
     if (p[column][row] != 0.0) {
@@ -101,8 +102,8 @@ double stretch_of(const glm::dmat3& m) {
 
 }  // namespace
 
-Result<View> View::create(std::uint32_t width, std::uint32_t height, const glm::dmat4& clip_from_view,
-                          const glm::dmat4& view_from_world) {
+Result<View> View::create(std::uint32_t width, std::uint32_t height, const DMat4& clip_from_view,
+                          const DMat4& view_from_world) {
   if (width == 0 || height == 0) {
     return Error{"view", "the size must be at least 1x1, got " + std::to_string(width) + "x" + std::to_string(height)};
   }
@@ -115,19 +116,19 @@ Result<View> View::create(std::uint32_t width, std::uint32_t height, const glm::
   if (auto error = round_to_float("view_from_world", view.view_from_world_)) return *error;
   if (auto error = check_projection(view.clip_from_view_)) return *error;
   if (auto error = check_rigid(view.view_from_world_)) return *error;
-  view.world_from_view_ = glm::inverse(view.view_from_world_);
+  view.world_from_view_ = glm::inverse(glm::dmat4(view.view_from_world_));
   view.reversed_depth_ = depth_slope(view.clip_from_view_) > 0.0;
-  view.stretch_ = stretch_of(glm::dmat3(view.view_from_world_));
+  view.stretch_ = stretch_of(glm::dmat3(glm::dmat4(view.view_from_world_)));
   return view;
 }
 
 double View::z_view(double device_depth) const {
-  const glm::dmat4& p = clip_from_view_;
+  const DMat4& p = clip_from_view_;
   return (p[3][2] - p[3][3] * device_depth) / (p[2][2] - p[2][3] * device_depth);
 }
 
-glm::dvec3 View::view_position(glm::dvec2 pixel, double z_view) const {
-  const glm::dmat4& p = clip_from_view_;
+DVec3 View::view_position(DVec2 pixel, double z_view) const {
+  const DMat4& p = clip_from_view_;
   const double z = -z_view;
   const double w = p[2][3] * z + p[3][3];
   const double ndc_x = 2.0 * pixel.x / width_ - 1.0;
@@ -135,17 +136,17 @@ glm::dvec3 View::view_position(glm::dvec2 pixel, double z_view) const {
   return {(ndc_x * w - p[2][0] * z - p[3][0]) / p[0][0], (ndc_y * w - p[2][1] * z - p[3][1]) / p[1][1], z};
 }
 
-glm::dvec3 View::world_position(std::uint32_t x, std::uint32_t y, double device_depth) const {
+DVec3 View::world_position(std::uint32_t x, std::uint32_t y, double device_depth) const {
   const glm::dvec3 position = view_position({x + 0.5, y + 0.5}, z_view(device_depth));
-  return {world_from_view_ * glm::dvec4(position, 1.0)};
+  return glm::dvec3(glm::dmat4(world_from_view_) * glm::dvec4(position, 1.0));
 }
 
 shared::Frame View::frame(std::uint32_t light_count, std::uint32_t light_capacity) const {
   shared::Frame frame{};
-  frame.clip_from_view = glm::mat4(clip_from_view_);
-  frame.view_from_world = glm::mat4(view_from_world_);
-  frame.world_from_view = glm::mat4(world_from_view_);
-  frame.eye_world = glm::vec3(world_from_view_[3]);
+  frame.clip_from_view = Mat4(clip_from_view_);
+  frame.view_from_world = Mat4(view_from_world_);
+  frame.world_from_view = Mat4(world_from_view_);
+  frame.eye_world = glm::vec3(glm::dmat4(world_from_view_)[3]);
   frame.light_count = light_count;
   frame.light_capacity = light_capacity;
   frame.size_px = {width_, height_};
@@ -154,12 +155,12 @@ shared::Frame View::frame(std::uint32_t light_count, std::uint32_t light_capacit
   return frame;
 }
 
-glm::dmat4 perspective(const Window& window, double near_m, double far_m) {
+DMat4 perspective(const Window& window, double near_m, double far_m) {
   assert(window.left < window.right && window.bottom < window.top && "the window must not be empty");
   assert(near_m > 0.0 && near_m < far_m && "0 < near_m < far_m is required");
   const double width = window.right - window.left;
   const double height = window.top - window.bottom;
-  glm::dmat4 p{0.0};
+  DMat4 p{};
   p[0][0] = 2.0 / width;
   p[1][1] = -2.0 / height;
   p[2][0] = (window.right + window.left) / width;
@@ -170,12 +171,12 @@ glm::dmat4 perspective(const Window& window, double near_m, double far_m) {
   return p;
 }
 
-glm::dmat4 orthographic(const Window& window, double near_m, double far_m) {
+DMat4 orthographic(const Window& window, double near_m, double far_m) {
   assert(window.left < window.right && window.bottom < window.top && "the window must not be empty");
   assert(near_m < far_m && std::isfinite(near_m) && std::isfinite(far_m) && "near_m < far_m, finite, is required");
   const double width = window.right - window.left;
   const double height = window.top - window.bottom;
-  glm::dmat4 p{0.0};
+  DMat4 p{};
   p[0][0] = 2.0 / width;
   p[1][1] = -2.0 / height;
   p[2][2] = 1.0 / (far_m - near_m);
@@ -186,8 +187,8 @@ glm::dmat4 orthographic(const Window& window, double near_m, double far_m) {
   return p;
 }
 
-glm::dmat4 flip_depth(const glm::dmat4& clip_from_view) {
-  glm::dmat4 p = clip_from_view;
+DMat4 flip_depth(const DMat4& clip_from_view) {
+  DMat4 p = clip_from_view;
   for (int column = 0; column < 4; ++column) p[column][2] = p[column][3] - p[column][2];  // depth becomes 1 - depth
   return p;
 }

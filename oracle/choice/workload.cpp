@@ -39,7 +39,7 @@ Sphere sphere_of(const View& view, const shared::Light& light) {
     radius = narrow ? along : radius * light.sin_outer;
     center += along * glm::dvec3(light.direction);
   }
-  const glm::dvec3 seen(view.view_from_world() * glm::dvec4(center, 1.0));
+  const glm::dvec3 seen(glm::dmat4(view.view_from_world()) * glm::dvec4(center, 1.0));
   return {.center = {seen.x, seen.y, -seen.z}, .radius = radius, .light = &light};
 }
 
@@ -111,7 +111,8 @@ void add_planes(Tile& tile, const View& view, const Rectangle& r) {
 void add_pixel(Tile& tile, const View& view, glm::uvec2 at, double z) {
   const glm::dvec2 center = glm::dvec2(at) + 0.5;
   Pixel pixel{.view = ahead(view, center, z)};
-  pixel.world = glm::dvec3(view.world_from_view() * glm::dvec4(view.view_position(center, z), 1.0));
+  pixel.world =
+      glm::dvec3(glm::dmat4(view.world_from_view()) * glm::dvec4(glm::dvec3(view.view_position(center, z)), 1.0));
   tile.near_z = std::min(tile.near_z, z);
   tile.far_z = std::max(tile.far_z, z);
   tile.pixels.push_back(pixel);

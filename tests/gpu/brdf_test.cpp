@@ -55,7 +55,8 @@ shared::ReflectCase turned_case(std::mt19937& random, double eye_angle, double h
 
 /// Whether both are above the surface by more than rounding can hide.
 bool is_ordinary(const shared::ReflectCase& c) {
-  return glm::dot(c.normal, c.to_light) > 0.02F && glm::dot(c.normal, c.to_eye) > 0.02F;
+  const glm::vec3 normal = c.normal;
+  return glm::dot(normal, glm::vec3(c.to_light)) > 0.02F && glm::dot(normal, glm::vec3(c.to_eye)) > 0.02F;
 }
 
 /// Half vectors from the middle of the highlight to far outside of it: the highlight is as wide as alpha.
@@ -102,8 +103,9 @@ void expect_close(const std::vector<shared::ReflectCase>& cases, const std::vect
                   double most, const Exact& exact_of) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const glm::dvec3 expected = exact_of(cases[i]);
+    const glm::dvec3 of_light(answers[i].of_light);
     for (int c = 0; c < 3; ++c)
-      ASSERT_NEAR(answers[i].of_light[c], expected[c], most * expected[c] + TOO_SMALL) << describe(cases[i]);
+      ASSERT_NEAR(of_light[c], expected[c], most * expected[c] + TOO_SMALL) << describe(cases[i]);
   }
 }
 

@@ -250,8 +250,8 @@ TEST_F(DecoratedWall, OneDecalCoversWhatTheOracleSays) {
         const glm::dvec3 position = view_.world_position(x, y, static_cast<double>(frame.depth[i]));
         shared::OrientedBox smaller = decals_[0].box;
         shared::OrientedBox larger = decals_[0].box;
-        smaller.half_extents *= 0.9999F;
-        larger.half_extents *= 1.0001F;
+        smaller.half_extents = glm::vec3(smaller.half_extents) * 0.9999F;
+        larger.half_extents = glm::vec3(larger.half_extents) * 1.0001F;
         const bool is_inside = reach(smaller, position) == Reach::inside;
         if (!is_inside && reach(larger, position) == Reach::inside) continue;
         inside += is_inside ? 1 : 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstring>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 

@@ -26,7 +26,7 @@ vulkan::Pipeline walk_pipeline(const vulkan::BoundLookUp& lookup, glm::uvec2 gro
 }
 
 float device_depth(const View& view, double z_view) {
-  const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(0.0, 0.0, -z_view, 1.0);
+  const glm::dvec4 clip = glm::dmat4(view.clip_from_view()) * glm::dvec4(0.0, 0.0, -z_view, 1.0);
   return static_cast<float>(clip.z / clip.w);
 }
 

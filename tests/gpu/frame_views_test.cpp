@@ -34,11 +34,11 @@ std::vector<shared::Light> lights_around() {
   for (Light& light : lights) {
     const double angle = 6.2831853 * unit();
     const double distance = 1.0 + 9.0 * unit();
-    light.position = {distance * std::sin(angle), 4.0 * unit() - 2.0, distance * std::cos(angle)};
+    light.position = glm::vec3{distance * std::sin(angle), 4.0 * unit() - 2.0, distance * std::cos(angle)};
     light.range = static_cast<float>(0.3 + 1.5 * unit());
     if (unit() < 0.7) continue;
     light.type = LightType::spot;
-    light.direction = {unit() - 0.5, unit() - 0.5, unit() - 0.5};
+    light.direction = glm::vec3{unit() - 0.5, unit() - 0.5, unit() - 0.5};
     light.outer_angle = static_cast<float>(0.1 + unit());
   }
   return pack(lights);

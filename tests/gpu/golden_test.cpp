@@ -193,7 +193,9 @@ TEST_P(GoldenPicture, ShowsALightThatIsMissingOrMoved) {
   int moved = 0;
   for (const std::size_t light : prominent_lights(golden, drawn.pixels_reached)) {
     std::vector<Light> changed = lights;
-    changed[light].position += 0.5F * changed[light].range * glm::vec3(0.6F, 0.0F, 0.8F);
+    glm::vec3 position = changed[light].position;
+    position += 0.5F * changed[light].range * glm::vec3(0.6F, 0.0F, 0.8F);
+    changed[light].position = position;
     moved += is_seen(changed) ? 1 : 0;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(light));
     missing += is_seen(changed) ? 1 : 0;

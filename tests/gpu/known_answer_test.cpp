@@ -80,7 +80,7 @@ TEST_F(KnownAnswer, PlaneUnderItsLight) {
       for (const glm::uvec2 pixel : {glm::uvec2(32, 24), {32, 30}, {10, 40}, {50, 28}, {60, 47}, {3, 33}}) {
         SCOPED_TRACE(fmt::format("pixel ({}, {})", pixel.x, pixel.y));
         const glm::dvec3 point = seen_point(pictures.view, pixel, {0.0, 1.0, 0.0});
-        const double z_view = -(pictures.view.view_from_world() * glm::dvec4(point, 1.0)).z;
+        const double z_view = -(glm::dmat4(pictures.view.view_from_world()) * glm::dvec4(point, 1.0)).z;
         if (std::abs(point.x) > 9.9 || std::abs(point.z) > 9.9 || z_view < pictures.view.z_view(1.0)) continue;
         ++seen;
         const Reflection surface{.normal = {0.0, 1.0, 0.0},
@@ -205,7 +205,7 @@ TEST_F(KnownAnswer, EmissionAmbientSunAndSky) {
   const Pictures pictures(scene);
   const glm::uvec2 pixel(33, 22);
   const glm::dvec3 point = seen_point(pictures.view, pixel, {0.0, 0.0, 1.0});
-  const Reflection sunlit{.to_eye = glm::normalize(glm::dvec3(pictures.view.world_from_view()[3]) - point)};
+  const Reflection sunlit{.to_eye = glm::normalize(glm::dvec3(glm::dmat4(pictures.view.world_from_view())[3]) - point)};
   // White, rough and seen from straight before it reflects 0.972 of what arrives from everywhere: 0.96 by its diffuse
   // part, and 0.04 times 0.307 by its specular one (brdf_test.cpp); the fit says 0.973.
   const glm::dvec3 expected = glm::dvec3(emitted) + 0.973 * glm::dvec3(scene.ambient) / std::numbers::pi +
@@ -243,7 +243,7 @@ TEST_F(KnownAnswer, SeveralSamplesShowHowMuchOfAPixelIsCovered) {
   Lighting lighting = make_lighting(renderer, {.method = &brute_force()});
   const HdrImage image = render_samples(renderer, lighting, {}, {}, {.samples = 32}).image;
   // The wall is a square around the axis: how far it reaches from the picture's middle, in pixels.
-  const double half_px = 1.03 / glm::length(view.view_position({1.0, 0.0}, 4.0) - view.view_position({0.0, 0.0}, 4.0));
+  const double half_px = 1.03 / (view.view_position({1.0, 0.0}, 4.0).x - view.view_position({0.0, 0.0}, 4.0).x);
   std::uint32_t partly = 0;
   const auto covered = [half_px](std::uint32_t i, std::uint32_t size) {
     const double from_middle = std::abs(i + 0.5 - 0.5 * size);

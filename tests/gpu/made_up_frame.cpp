@@ -38,7 +38,7 @@ std::vector<shared::Light> scattered_lights(const View& view, std::uint32_t coun
     light.range = static_cast<float>(0.2 + unit());
     if (unit() < 0.7) continue;
     light.type = LightType::spot;
-    light.direction = {unit() - 0.5, unit() - 0.5, -unit()};
+    light.direction = glm::vec3{unit() - 0.5, unit() - 0.5, -unit()};
     light.outer_angle = static_cast<float>(0.1 + unit());
   }
   return pack(lights);

@@ -77,7 +77,7 @@ std::vector<float> steps(const View& view, double nearest, double farthest) {
 /// Half of them straight ahead or behind of a surface and only just within reach of it, the others around surfaces.
 std::vector<Light> reaching_lights(const View& view, const std::vector<float>& depth) {
   RandomVolumes random(5);
-  const glm::dvec3 ahead = -glm::normalize(glm::dvec3(view.world_from_view()[2]));
+  const glm::dvec3 ahead = -glm::normalize(glm::dvec3(glm::dmat4(view.world_from_view())[2]));
   std::vector<Light> lights;
   for (std::uint32_t i = 0; lights.size() < ODD_LIGHTS; ++i) {
     const glm::uvec2 pixel(i * 7 % ODD_SIZE.x, i * 5 % ODD_SIZE.y);
@@ -108,8 +108,8 @@ std::vector<Light> endless_lights(const View& view) {
                               std::numeric_limits<float>::infinity()};
   constexpr float AWAY_M[] = {3.0F, 7e6F, 6e17F, 3e18F, 1e22F, 1e30F, 3e38F};
   constexpr float ANGLES[] = {0.01F, 0.4F, 1.2F, RIGHT_ANGLE};
-  const glm::vec3 ahead = -glm::normalize(glm::vec3(view.world_from_view()[2]));
-  const glm::vec3 eye(view.world_from_view()[3]);
+  const glm::vec3 ahead = -glm::normalize(glm::vec3(glm::dmat4(view.world_from_view())[2]));
+  const glm::vec3 eye(glm::dmat4(view.world_from_view())[3]);
   std::vector<Light> lights(ODD_LIGHTS);
   for (std::uint32_t i = 0; i < ODD_LIGHTS; ++i) {
     Light& light = lights[i];

@@ -32,7 +32,8 @@ std::vector<Seen> seen_points(const View& view, std::span<const float> depth) {
       if (d <= 0.0F) continue;
       const glm::dvec2 pixel(x, y);
       const double z = view.z_view(d);
-      const double size = glm::distance(view.view_position(pixel, z), view.view_position(pixel + 1.0, z));
+      const double size =
+          glm::distance(glm::dvec3(view.view_position(pixel, z)), glm::dvec3(view.view_position(pixel + 1.0, z)));
       seen.push_back({glm::vec3(view.world_position(x, y, d)), static_cast<float>(size)});
     }
   }
@@ -43,7 +44,7 @@ std::vector<Seen> seen_points(const View& view, std::span<const float> depth) {
 std::vector<shared::Light> slight_lights(const View& view, const std::vector<Seen>& seen) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> unit(0.0F, 1.0F);
-  const glm::vec3 eye(view.world_from_view()[3]);
+  const glm::vec3 eye(glm::dmat4(view.world_from_view())[3]);
   const auto near_m = static_cast<float>(view.z_view(1.0));
   std::vector<Light> lights;
   for (std::uint32_t i = 0; i < LIGHTS; ++i) {
@@ -52,22 +53,22 @@ std::vector<shared::Light> slight_lights(const View& view, const std::vector<See
     Light light{.position = at.position, .intensity = 5.0F};
     if (i % 4 == 0) {  // a share of a pixel
       light.range = at.pixel_m * (0.01F + unit(random));
-      light.position += off * (light.range * 0.9F * unit(random));
+      light.position = at.position + off * (light.range * 0.9F * unit(random));
     } else if (i % 4 == 1) {  // a needle through the point
       light.type = LightType::spot;
       light.range = 30.0F * unit(random) + 0.1F;
-      light.position -= off * (light.range * 0.9F * unit(random));
+      light.position = at.position - off * (light.range * 0.9F * unit(random));
       light.direction = off;
       light.outer_angle = 0.001F + 0.03F * unit(random);
     } else if (i % 4 == 2) {  // across the near plane, wide or narrow
       light.position = eye + off * (2.0F * near_m * unit(random));
-      light.range = glm::distance(light.position, at.position) * (0.9F + 0.3F * unit(random));
+      light.range = glm::distance(glm::vec3(light.position), at.position) * (0.9F + 0.3F * unit(random));
       if (unit(random) < 0.7F) light.type = LightType::spot;
-      light.direction = at.position - light.position;
+      light.direction = at.position - glm::vec3(light.position);
       light.outer_angle = 1.5707963F * unit(random);
     } else {  // one whose surface passes the point
       light.range = 20.0F * unit(random);
-      light.position += off * (light.range * (0.999F + 0.002F * unit(random)));
+      light.position = at.position + off * (light.range * (0.999F + 0.002F * unit(random)));
       if (unit(random) < 0.5F) light.type = LightType::spot;
       light.direction = -off;
       light.outer_angle = 1.5707963F;

@@ -82,11 +82,11 @@ RandomTile RandomVolumes::tile(const View& view) {
       z_nearest > 0.0 ? log_uniform(z_nearest, std::max(z_farthest, 1.01 * z_nearest)) : uniform(z_nearest, z_farthest);
   const float depth = std::clamp(static_cast<float>(device_depth(view, z)), 1e-20F, 1.0F);
   const auto thickness = static_cast<float>(chance(0.5) ? 0.0 : uniform(0.0, 0.5));
-  return {.volume = {.min_px = corner,
-                     .max_px = corner + tile_px,
+  return {.volume = {.min_px = Vec2(corner),
+                     .max_px = Vec2(corner + tile_px),
                      .nearest = std::min(1.0F, depth * (1.0F + thickness)),
                      .farthest = depth * (1.0F - thickness)},
-          .position_world = view.world_position(pixel.x, pixel.y, depth),
+          .position_world = glm::dvec3(view.world_position(pixel.x, pixel.y, depth)),
           .depth = depth};
 }
 
@@ -106,7 +106,8 @@ Light RandomVolumes::light_at(const glm::dvec3& position, const glm::dvec3& towa
 Light RandomVolumes::light_reaching(const View& view, const glm::dvec3& position_world) {
   const double range = log_uniform(0.05, 500.0);
   // Where bounds are tightest: straight along the view's axes.
-  glm::dvec3 away = chance(0.5) ? unit_vector() : glm::dvec3(view.world_from_view()[static_cast<int>(below(3))]);
+  glm::dvec3 away =
+      chance(0.5) ? unit_vector() : glm::dvec3(glm::dmat4(view.world_from_view())[static_cast<int>(below(3))]);
   if (chance(0.5)) away = -away;
   Light light = light_at(position_world + away * (range * share_near_one()), -glm::normalize(away));
   light.range = static_cast<float>(range);

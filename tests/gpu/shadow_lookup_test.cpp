@@ -45,9 +45,9 @@ std::vector<ShadowMap> some_maps(ShadowFilter filter) {
                    .outer_angle = 0.7F};
   const auto map = [&](const Light& light, PointShadows points, std::uint32_t side, glm::uvec2 corner) {
     const ShadowAtlasInfo info{.size = ATLAS, .points = points, .filter = filter};
-    std::vector<glm::uvec2> corners;
+    std::vector<UVec2> corners;
     for (std::uint32_t i = 0; i < shadow_squares(pack(light), points); ++i)
-      corners.push_back(corner + glm::uvec2(i % 3, i / 3) * side);
+      corners.emplace_back(corner + glm::uvec2(i % 3, i / 3) * side);
     return shadow_map(pack(light), info, side, corners);
   };
   return {map(point, PointShadows::faces, 64, {0, 0}),
@@ -63,7 +63,7 @@ std::vector<ShadowCase> some_cases(std::span<const ShadowMap> maps, Random& rand
   std::vector<ShadowCase> cases(CASES);
   for (ShadowCase& c : cases) {
     c.light = random.below(static_cast<std::uint32_t>(maps.size()));
-    c.position = maps[c.light].position + random.direction() * random.in(0.05F, 7.0F);
+    c.position = glm::vec3(maps[c.light].position) + random.direction() * random.in(0.05F, 7.0F);
     c.normal = random.direction();
     c.seed = random.below(~0U);
   }

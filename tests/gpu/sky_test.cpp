@@ -50,7 +50,7 @@ std::vector<shared::Light> covering_lights() {
 View camera_view(const Scene& scene) { return view_of(scene.cameras.front(), WIDTH, HEIGHT, "camera"); }
 
 float device_depth(const View& view, double z_view) {
-  const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(0.0, 0.0, -z_view, 1.0);
+  const glm::dvec4 clip = glm::dmat4(view.clip_from_view()) * glm::dvec4(0.0, 0.0, -z_view, 1.0);
   return static_cast<float>(clip.z / clip.w);
 }
 

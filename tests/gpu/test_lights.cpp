@@ -19,10 +19,10 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 struct Axes {
   glm::vec3 eye, right, up, ahead;
   explicit Axes(const View& view)
-      : eye(view.world_from_view()[3]),
-        right(view.world_from_view()[0]),
-        up(view.world_from_view()[1]),
-        ahead(-view.world_from_view()[2]) {}
+      : eye(glm::dmat4(view.world_from_view())[3]),
+        right(glm::dmat4(view.world_from_view())[0]),
+        up(glm::dmat4(view.world_from_view())[1]),
+        ahead(-glm::dmat4(view.world_from_view())[2]) {}
 };
 
 Light point(const glm::vec3& position, float range, float intensity = 20.0F) {

@@ -21,9 +21,9 @@ void add_facing_quad(Scene& scene, const View& view, glm::uvec2 pixel, double z_
   for (const glm::uvec2 corner : COUNTER_CLOCKWISE) {
     Vertex vertex;
     const glm::dvec3 position = view.view_position(glm::dvec2(pixel + corner), z_view);
-    vertex.position = glm::vec3(view.world_from_view() * glm::dvec4(position, 1.0));
-    vertex.normal = glm::vec3(view.world_from_view()[2]);
-    vertex.tangent = glm::vec4(glm::vec3(view.world_from_view()[0]), 1.0F);
+    vertex.position = glm::vec3(glm::dmat4(view.world_from_view()) * glm::dvec4(position, 1.0));
+    vertex.normal = glm::vec3(glm::dmat4(view.world_from_view())[2]);
+    vertex.tangent = glm::vec4(glm::vec3(glm::dmat4(view.world_from_view())[0]), 1.0F);
     scene.vertices.push_back(vertex);
   }
   for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) scene.indices.push_back(first + i);

@@ -58,7 +58,7 @@ glm::dvec3 reflected(const Reflection& r) {
 glm::dvec3 seen_point(const View& view, glm::uvec2 pixel, const glm::dvec3& plane_normal) {
   const auto at = [&](double z) {
     const glm::dvec3 p = view.view_position(glm::dvec2(pixel) + 0.5, z);
-    return glm::dvec3(view.world_from_view() * glm::dvec4(p, 1.0));
+    return glm::dvec3(glm::dmat4(view.world_from_view()) * glm::dvec4(p, 1.0));
   };
   const glm::dvec3 a = at(1.0);
   const glm::dvec3 ray = at(2.0) - a;
@@ -70,8 +70,8 @@ glm::dvec3 lit_by_point(const Light& light, const glm::dvec3& position, Reflecti
   const double distance = glm::length(offset);
   if (distance >= light.range) return glm::dvec3(0.0);
   surface.to_light = offset / distance;
-  surface.to_eye = view.orthographic() ? glm::dvec3(view.world_from_view()[2])
-                                       : glm::normalize(glm::dvec3(view.world_from_view()[3]) - position);
+  surface.to_eye = view.orthographic() ? glm::dvec3(glm::dmat4(view.world_from_view())[2])
+                                       : glm::normalize(glm::dvec3(glm::dmat4(view.world_from_view())[3]) - position);
   const double window = 1.0 - std::pow(distance / light.range, 4.0);
   return glm::dvec3(light.color) * (light.intensity * window / (distance * distance)) * reflected(surface);
 }

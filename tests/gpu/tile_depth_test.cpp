@@ -51,7 +51,7 @@ void expect_bounds(const Picture& picture, std::uint32_t tile_px, std::uint32_t 
   shared::Frame frame{};
   frame.size_px = {picture.width, picture.height};
   frame.sky_bits = std::bit_cast<std::uint32_t>(picture.sky);
-  const glm::uvec2 tiles = (frame.size_px + tile_px - 1U) / tile_px;
+  const glm::uvec2 tiles = (glm::uvec2(frame.size_px) + tile_px - 1U) / tile_px;
   const vulkan::Buffer frames = host_buffer_of("frame", std::vector{frame});
   const vulkan::Buffer bounds = host_buffer("bounds", std::uint64_t{tiles.x} * tiles.y * sizeof(glm::vec2));
   const GpuImage image = depth_image(picture.width, picture.height, picture.depth);

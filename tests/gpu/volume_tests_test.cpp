@@ -70,15 +70,15 @@ std::string describe(const Batch& batch, std::size_t i) {
 }
 
 glm::dvec3 in_view(const View& view, const glm::dvec3& world) {
-  return glm::dvec3(view.view_from_world() * glm::dvec4(world, 1.0));
+  return glm::dvec3(glm::dmat4(view.view_from_world()) * glm::dvec4(world, 1.0));
 }
 
 /// How far 32-bit arithmetic may blur positions of this case, m.
 double blur(const Batch& batch, std::size_t i) {
   const View& view = batch.view(i);
-  return 1e-5 *
-         (glm::length(glm::dvec3(batch.lights[i].position)) + glm::length(glm::dvec3(view.world_from_view()[3])) +
-          glm::length(glm::dvec3(batch.answers[i].bounds.center)));
+  return 1e-5 * (glm::length(glm::dvec3(batch.lights[i].position)) +
+                 glm::length(glm::dvec3(glm::dmat4(view.world_from_view())[3])) +
+                 glm::length(glm::dvec3(batch.answers[i].bounds.center)));
 }
 
 /// Signed distance to the nearest of a tile's four sides, positive inside.
@@ -91,7 +91,7 @@ double side_distance(const View& view, const shared::VolumeCase& tile, const glm
   for (int i = 0; i < 4; ++i) {
     const glm::dvec3 a = view.view_position(corners[i], 1.0);
     const glm::dvec3 b = view.view_position(corners[(i + 1) % 4], 1.0);
-    glm::dvec3 normal = glm::normalize(glm::cross(b - a, view.view_position(corners[i], 2.0) - a));
+    glm::dvec3 normal = glm::normalize(glm::cross(b - a, glm::dvec3(view.view_position(corners[i], 2.0)) - a));
     if (glm::dot(normal, inside - a) < 0.0) normal = -normal;
     least = std::min(least, glm::dot(normal, point - a));
   }

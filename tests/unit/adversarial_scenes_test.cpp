@@ -70,9 +70,9 @@ TEST(AdversarialScenes, OneTileIsOneTile) {
       glm::dvec2 low(1e9);
       glm::dvec2 high(-1e9);
       for (const Light& light : place_lights(hall.air, {.count = n, .frame = 30})) {
-        const glm::dvec4 at = view.view_from_world() * glm::dvec4(glm::dvec3(light.position), 1.0);
+        const glm::dvec4 at = glm::dmat4(view.view_from_world()) * glm::dvec4(glm::dvec3(light.position), 1.0);
         const double z = -at.z - light.range;
-        const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(glm::dvec2(at), -z, 1.0);
+        const glm::dvec4 clip = glm::dmat4(view.clip_from_view()) * glm::dvec4(glm::dvec2(at), -z, 1.0);
         const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
         const glm::dvec2 pixel(0.5 * (ndc.x + 1.0) * width, 0.5 * (ndc.y + 1.0) * height);
         const double radius = light.range / z * std::abs(view.clip_from_view()[1][1]) * 0.5 * height;
@@ -93,7 +93,7 @@ TEST(AdversarialScenes, NearPlaneHasLightsAroundTheEye) {
     int around = 0;
     int behind = 0;
     for (const Light& light : place_lights(kiosk.air, {.count = n})) {
-      const glm::vec3 away = light.position - eye;
+      const glm::vec3 away = glm::vec3(light.position) - eye;
       EXPECT_LE(glm::length(away), 0.8F * std::sqrt(3.0F));
       around += glm::length(away) < light.range ? 1 : 0;
       behind += glm::dot(away, -glm::vec3(kiosk.scene.cameras.front().world_from_camera[2])) < 0.0F ? 1 : 0;
@@ -142,8 +142,9 @@ TEST(AdversarialScenes, NoLightComesThroughTheWall) {
   }
   // The picture's corners, and wider than any screen, see the wall, not what is beside it.
   for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(320, 0), glm::dvec2(0, 100), glm::dvec2(320, 100)}) {
-    const glm::dvec3 eye(view.world_from_view()[3]);
-    const glm::dvec3 through(view.world_from_view() * glm::dvec4(view.view_position(corner, 1.0), 1.0));
+    const glm::dvec3 eye(glm::dmat4(view.world_from_view())[3]);
+    const glm::dvec3 through(glm::dmat4(view.world_from_view()) *
+                             glm::dvec4(glm::dvec3(view.view_position(corner, 1.0)), 1.0));
     const glm::dvec3 hit = eye + (-4.0 - eye.z) / (through.z - eye.z) * (through - eye);
     EXPECT_LT(std::abs(hit.x), 59.0);
     EXPECT_GT(hit.y, -7.0);

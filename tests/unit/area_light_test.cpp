@@ -3,6 +3,7 @@
 #include "lamplight/area_light.h"
 
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <cmath>
 #include <functional>

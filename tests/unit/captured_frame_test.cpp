@@ -86,7 +86,8 @@ std::vector<float> plane_depth(const View& view, const glm::dvec3& point, const 
   for (std::uint32_t y = 0; y < view.height(); ++y) {
     for (std::uint32_t x = 0; x < view.width(); ++x) {
       const auto at = [&](double z_view) {
-        return glm::dvec3(view.world_from_view() * glm::dvec4(view.view_position({x + 0.5, y + 0.5}, z_view), 1.0));
+        return glm::dvec3(glm::dmat4(view.world_from_view()) *
+                          glm::dvec4(glm::dvec3(view.view_position({x + 0.5, y + 0.5}, z_view)), 1.0));
       };
       const double below = glm::dot(normal, at(1.0) - point);
       const double above = glm::dot(normal, at(2.0) - point);

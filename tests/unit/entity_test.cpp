@@ -98,21 +98,21 @@ TEST(Entities, BoxesAreChecked) {
   nowhere.center.y = std::numeric_limits<float>::quiet_NaN();
   EXPECT_NE(message(nowhere).find("center"), std::string::npos);
   OrientedBox sheared = good;
-  sheared.axis_x = glm::normalize(good.axis_x + 0.1F * good.axis_y);
+  sheared.axis_x = glm::normalize(glm::vec3(good.axis_x) + 0.1F * glm::vec3(good.axis_y));
   EXPECT_NE(message(sheared).find("axes"), std::string::npos);
   OrientedBox stretched = good;
-  stretched.axis_z *= 1.01F;
+  stretched.axis_z = 1.01F * glm::vec3(good.axis_z);
   EXPECT_NE(message(stretched).find("axes"), std::string::npos);
 }
 
 TEST(Reach, BoxAlongEachOfItsAxes) {
   const OrientedBox box = oriented({1.0F, 2.0F, 3.0F}, {0.9F, 0.1F, -0.3F, 0.2F}, {4.0F, 0.5F, 0.02F});
   const glm::vec3 axes[] = {box.axis_x, box.axis_y, box.axis_z};
+  const glm::dvec3 half_extents = box.half_extents;
   for (int i = 0; i < 3; ++i) {
     for (const double side : {-1.0, 1.0}) {
       const auto ask = [&](double share) {
-        return lamp::reach(box, glm::dvec3(box.center) +
-                                    side * share * static_cast<double>(box.half_extents[i]) * glm::dvec3(axes[i]));
+        return lamp::reach(box, glm::dvec3(box.center) + side * share * half_extents[i] * glm::dvec3(axes[i]));
       };
       EXPECT_EQ(ask(0.0), Reach::inside);
       EXPECT_EQ(ask(0.9999), Reach::inside);
@@ -139,7 +139,7 @@ TEST(Truth, BoxesFollowTheLights) {
   for (OrientedBox& box : boxes) {
     box = random_box(random);
     box.center = random.vector(5.0F);
-    box.half_extents = glm::min(box.half_extents + 0.3F, 4.0F);
+    box.half_extents = glm::min(glm::vec3(box.half_extents) + 0.3F, 4.0F);
   }
   const lamp::TruthQuery both{.view = view, .depth = depth, .lights = packed, .rows = 70, .boxes = boxes};
   const lamp::Truth slow = lamp::brute_force_truth(both);

@@ -83,7 +83,7 @@ TEST(Flight, RefusesNoKeysAndNoFrames) {
 
 // Where a point straight ahead of the camera lands in the picture, in pixels.
 glm::dvec2 pixel_of_axis(const View& view, double z_view) {
-  const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(0.0, 0.0, -z_view, 1.0);
+  const glm::dvec4 clip = glm::dmat4(view.clip_from_view()) * glm::dvec4(0.0, 0.0, -z_view, 1.0);
   return (glm::dvec2(clip) / clip.w + 1.0) * 0.5 * glm::dvec2(view.width(), view.height());
 }
 
@@ -120,7 +120,9 @@ TEST(ViewOf, OrthographicOfAPerspectiveCameraShowsTheSameAtTenMetres) {
   const View flat = view_of(camera, 200, 100, "orthographic");
   const View deep = view_of(camera, 200, 100, "camera");
   EXPECT_TRUE(flat.orthographic());
-  EXPECT_LT(glm::length(flat.view_position({13.0, 77.0}, 10.0) - deep.view_position({13.0, 77.0}, 10.0)), 1e-5);
+  EXPECT_LT(glm::distance(glm::dvec3(flat.view_position({13.0, 77.0}, 10.0)),
+                          glm::dvec3(deep.view_position({13.0, 77.0}, 10.0))),
+            1e-5);
 }
 
 TEST(ViewOf, OrthographicCamera) {

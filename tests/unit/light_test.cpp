@@ -3,6 +3,7 @@
 #include "lamplight/light.h"
 
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <cmath>
 #include <functional>
@@ -157,7 +158,7 @@ TEST(PackLight, PointLightsHoldNoSpotNumbers) {
   light.outer_angle = NOT_A_NUMBER;
   const lamp::shared::Light packed = lamp::pack(light);
   EXPECT_EQ(packed.type, lamp::shared::LIGHT_POINT);
-  EXPECT_EQ(glm::length(packed.direction), 1.0F);
+  EXPECT_EQ(glm::length(glm::vec3(packed.direction)), 1.0F);
   EXPECT_EQ(packed.outer_angle, 0.0F);
   EXPECT_EQ(packed.spot_scale, 0.0F);
 }
@@ -187,7 +188,9 @@ TEST(BoundingSphere, HoldsAllThatASpotReaches) {
     const glm::vec3 side = glm::normalize(glm::cross(axis, glm::vec3(0.0F, 1.0F, 0.003F)));
     const glm::vec3 rim = light.range * (packed.cos_outer * axis + packed.sin_outer * side);
     for (const glm::vec3& reach : {glm::vec3(0.0F), rim, light.range * axis})
-      EXPECT_LE(glm::distance(sphere.center, light.position + reach), sphere.radius * 1.0001F + 1e-4F) << angle;
+      EXPECT_LE(glm::distance(glm::vec3(sphere.center), glm::vec3(light.position) + reach),
+                sphere.radius * 1.0001F + 1e-4F)
+          << angle;
     EXPECT_LE(sphere.radius, light.range * 1.0001F);
   }
 }

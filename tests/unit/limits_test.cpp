@@ -1,6 +1,7 @@
 // The largest problems: 16 million lights, 16 384 x 16 384 pixels, and one beyond: planned, or refused in one line.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cctype>

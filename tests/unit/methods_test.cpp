@@ -3,6 +3,7 @@
 #include "lamplight/method.h"
 
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <set>

@@ -76,7 +76,7 @@ void expect_all_in_the_room(const Scene& scene, const glm::mat4& pose) {
   for (const std::uint32_t frame : {0U, 1U, 37U, 75U, 150U, 299U}) {
     const auto lights = place_lights(air, {.count = 3000, .min_range = 4.0F, .max_range = 8.0F, .frame = frame});
     for (const Light& light : lights) {
-      const glm::vec3 p(glm::inverse(pose) * glm::vec4(light.position, 1.0F));
+      const glm::vec3 p(glm::inverse(pose) * glm::vec4(glm::vec3(light.position), 1.0F));
       ASSERT_TRUE(inside(ROOM, p)) << "(" << p.x << ", " << p.y << ", " << p.z << ")";
       ASSERT_FALSE(inside(PILLAR, p)) << "(" << p.x << ", " << p.y << ", " << p.z << ")";
     }
@@ -222,7 +222,7 @@ TEST(PlaceLights, AreValidAndWithinTheStatedNumbers) {
     EXPECT_LE(light.outer_angle, 0.7855F);
     EXPECT_GE(light.inner_angle, 0.59F * light.outer_angle);
     EXPECT_LE(light.inner_angle, 0.91F * light.outer_angle);
-    EXPECT_NEAR(glm::length(light.direction), 1.0F, 1e-5F);
+    EXPECT_NEAR(glm::length(glm::vec3(light.direction)), 1.0F, 1e-5F);
     EXPECT_FLOAT_EQ(light.intensity, light.range * light.range);
     short_ranges += light.range < std::sqrt(2.0F) ? 1 : 0;
     down += light.direction.y < 0.0F ? 1 : 0;
@@ -271,7 +271,7 @@ TEST(PlaceLights, PathsAreSmoothAndClosed) {
   for (how.frame = 1; how.frame <= how.frames; ++how.frame) {
     const auto lights = place_lights(air, how);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      const float step = glm::length(lights[i].position - previous[i].position);
+      const float step = glm::distance(glm::vec3(lights[i].position), glm::vec3(previous[i].position));
       // Three waves a path, half the range high, along three axes.
       ASSERT_LT(step, 1.01F * 6.2832F * 3.0F / 120.0F * 0.5F * lights[i].range * 1.7321F);
       path[i] += step;
@@ -306,7 +306,7 @@ double overlap(const Scene& scene, std::uint32_t count) {
   std::size_t samples = 0;
   for (std::size_t i = 0; i < air.cells.size(); i += 997) {
     const glm::vec3 p = air.cells[i].min + 0.5F * air.cell_m;
-    for (const Light& light : lights) sum += glm::length(light.position - p) < light.range ? 1.0 : 0.0;
+    for (const Light& light : lights) sum += glm::distance(glm::vec3(light.position), p) < light.range ? 1.0 : 0.0;
     ++samples;
   }
   return sum / static_cast<double>(samples);

@@ -52,17 +52,17 @@ TEST(Reach, PointLight) {
 
 TEST(Reach, RangeZeroReachesNothingAndInfinityEverything) {
   const glm::dvec3 center(1.0, 2.0, 3.0);
-  EXPECT_EQ(ask({.position = center, .range = 0.0F}, center), Reach::outside);
+  EXPECT_EQ(ask({.position = glm::vec3(center), .range = 0.0F}, center), Reach::outside);
   EXPECT_EQ(ask(spot_down(0.5F, 0.0F), off_axis(0.0, 0.0)), Reach::outside);
-  EXPECT_EQ(ask({.position = center, .range = INFINITE}, glm::dvec3(1e30)), Reach::inside);
+  EXPECT_EQ(ask({.position = glm::vec3(center), .range = INFINITE}, glm::dvec3(1e30)), Reach::inside);
   EXPECT_EQ(ask(spot_down(0.5F, INFINITE), off_axis(0.4, 1e30)), Reach::inside);
   EXPECT_EQ(ask(spot_down(0.5F, INFINITE), off_axis(0.6, 1e30)), Reach::outside);
   for (const float range : {1e18F, 2e18F, 1e30F, std::numeric_limits<float>::max()}) {
-    EXPECT_EQ(ask({.position = center, .range = range}, glm::dvec3(1e31)), Reach::inside) << range;
+    EXPECT_EQ(ask({.position = glm::vec3(center), .range = range}, glm::dvec3(1e31)), Reach::inside) << range;
     EXPECT_EQ(ask(spot_down(0.5F, range), off_axis(0.4, 1e31)), Reach::inside) << range;
     EXPECT_EQ(ask(spot_down(0.5F, range), off_axis(0.6, 1e31)), Reach::outside) << range;
   }
-  EXPECT_EQ(ask({.position = center, .range = 9.9e17F}, glm::dvec3(1e18)), Reach::outside);
+  EXPECT_EQ(ask({.position = glm::vec3(center), .range = 9.9e17F}, glm::dvec3(1e18)), Reach::outside);
 }
 
 TEST(Reach, SpotConeAtAnyHalfAngle) {
@@ -158,7 +158,7 @@ std::vector<float> random_depth(Random& random, const View& view) {
     const double x = static_cast<double>(i % view.width());
     const double y = static_cast<double>(row);
     const double z = 6.0 + 4.0 * std::sin(std::floor(x / step)) + 0.02 * y;
-    const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(0.0, 0.0, -z, 1.0);
+    const glm::dvec4 clip = glm::dmat4(view.clip_from_view()) * glm::dvec4(0.0, 0.0, -z, 1.0);
     depth[i] = std::sin(x / step * 3.0 + y / step) > 0.8 ? 0.0F : static_cast<float>(clip.z / clip.w);
   }
   return depth;

@@ -103,7 +103,8 @@ TEST(ShadowAtlas, HoldsForMovingLightsAndCameras) {
       std::vector<shared::Light> lights = random_lights(100, size);
       Random random(7);
       for (int i = 0; i < 60; ++i) {
-        for (std::size_t k = 0; k < lights.size(); k += 3) lights[k].position += random.vector(0.3F);
+        for (std::size_t k = 0; k < lights.size(); k += 3)
+          lights[k].position = glm::vec3(lights[k].position) + random.vector(0.3F);
         // Lights come and go, too.
         const std::size_t count = i % 7 == 0 ? 60 : lights.size();
         const View view = view_from(glm::dvec3(random.vector(25.0F)));
@@ -245,14 +246,14 @@ TEST(ShadowAtlas, DrawsWhatMovedAndWhatSomethingMovedNear) {
   ShadowFrameInfo frame{.views = std::span(&view, 1), .lights = lights};
   EXPECT_EQ(atlas.schedule(frame).value().counts.redrawn, 10U);
   lights[3].position.y += 0.5F;
-  lights[4].intensity *= 2.0F;  // casts the same shadow
+  lights[4].intensity = glm::vec3(lights[4].intensity) * 2.0F;  // casts the same shadow
   const ShadowFrame moved = atlas.schedule(frame).value();
   ASSERT_EQ(moved.redraws.size(), 1U);
   EXPECT_EQ(moved.redraws[0].light, 3U);
   EXPECT_EQ(moved.maps[3].position, lights[3].position);
   EXPECT_EQ(moved.counts.moved, 0U) << "its squares are the same";
 
-  const shared::LightSphere ball{.center = lights[7].position + glm::vec3(0.0F, 2.5F, 0.0F), .radius = 0.6F};
+  const shared::LightSphere ball{.center = glm::vec3(lights[7].position) + glm::vec3(0.0F, 2.5F, 0.0F), .radius = 0.6F};
   frame.moved = std::span(&ball, 1);
   const ShadowFrame near = atlas.schedule(frame).value();
   ASSERT_EQ(near.redraws.size(), 1U);
@@ -309,7 +310,7 @@ TEST(ShadowAtlas, OddLights) {
   EXPECT_EQ(frame.maps[4].kind, shared::SHADOW_OCTAHEDRON) << "a spot of 90 degrees has no plane of its own";
   EXPECT_EQ(frame.maps[5].kind, shared::SHADOW_SPOT);
   for (const shared::ShadowView& v : frame.views)
-    for (const glm::vec3& row : {v.row_x, v.row_y, v.row_w})
+    for (const glm::vec3 row : {v.row_x, v.row_y, v.row_w})
       EXPECT_TRUE(std::isfinite(row.x) && std::isfinite(row.y) && std::isfinite(row.z));
   EXPECT_EQ(atlas.schedule({.views = std::span(&view, 1), .lights = {}}).value().counts.used_texels, 0U);
   EXPECT_EQ(atlas.schedule({.lights = lights}).value().counts.seen, 0U) << "without a view nothing is seen";

@@ -39,8 +39,8 @@ constexpr std::uint32_t ATLAS = 1024;
 
 /// Squares side by side from (16, 32) on.
 shared::ShadowMap map_of(const shared::Light& light, const ShadowAtlasInfo& info, std::uint32_t side) {
-  std::vector<glm::uvec2> corners;
-  for (std::uint32_t i = 0; i < lamp::shadow_squares(light, info.points); ++i) corners.emplace_back(16 + i * side, 32);
+  std::vector<lamp::UVec2> corners;
+  for (std::uint32_t i = 0; i < lamp::shadow_squares(light, info.points); ++i) corners.emplace_back(16 + i * side, 32U);
   return lamp::shadow_map(light, info, side, corners);
 }
 
@@ -54,7 +54,7 @@ int drawn_at(const shared::ShadowMap& map, const glm::vec3& point) {
     EXPECT_EQ(view.light, 5U);
     const glm::dvec3 rel = glm::dvec3(point) - glm::dvec3(view.position);
     bool inside = true;
-    for (const glm::vec3& plane : view.planes) inside = inside && glm::dot(glm::dvec3(plane), rel) >= 0.0;
+    for (const glm::vec3 plane : view.planes) inside = inside && glm::dot(glm::dvec3(plane), rel) >= 0.0;
     if (!inside) continue;
     const double w = glm::dot(glm::dvec3(view.row_w), rel);
     const glm::dvec2 texel =
@@ -87,7 +87,7 @@ TEST(ShadowViews, DrawWhereTheLookUpLooks) {
         const shared::Light light = lamp::pack(Light{.position = random.vector(50.0F), .range = 10.0F});
         const shared::ShadowMap map = map_of(light, info, side);
         for (int i = 0; i < 300; ++i) {
-          const glm::vec3 point = light.position + random.direction() * random.in(0.01F, 10.0F);
+          const glm::vec3 point = glm::vec3(light.position) + random.direction() * random.in(0.01F, 10.0F);
           ASSERT_GE(drawn_at(map, point), 1);
         }
       }
@@ -108,12 +108,12 @@ TEST(ShadowViews, SpotsDrawAllOfTheirCone) {
     const shared::ShadowMap map = map_of(light, info, 64);
     EXPECT_EQ(map.kind, half_angle > lamp::WIDEST_SPOT_SQUARE ? shared::SHADOW_OCTAHEDRON : shared::SHADOW_SPOT);
     for (int i = 0; i < 100; ++i) {
-      const glm::vec3 aside = glm::normalize(glm::cross(light.direction, random.direction()));
+      const glm::vec3 aside = glm::normalize(glm::cross(glm::vec3(light.direction), random.direction()));
       const float angle = half_angle * random.in(0.0F, 0.9999F);
-      const glm::vec3 way = std::cos(angle) * light.direction + std::sin(angle) * aside;
-      const glm::vec3 point = light.position + way * random.in(0.1F, 10.0F);
+      const glm::vec3 way = std::cos(angle) * glm::vec3(light.direction) + std::sin(angle) * aside;
+      const glm::vec3 point = glm::vec3(light.position) + way * random.in(0.1F, 10.0F);
       ASSERT_GE(drawn_at(map, point), 1) << half_angle << " " << angle;
-      const glm::vec2 in_square = lamp::shadow_place(map, point).texel - glm::vec2(16.0F, 32.0F);
+      const glm::vec2 in_square = glm::vec2(lamp::shadow_place(map, point).texel) - glm::vec2(16.0F, 32.0F);
       if (map.kind != shared::SHADOW_SPOT) continue;
       const float border = static_cast<float>(lamp::shadow_border(info.filter, 64)) - 0.01F;
       EXPECT_TRUE(in_square.x >= border && in_square.y >= border && in_square.x <= 64.0F - border &&
@@ -132,7 +132,8 @@ TEST(ShadowViews, FacesHaveTheirBorder) {
       const shared::ShadowMap map = map_of(light, {.size = 4096, .filter = filter}, side);
       for (int i = 0; i < 100; ++i) {
         const ShadowPlace place = lamp::shadow_place(map, random.direction());
-        const glm::vec2 in_square = place.texel - glm::vec2(16.0F + static_cast<float>(place.square * side), 32.0F);
+        const glm::vec2 in_square =
+            glm::vec2(place.texel) - glm::vec2(16.0F + static_cast<float>(place.square * side), 32.0F);
         EXPECT_GE(std::min(in_square.x, in_square.y), border - 0.001F);
         EXPECT_LE(std::max(in_square.x, in_square.y), static_cast<float>(side) - border + 0.001F);
       }
@@ -161,7 +162,7 @@ TEST(ShadowViews, WhatIsInThePictureIsSeen) {
     for (int i = 0; i < 2000; ++i) {
       const glm::dvec3 point =
           view.view_position({random.in(0.0F, 640.0F), random.in(0.0F, 360.0F)}, random.in(0.05F, 60.0F));
-      const glm::vec3 world(view.world_from_view() * glm::dvec4(point, 1.0));
+      const glm::vec3 world(glm::dmat4(view.world_from_view()) * glm::dvec4(point, 1.0));
       const float radius = std::exp(random.in(-4.0F, 4.0F));
       const shared::LightSphere sphere{.center = world + random.direction() * (radius * 0.999F), .radius = radius};
       const double shown = lamp::shown_diameter_px(view, sphere);
@@ -174,7 +175,7 @@ TEST(ShadowViews, WhatIsInThePictureIsSeen) {
 TEST(ShadowViews, WhatIsBesideOrBehindIsNotSeen) {
   for (const View& view : views_of_all_kinds()) {
     const auto seen = [&](const glm::dvec3& at, float radius) {
-      const glm::vec3 world(view.world_from_view() * glm::dvec4(at, 1.0));
+      const glm::vec3 world(glm::dmat4(view.world_from_view()) * glm::dvec4(at, 1.0));
       return lamp::shown_diameter_px(view, {.center = world, .radius = radius});
     };
     EXPECT_EQ(seen({100.0, 0.0, -10.0}, 5.0F), 0.0);

@@ -53,7 +53,7 @@ View make_view(const glm::dmat4& clip_from_view, const glm::dmat4& view_from_wor
 
 // Pixel and device depth of a view-space position, straight from the matrix.
 glm::dvec3 project(const View& view, const glm::dvec3& position) {
-  const glm::dvec4 clip = view.clip_from_view() * glm::dvec4(position, 1.0);
+  const glm::dvec4 clip = glm::dmat4(view.clip_from_view()) * glm::dvec4(position, 1.0);
   const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
   return {(ndc.x + 1.0) * 0.5 * view.width(), (ndc.y + 1.0) * 0.5 * view.height(), ndc.z};
 }
@@ -82,8 +82,8 @@ TEST(View, WorldPositionOfAPixelProjectsBackToItsCentre) {
     SCOPED_TRACE(projection.name);
     const View view = make_view(projection.clip_from_view, pose());
     for (const double depth : {1.0, 0.5, 0.01}) {
-      const glm::dvec4 world(view.world_position(300, 2, depth), 1.0);
-      expect_near(project(view, glm::dvec3(view.view_from_world() * world)), {300.5, 2.5, depth}, 1e-6);
+      const glm::dvec4 world(glm::dvec3(view.world_position(300, 2, depth)), 1.0);
+      expect_near(project(view, glm::dvec3(glm::dmat4(view.view_from_world()) * world)), {300.5, 2.5, depth}, 1e-6);
     }
   }
 }
@@ -125,12 +125,12 @@ TEST(View, SymmetricWindow) {
 
 TEST(View, NumbersAreThirtyTwoBitValues) {
   const View view = make_view(lamp::perspective(lamp::symmetric_window(0.9, 1.7), 0.1, FAR), pose());
-  for (const glm::dmat4& matrix : {view.clip_from_view(), view.view_from_world()}) {
+  for (const glm::dmat4 matrix : {view.clip_from_view(), view.view_from_world()}) {
     for (int i = 0; i < 16; ++i) {
       EXPECT_EQ(matrix[i / 4][i % 4], static_cast<double>(static_cast<float>(matrix[i / 4][i % 4])));
     }
   }
-  const glm::dmat4 product = view.world_from_view() * view.view_from_world();
+  const glm::dmat4 product = glm::dmat4(view.world_from_view()) * glm::dmat4(view.view_from_world());
   for (int i = 0; i < 16; ++i) EXPECT_NEAR(product[i / 4][i % 4], i % 5 == 0 ? 1.0 : 0.0, 1e-12);
 }
 
@@ -143,7 +143,8 @@ TEST(View, FrameHoldsTheView) {
   EXPECT_EQ(glm::dmat4(frame.clip_from_view), view.clip_from_view());
   EXPECT_EQ(glm::dmat4(frame.view_from_world), view.view_from_world());
   EXPECT_EQ(frame.world_from_view, glm::mat4(view.world_from_view()));
-  expect_near(glm::dvec3(view.view_from_world() * glm::dvec4(frame.eye_world, 1.0)), glm::dvec3(0.0), 1e-5);
+  expect_near(glm::dvec3(glm::dmat4(view.view_from_world()) * glm::dvec4(glm::vec3(frame.eye_world), 1.0)),
+              glm::dvec3(0.0), 1e-5);
 }
 
 std::string refusal(const glm::dmat4& clip_from_view, const glm::dmat4& view_from_world) {
@@ -230,7 +231,7 @@ TEST(View, RefusesSingularMatrices) {
 }
 
 TEST(View, DepthMayRunEitherWay) {
-  for (const glm::dmat4& reversed :
+  for (const glm::dmat4 reversed :
        {lamp::perspective(OFF_CENTRE, NEAR, FAR), lamp::perspective(OFF_CENTRE, NEAR, lamp::INFINITE_FAR),
         lamp::orthographic(OFF_CENTRE, NEAR, FAR)}) {
     const lamp::View one = lamp::View::create(64, 36, reversed, pose()).value();
@@ -249,8 +250,8 @@ TEST(View, DepthMayRunEitherWay) {
 }
 
 TEST(View, RefusesLookingAlongPlusZ) {
-  EXPECT_NE(refusal(-lamp::perspective(OFF_CENTRE, NEAR, FAR), pose()).find("-Z"), std::string::npos);
-  EXPECT_NE(refusal(-lamp::orthographic(OFF_CENTRE, NEAR, FAR), pose()).find("-Z"), std::string::npos);
+  EXPECT_NE(refusal(-glm::dmat4(lamp::perspective(OFF_CENTRE, NEAR, FAR)), pose()).find("-Z"), std::string::npos);
+  EXPECT_NE(refusal(-glm::dmat4(lamp::orthographic(OFF_CENTRE, NEAR, FAR)), pose()).find("-Z"), std::string::npos);
 }
 
 TEST(View, RefusesWhatIsNotRigid) {

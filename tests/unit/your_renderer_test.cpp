@@ -18,7 +18,7 @@ constexpr std::uint32_t HEIGHT = 180;
 /// Right-handed, +Y up, a viewport that is turned over: NDC y is up.
 glm::dmat4 projection_with_y_up() {
   return glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, -1.0, 1.0)) *
-         lamp::perspective(lamp::symmetric_window(0.9, double{WIDTH} / HEIGHT), 0.1, 500.0);
+         glm::dmat4(lamp::perspective(lamp::symmetric_window(0.9, double{WIDTH} / HEIGHT), 0.1, 500.0));
 }
 
 glm::dmat4 camera() {
@@ -49,7 +49,7 @@ void expect_draws(const lamp::Result<lamp::View>& made, const glm::dmat4& clip_f
   for (const glm::dvec3 point : {glm::dvec3(0.0), {1.0, 2.5, 0.5}, {-2.0, 0.25, 1.0}}) {
     const Drawn drawn = draw(clip_from_world, point, y_of_ndc);
     const glm::dvec3 at = view.view_position(drawn.pixel, view.z_view(drawn.depth));
-    EXPECT_LT(glm::distance(glm::dvec3(view.world_from_view() * glm::dvec4(at, 1.0)), point), 1e-3);
+    EXPECT_LT(glm::distance(glm::dvec3(glm::dmat4(view.world_from_view()) * glm::dvec4(at, 1.0)), point), 1e-3);
   }
 }
 
@@ -81,8 +81,8 @@ TEST(YourRenderer, HasRowsOneAfterTheOther) {
     your_projection[i] = static_cast<float>(projection[i % 4][i / 4]);
     your_camera[i] = static_cast<float>(camera()[i % 4][i / 4]);
   }
-  const glm::dmat4 clip_from_view(glm::transpose(glm::make_mat4(your_projection.data())));
-  const glm::dmat4 view_from_world(glm::transpose(glm::make_mat4(your_camera.data())));
+  const auto clip_from_view = lamp::DMat4::from_rows(your_projection.data());
+  const auto view_from_world = lamp::DMat4::from_rows(your_camera.data());
   const auto view = lamp::View::create(WIDTH, HEIGHT, clip_from_view, view_from_world);
   expect_draws(view, projection * camera(), 1.0);
   const auto wrong_projection =

@@ -2,6 +2,7 @@
 // the middle of one bin to the middle of another, so that no rounding can move them. SPDX-License-Identifier:
 // Apache-2.0
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <array>
@@ -40,12 +41,12 @@ View test_view() {
 
 /// `depth` and `range` in metres. Spots look away from the eye; 0: a point, else the half-angle's cosine.
 Placed place(const View& view, double depth, double range, double cosine) {
-  Light light{.position = glm::vec3(view.world_from_view() * glm::dvec4(1.5, -2.5, -depth, 1.0)),
+  Light light{.position = glm::vec3(glm::dmat4(view.world_from_view()) * glm::dvec4(1.5, -2.5, -depth, 1.0)),
               .range = static_cast<float>(range)};
   if (cosine != 0.0) {
     light.type = LightType::spot;
     light.outer_angle = static_cast<float>(std::acos(cosine));
-    light.direction = glm::vec3(view.world_from_view() * glm::dvec4(0.0, 0.0, -1.0, 0.0));
+    light.direction = glm::vec3(glm::dmat4(view.world_from_view()) * glm::dvec4(0.0, 0.0, -1.0, 0.0));
   }
   Placed placed{pack(light), depth - range, depth + range};
   if (cosine == 0.8) placed = {placed.light, depth, depth + 1.25 * range};  // through the apex and the rim

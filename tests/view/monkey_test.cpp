@@ -2,6 +2,7 @@
 // build, without an error or a leak. LAMPLIGHT_MONKEY_SECONDS: how long, default 5. LAMPLIGHT_MONKEY_SEED: which
 // monkey. Promise: the same seed does the same, but for when it ends. SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <chrono>
 #include <cstdlib>

@@ -2,6 +2,7 @@
 // To accept a change: tools/viewer_pictures, then look at the new pictures.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -17,25 +17,25 @@ enum class Faces : std::uint8_t {
 
 /// A parallelogram in world space. Its normal is that of cross(half_x, half_y).
 struct RectangleLight {
-  glm::vec3 center{0.0F};              ///< m
-  glm::vec3 half_x{0.5F, 0.0F, 0.0F};  ///< m, from the centre to the middle of an edge
-  glm::vec3 half_y{0.0F, 0.5F, 0.0F};  ///< m, from the centre to the middle of the next edge
+  Vec3 center{};                  ///< m
+  Vec3 half_x{0.5F, 0.0F, 0.0F};  ///< m, from the centre to the middle of an edge
+  Vec3 half_y{0.0F, 0.5F, 0.0F};  ///< m, from the centre to the middle of the next edge
   Faces faces = Faces::both;
 };
 
 /// A disc in world space.
 struct DiscLight {
-  glm::vec3 center{0.0F};              ///< m
-  glm::vec3 normal{0.0F, 0.0F, 1.0F};  ///< any length but 0; Faces::both leaves it unread
-  float radius = 0.5F;                 ///< m, >= 0
+  Vec3 center{};                  ///< m
+  Vec3 normal{0.0F, 0.0F, 1.0F};  ///< any length but 0; Faces::both leaves it unread
+  float radius = 0.5F;            ///< m, >= 0
   Faces faces = Faces::both;
 };
 
 /// A tube in world space, with ends that are flat or half balls beyond `from` and `to`.
 struct TubeLight {
-  glm::vec3 from{0.0F};            ///< m, on the axis
-  glm::vec3 to{1.0F, 0.0F, 0.0F};  ///< m
-  float radius = 0.0F;             ///< m, >= 0; 0: a line
+  Vec3 from{};                ///< m, on the axis
+  Vec3 to{1.0F, 0.0F, 0.0F};  ///< m
+  float radius = 0.0F;        ///< m, >= 0; 0: a line
 };
 
 /// A light that reaches every point whose distance from the nearest point of the surface is less than `range` (m, >= 0,

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>

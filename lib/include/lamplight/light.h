@@ -11,6 +11,7 @@
 #include "lamplight/error.h"
 #include "lamplight/export.h"
 #include "lamplight/shared/light.h"
+#include "lamplight/vectors.h"
 
 namespace lamp {
 
@@ -19,11 +20,11 @@ enum class LightType : std::uint32_t { point = shared::LIGHT_POINT, spot = share
 /// A punctual light in world space: metres, radians, candela, linear Rec. 709.
 struct Light {
   LightType type = LightType::point;
-  glm::vec3 position{0.0F};
+  Vec3 position{};
   float range = std::numeric_limits<float>::infinity();  ///< m, >= 0; 0 reaches nothing, 1e18 and more everything
-  glm::vec3 color{1.0F};                                 ///< linear Rec. 709, >= 0
+  Vec3 color{1.0F, 1.0F, 1.0F};                          ///< linear Rec. 709, >= 0
   float intensity = 1.0F;                                ///< candela, >= 0
-  glm::vec3 direction{0.0F, 0.0F, -1.0F};                ///< spots: where it looks; any length but 0
+  Vec3 direction{0.0F, 0.0F, -1.0F};                     ///< spots: where it looks; any length but 0
   float inner_angle = 0.0F;                              ///< spots: radians, 0 .. outer_angle
   float outer_angle = 0.785398163F;                      ///< spots: radians, half-angle of the cone, 0 .. pi/2
 };

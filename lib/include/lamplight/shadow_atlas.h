@@ -16,6 +16,7 @@
 #include "lamplight/export.h"
 #include "lamplight/shared/light.h"
 #include "lamplight/shared/shadow.h"
+#include "lamplight/vectors.h"
 #include "lamplight/view.h"
 
 namespace lamp {
@@ -123,7 +124,7 @@ class LAMPLIGHT_API ShadowAtlas {
 
 /// The map of a light at given squares (texels, top left), as many as `shadow_squares` says; none: no map.
 [[nodiscard]] LAMPLIGHT_API shared::ShadowMap shadow_map(const shared::Light& light, const ShadowAtlasInfo& info,
-                                                         std::uint32_t side, std::span<const glm::uvec2> squares);
+                                                         std::uint32_t side, std::span<const UVec2> squares);
 
 /// How many squares a light has: 0 if it reaches nothing, or has no intensity.
 [[nodiscard]] LAMPLIGHT_API std::uint32_t shadow_squares(const shared::Light& light, PointShadows points);
@@ -134,11 +135,11 @@ LAMPLIGHT_API void add_shadow_views(const shared::ShadowMap& map, std::uint32_t 
 
 /// Where in the atlas a map holds what lies at a point, in texels (centres at +0.5), and the depth of the point.
 struct ShadowPlace {
-  glm::vec2 texel{0.0F};
+  Vec2 texel{};
   std::uint32_t square = 0;
   float w = 0.0F;  ///< m; not > 0: a point that the map does not show
 };
-[[nodiscard]] LAMPLIGHT_API ShadowPlace shadow_place(const shared::ShadowMap& map, const glm::vec3& world);
+[[nodiscard]] LAMPLIGHT_API ShadowPlace shadow_place(const shared::ShadowMap& map, const Vec3& world);
 
 /// How large a view shows a sphere: its diameter in pixels, at most the picture's longer side; 0 if it lies outside the
 /// picture.

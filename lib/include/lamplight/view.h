@@ -11,6 +11,7 @@
 #include "lamplight/error.h"
 #include "lamplight/export.h"
 #include "lamplight/shared/frame.h"
+#include "lamplight/vectors.h"
 
 namespace lamp {
 
@@ -22,14 +23,14 @@ class LAMPLIGHT_API View {
   /// only the entries [0][0], [1][1], the z column, the w column's x, y, z and [3][3] may differ from 0.
   /// Errors: a size of 0, a number that is not finite in 32 bits, shear, a singular matrix, a projection that looks
   /// along +Z, a `view_from_world` that is not rigid within 1e-4 (mirrors are allowed).
-  [[nodiscard]] static Result<View> create(std::uint32_t width, std::uint32_t height, const glm::dmat4& clip_from_view,
-                                           const glm::dmat4& view_from_world);
+  [[nodiscard]] static Result<View> create(std::uint32_t width, std::uint32_t height, const DMat4& clip_from_view,
+                                           const DMat4& view_from_world);
 
   [[nodiscard]] std::uint32_t width() const { return width_; }
   [[nodiscard]] std::uint32_t height() const { return height_; }
-  [[nodiscard]] const glm::dmat4& clip_from_view() const { return clip_from_view_; }
-  [[nodiscard]] const glm::dmat4& view_from_world() const { return view_from_world_; }
-  [[nodiscard]] const glm::dmat4& world_from_view() const { return world_from_view_; }
+  [[nodiscard]] const DMat4& clip_from_view() const { return clip_from_view_; }
+  [[nodiscard]] const DMat4& view_from_world() const { return view_from_world_; }
+  [[nodiscard]] const DMat4& world_from_view() const { return world_from_view_; }
   /// Whether device depth falls with distance: near 1, sky 0. Else it grows, and the sky has 1.
   [[nodiscard]] bool reversed_depth() const { return reversed_depth_; }
   /// Device depth where nothing is.
@@ -43,10 +44,10 @@ class LAMPLIGHT_API View {
   [[nodiscard]] double z_view(double device_depth) const;
 
   /// View-space position of the point at `pixel` (continuous; centres at +0.5) that lies `z_view` metres ahead.
-  [[nodiscard]] glm::dvec3 view_position(glm::dvec2 pixel, double z_view) const;
+  [[nodiscard]] DVec3 view_position(DVec2 pixel, double z_view) const;
 
   /// World-space position of the depth sample of a pixel.
-  [[nodiscard]] glm::dvec3 world_position(std::uint32_t x, std::uint32_t y, double device_depth) const;
+  [[nodiscard]] DVec3 world_position(std::uint32_t x, std::uint32_t y, double device_depth) const;
 
   /// The GPU's record of this view, for a plan with room for `light_capacity` lights.
   [[nodiscard]] shared::Frame frame(std::uint32_t light_count, std::uint32_t light_capacity) const;
@@ -56,9 +57,9 @@ class LAMPLIGHT_API View {
  private:
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;
-  glm::dmat4 clip_from_view_{1.0};
-  glm::dmat4 view_from_world_{1.0};
-  glm::dmat4 world_from_view_{1.0};
+  DMat4 clip_from_view_ = DMat4::identity();
+  DMat4 view_from_world_ = DMat4::identity();
+  DMat4 world_from_view_ = DMat4::identity();
   double stretch_ = 0.0;
   bool reversed_depth_ = true;
 };
@@ -71,14 +72,14 @@ struct Window {
 inline constexpr double INFINITE_FAR = std::numeric_limits<double>::infinity();
 
 /// Reversed-depth perspective through `window` (tangents), `near_m` > 0, `far_m` > `near_m` or INFINITE_FAR.
-[[nodiscard]] LAMPLIGHT_API glm::dmat4 perspective(const Window& window, double near_m, double far_m);
+[[nodiscard]] LAMPLIGHT_API DMat4 perspective(const Window& window, double near_m, double far_m);
 
 /// Reversed-depth orthographic projection, `near_m` < `far_m`, both finite.
-[[nodiscard]] LAMPLIGHT_API glm::dmat4 orthographic(const Window& window, double near_m, double far_m);
+[[nodiscard]] LAMPLIGHT_API DMat4 orthographic(const Window& window, double near_m, double far_m);
 
 /// The same projection with depth that runs the other way: a reversed one made standard, or back. Exact but for the
 /// rounding of one sum.
-[[nodiscard]] LAMPLIGHT_API glm::dmat4 flip_depth(const glm::dmat4& clip_from_view);
+[[nodiscard]] LAMPLIGHT_API DMat4 flip_depth(const DMat4& clip_from_view);
 
 /// The symmetric window of a vertical field of view (radians) and an aspect ratio (width over height).
 [[nodiscard]] LAMPLIGHT_API Window symmetric_window(double fov_y, double aspect);

@@ -11,6 +11,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <glm/glm.hpp>
 #include <utility>
 #include <vector>
 
@@ -39,9 +40,10 @@ struct Eye {
 };
 
 Eye eye_of(const shared::Frame& frame) {
-  const glm::mat4& m = frame.view_from_world;
-  return {.position = frame.eye_world,
-          .distance = glm::length(frame.eye_world),
+  const glm::mat4 m = frame.view_from_world;
+  const glm::vec3 position = frame.eye_world;
+  return {.position = position,
+          .distance = glm::length(position),
           .ahead = {-m[0].z, -m[1].z, -m[2].z},
           .offset = -m[3].z,
           .of_radius = 1.0F + shared::ROUND_RADIUS + 2.0F * shared::ROUND_POSITION + frame.stretch};
@@ -50,7 +52,9 @@ Eye eye_of(const shared::Frame& frame) {
 /// Of the light's bounding sphere, as much too long as view_bounds() in common/light_bounds.glsl makes it. The view is
 /// rigid enough for a distance to the eye to be measured in the world.
 DepthSpan depth_span(const Eye& eye, const shared::Light& light) {
-  const auto [center, radius] = bounding_sphere(light);
+  const shared::LightSphere sphere = bounding_sphere(light);
+  const glm::vec3 center = sphere.center;
+  const float radius = sphere.radius;
   if (radius < 0.0F) return REACHES_NOTHING;
   const float middle = (eye.ahead.x * center.x + eye.ahead.y * center.y) + (eye.ahead.z * center.z + eye.offset);
   const float reach = radius * eye.of_radius + shared::ROUND_POSITION * (glm::length(center - eye.position) +

@@ -6,8 +6,8 @@
 
 namespace lamp::shadow {
 
-std::vector<glm::uvec2> Holdings::corners(const Holding& holding) {
-  std::vector<glm::uvec2> corners;
+std::vector<UVec2> Holdings::corners(const Holding& holding) {
+  std::vector<UVec2> corners;
   for (std::uint32_t i = 0; i < holding.squares; ++i)
     corners.push_back(SquareTree::position(static_cast<std::uint32_t>(holding.level), holding.places[i]));
   return corners;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ class Holdings {
   [[nodiscard]] std::span<Holding> all() { return all_; }
   [[nodiscard]] std::uint64_t used_texels() const { return used_texels_; }
   /// Top left of each of its squares.
-  [[nodiscard]] static std::vector<glm::uvec2> corners(const Holding& holding);
+  [[nodiscard]] static std::vector<UVec2> corners(const Holding& holding);
 
   void release(Holding& holding);
   /// Squares of `level` or, where that does not fit, the next less, but none as small as it has now: then it keeps

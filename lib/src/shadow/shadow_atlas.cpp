@@ -47,7 +47,8 @@ bool casts_alike(const shared::Light& a, const shared::Light& b) {
 }
 
 bool touches(const shared::Light& light, const shared::LightSphere& moved) {
-  return glm::length(light.position - moved.center) <= (light.range + moved.radius) * (1.0F + 1e-5F);
+  return glm::length(glm::vec3(light.position) - glm::vec3(moved.center)) <=
+         (light.range + moved.radius) * (1.0F + 1e-5F);
 }
 
 double shown_by(std::span<const View> views, const shared::Light& light) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "lamplight/shadow_atlas.h"
 
@@ -124,13 +125,13 @@ std::uint32_t shadow_border(ShadowFilter filter, std::uint32_t side) {
 }
 
 std::uint32_t shadow_squares(const shared::Light& light, PointShadows points) {
-  if (!(light.range > 0.0F) || light.intensity == glm::vec3(0.0F)) return 0;
+  if (!(light.range > 0.0F) || light.intensity == Vec3{}) return 0;
   if (light.type == shared::LIGHT_SPOT) return light.outer_angle > 0.0F ? 1 : 0;
   return points == PointShadows::faces ? shared::SQUARES_A_LIGHT : 1;
 }
 
 shared::ShadowMap shadow_map(const shared::Light& light, const ShadowAtlasInfo& info, std::uint32_t side,
-                             std::span<const glm::uvec2> squares) {
+                             std::span<const UVec2> squares) {
   if (squares.empty()) return {};
   assert(squares.size() == shadow_squares(light, info.points) && "give a light as many squares as it has");
   const bool spot = light.type == shared::LIGHT_SPOT && !is_wide(light);
@@ -148,7 +149,7 @@ shared::ShadowMap shadow_map(const shared::Light& light, const ShadowAtlasInfo& 
   if (spot) map.scale = half_inner / std::tan(light.outer_angle);
   if (map.kind == shared::SHADOW_OCTAHEDRON) map.scale = static_cast<float>(side) * 0.5F;
   for (std::size_t i = 0; i < squares.size(); ++i) {
-    const glm::uvec2 at = squares[i] / shared::LEAST_SQUARE;
+    const glm::uvec2 at = glm::uvec2(squares[i]) / shared::LEAST_SQUARE;
     map.squares[i] = at.x | at.y << 16U;
   }
   return map;
@@ -167,13 +168,15 @@ void add_shadow_views(const shared::ShadowMap& map, std::uint32_t atlas_size, st
     add_octant(map, octant, atlas_size, light, views);
 }
 
-ShadowPlace shadow_place(const shared::ShadowMap& map, const glm::vec3& world) {
-  const glm::vec3 rel = world - map.position;
+ShadowPlace shadow_place(const shared::ShadowMap& map, const Vec3& world) {
+  const glm::vec3 axis_x = map.axis_x;
+  const glm::vec3 axis_z = map.axis_z;
+  const glm::vec3 rel = glm::vec3(world) - glm::vec3(map.position);
   ShadowPlace place;
   glm::vec2 p(0.0F);
   if (map.kind == shared::SHADOW_SPOT) {
-    place.w = glm::dot(map.axis_z, rel);
-    p = glm::vec2(glm::dot(map.axis_x, rel), glm::dot(glm::cross(map.axis_z, map.axis_x), rel)) / place.w;
+    place.w = glm::dot(axis_z, rel);
+    p = glm::vec2(glm::dot(axis_x, rel), glm::dot(glm::cross(axis_z, axis_x), rel)) / place.w;
   } else if (map.kind == shared::SHADOW_FACES) {
     place.square = face_of(rel);
     const int major = static_cast<int>(place.square / 2);

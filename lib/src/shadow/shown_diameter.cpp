@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "lamplight/shadow_atlas.h"
 
@@ -33,8 +34,8 @@ double shown_diameter_px(const View& view, const shared::LightSphere& sphere) {
   if (!(sphere.radius >= 0.0F)) return 0.0;
   const double longer = std::max(view.width(), view.height());
   if (sphere.radius >= shared::INFINITE_RADIUS) return longer;
-  const glm::dmat4& m = view.clip_from_view();
-  const glm::dvec3 center(view.view_from_world() * glm::dvec4(glm::dvec3(sphere.center), 1.0));
+  const glm::dmat4 m = view.clip_from_view();
+  const glm::dvec3 center(glm::dmat4(view.view_from_world()) * glm::dvec4(glm::dvec3(sphere.center), 1.0));
   const double radius =
       double{sphere.radius} * (1.0 + view.stretch()) + ROOM * (double{sphere.radius} + glm::length(center));
   if (!in_picture(m, center, radius)) return 0.0;

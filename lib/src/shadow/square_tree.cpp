@@ -94,8 +94,8 @@ void SquareTree::give(std::uint32_t level, std::uint32_t place) {
   }
 }
 
-glm::uvec2 SquareTree::position(std::uint32_t level, std::uint32_t place) {
-  return glm::uvec2(every_second(place), every_second(place >> 1U)) << level;
+UVec2 SquareTree::position(std::uint32_t level, std::uint32_t place) {
+  return {every_second(place) << level, every_second(place >> 1U) << level};
 }
 
 }  // namespace lamp::shadow

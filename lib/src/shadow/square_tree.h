@@ -5,9 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
+
+#include "lamplight/vectors.h"
 
 namespace lamp::shadow {
 
@@ -23,7 +24,7 @@ class SquareTree {
   void give(std::uint32_t level, std::uint32_t place);
 
   /// Top left of a place, texels.
-  [[nodiscard]] static glm::uvec2 position(std::uint32_t level, std::uint32_t place);
+  [[nodiscard]] static UVec2 position(std::uint32_t level, std::uint32_t place);
 
  private:
   /// Of one level: bit i says that place i is free and its parent is not.

@@ -100,7 +100,8 @@ Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
                                        std::to_string(view.depth_offset.x) + ", " +
                                        std::to_string(view.depth_offset.y)};
     seen.records[i].view_index = static_cast<std::uint32_t>(i);
-    seen.records[i].depth_offset_px = {view.depth_offset.x, view.depth_offset.y};
+    seen.records[i].depth_offset_px = {static_cast<std::uint32_t>(view.depth_offset.x),
+                                       static_cast<std::uint32_t>(view.depth_offset.y)};
     seen.depths[i] = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                       .image = view.depth_image,
                       .view = view.depth_view,

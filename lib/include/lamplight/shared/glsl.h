@@ -1,5 +1,5 @@
 // One spelling for structs that C++, GLSL and HLSL share.
-// In C++ the GLSL names are aliases of glm's types, in HLSL (LAMP_HLSL) macros for HLSL's. LAMP_CONST and
+// In C++ the GLSL names are those of lamplight/vectors.h, in HLSL (LAMP_HLSL) macros for HLSL's. LAMP_CONST and
 // LAMP_CONST_FLOAT declare a number for all. A mat4's m[c] is its column c in GLSL and in HLSL, where it is a row of a
 // row_major matrix: GLSL's m * v is HLSL's mul(v, m).
 // Promise: scalar layout (GL_EXT_scalar_block_layout), members of 4 bytes, so both sides see the same bytes.
@@ -9,16 +9,17 @@
 
 #ifdef __cplusplus
 #include <cstdint>
-#include <glm/glm.hpp>
+
+#include "../vectors.h"
 
 namespace lamp::shared {
 using uint = std::uint32_t;
-using glm::mat4;
-using glm::uvec2;
-using glm::uvec4;
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
+using mat4 = Mat4;
+using uvec2 = UVec2;
+using uvec4 = UVec4;
+using vec2 = Vec2;
+using vec3 = Vec3;
+using vec4 = Vec4;
 }  // namespace lamp::shared
 #define LAMP_CONST inline constexpr uint
 #define LAMP_CONST_FLOAT inline constexpr float

@@ -159,8 +159,8 @@ class LAMPLIGHT_API PlanRunner {
   /// What a view's passes that are kept are recorded with, from which record on, and whether one of these is known to
   /// have run. Each of them records the passes until then, so that it does not matter which.
   struct Kept {
-    glm::mat4 projection{};
-    glm::uvec2 size_px{};
+    Mat4 projection{};
+    UVec2 size_px{};
     std::uint64_t first_record = 0;
     bool has_run = false;
   };
