@@ -13,6 +13,7 @@ namespace lamp::app {
 struct HeadlessInfo {
   ViewState state;
   glm::uvec2 screen{1280, 720};
+  std::vector<Bookmark> bookmarks;
 };
 
 /// Draws a first frame, then lets `use` play. Throws Error; with Exit::check_failed where validation says something.

@@ -7,6 +7,7 @@
 #include "commands/pictures.h"
 #include "error.h"
 #include "image/image.h"
+#include "scene/capture.h"
 
 namespace lamp::app {
 namespace {
@@ -36,6 +37,10 @@ Done perform(Stage& stage, Job job) {
         break;
       case Job::Kind::picture:
         save_picture(stage, done.job);
+        break;
+      case Job::Kind::capture:
+        check_capture_folder(done.job.file);
+        write_capture(done.job.file, stage.capture(done.job.state), LightsFormat::npy);
         break;
       case Job::Kind::prove:
         done.proof = stage.prove(done.job.state, done.job.size);

@@ -14,12 +14,13 @@ struct Job {
   enum class Kind : std::uint8_t {
     draw,     ///< onto the screen
     picture,  ///< into a file, as `lamp render` does
+    capture,  ///< into a folder, as `lamp capture` does
     prove,    ///< all pixels against the oracle
     ask,      ///< every method what it lists for the picked pixel
   } kind = Kind::draw;
   ViewState state;
   glm::uvec2 size{0};
-  std::string file;
+  std::string file;  ///< or folder
 };
 
 struct Done {

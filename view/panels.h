@@ -5,15 +5,33 @@
 #include <optional>
 #include <string>
 
+#include "view/bookmarks.h"
 #include "view/shown.h"
 #include "view/times.h"
 #include "view/widgets.h"
 
 namespace lamp::app {
 
+/// Where things are saved.
+struct SaveFiles {
+  std::string picture = "lamp-view.png";
+  std::string frames = "0..29";  ///< of the flight
+  std::string state = "lamp-view.json";
+  std::string numbers = "lamp-view-numbers.json";
+  std::string capture = "lamp-view-capture";
+  std::string bookmarks = "lamp-view-bookmarks.json";
+};
+
 /// What the panels ask the viewer to do.
 struct Wishes {
   bool save_picture = false;
+  bool save_flight = false;
+  bool stop_saving = false;
+  bool save_capture = false;
+  bool add_bookmark = false;
+  bool remove_bookmark = false;
+  bool save_bookmarks = false;
+  std::optional<std::size_t> open_bookmark;
   bool save_state = false;
   bool save_numbers = false;
   bool prove = false;
@@ -31,9 +49,10 @@ struct PanelFrame {
   const Times& times;
   const DeviceTraits& traits;
   Wishes& wishes;
-  std::string& picture_file;
-  std::string& state_file;
-  std::string& numbers_file;
+  SaveFiles& files;
+  std::size_t waiting = 0;  ///< pictures that are still to be saved
+  const std::vector<Bookmark>& bookmarks;
+  std::string& bookmark;              ///< the name that is chosen or typed
   const std::optional<Proof>& proof;  ///< of all pixels
   bool proving = false;
   float progress = 0.0F;  ///< of that
@@ -48,6 +67,7 @@ void against_panel(PanelFrame& p);
 void look_panel(PanelFrame& p);
 void times_panel(PanelFrame& p);
 void save_panel(PanelFrame& p);
+void bookmark_panel(PanelFrame& p);
 void proof_panel(PanelFrame& p);
 /// What the inspector's window sees.
 struct InspectorFrame {

@@ -49,6 +49,21 @@ void draw_lengths(std::span<const ListLengths> lengths) {
   }
 }
 
+/// Numbered pictures of frames of the flight.
+void save_flight(PanelFrame& p) {
+  p.widgets.write("frames", p.files.frames, "Of the flight, A..B: each becomes a numbered picture.");
+  const bool saving = p.waiting != 0;
+  if (p.widgets.button("save flight", "Writes the pictures that lamp render --frames makes of this state.",
+                       saving                       ? "pictures are being saved"
+                       : p.shown.flight_frames == 0 ? "the scene has no flight"
+                                                    : ""))
+    p.wishes.save_flight = true;
+  ImGui::SameLine();
+  if (p.widgets.button("stop", "Saves no more of them.", saving ? "" : "nothing is being saved"))
+    p.wishes.stop_saving = true;
+  if (saving) Widgets::note(fmt::format("{} pictures to go", p.waiting));
+}
+
 }  // namespace
 
 void times_panel(PanelFrame& p) {
@@ -74,17 +89,21 @@ void times_panel(PanelFrame& p) {
 
 void save_panel(PanelFrame& p) {
   if (!p.widgets.header("Save", true)) return;
-  p.widgets.write("picture file", p.picture_file, "A name that ends in .png or .exr.");
+  p.widgets.write("picture file", p.files.picture, "A name that ends in .png or .exr.");
   if (p.widgets.button("save picture", "Writes the picture that lamp render makes of this state, in full size."))
     p.wishes.save_picture = true;
   p.widgets.slide("samples", p.state.samples, {.min = 1, .max = 64, .logarithmic = true},
                   "Samples of a pixel in pictures that are saved.");
-  p.widgets.write("state file", p.state_file, "A name that ends in .json.");
+  save_flight(p);
+  p.widgets.write("state file", p.files.state, "A name that ends in .json.");
   if (p.widgets.button("save state", "Writes all that is set here. lamp-view --state and lamp render --state read it."))
     p.wishes.save_state = true;
-  p.widgets.write("numbers file", p.numbers_file, "A name that ends in .json.");
+  p.widgets.write("numbers file", p.files.numbers, "A name that ends in .json.");
   if (p.widgets.button("save numbers", "Writes what lamp render --json prints of this picture: times, bytes, lists."))
     p.wishes.save_numbers = true;
+  p.widgets.write("capture folder", p.files.capture, "A new folder, an empty one, or a capture to replace.");
+  if (p.widgets.button("save capture", "Writes the frame as lamp capture does: a scene for every command."))
+    p.wishes.save_capture = true;
   if (p.widgets.button("undo", "Takes the last change back.")) p.wishes.undo = true;
   ImGui::SameLine();
   if (p.widgets.button("redo", "Makes it again.")) p.wishes.redo = true;

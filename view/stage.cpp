@@ -14,6 +14,7 @@
 #include "render/judgement.h"
 #include "render/pixel_lights.h"
 #include "render/verification.h"
+#include "scene/capture.h"
 #include "scene/flight.h"
 #include "scene/place_decals.h"
 
@@ -315,6 +316,21 @@ Stage::Picture Stage::picture(const ViewState& state) {
   const std::optional<float> exposure = parse_exposure(state.exposure);
   made.toned = tone_map(made.radiance, exposure ? *exposure : automatic_exposure(made.radiance));
   return made;
+}
+
+Scene Stage::capture(const ViewState& state) {
+  need_frame(state);
+  const Scene& scene = scene_->scene;
+  std::vector<Light> lights = scene.lights;
+  if (scene_->air && lights_->lights->size() > lights.size()) {
+    const std::vector<Light> generated = requested_lights(state.request, scene, *scene_->air);
+    lights.insert(lights.end(), generated.begin(), generated.end());
+  }
+  for (const LightEdit& edit : state.edits) lights.at(edit.light) = edit.value;
+  Request painted = state.request;  // by every decal at every pixel, whatever the method
+  painted.path = path_names()[static_cast<std::size_t>(ShadingPath::deferred)];
+  Lighting* const painter = lights_->decals.empty() ? nullptr : &lighting(painted, "all", {}).lighting;
+  return captured_scene(scene, std::move(lights), renderer_->capture(painter));
 }
 
 glm::uvec2 Stage::picked_pixel(const ViewState& asked) const {

@@ -33,6 +33,8 @@ class Stage {
     LdrImage toned;
   };
   [[nodiscard]] Picture picture(const ViewState& state);
+  /// The frame of that picture as a capture's scene.
+  [[nodiscard]] Scene capture(const ViewState& state);
 
   /// Holds all pixels of the state against the oracle.
   [[nodiscard]] Proof prove(const ViewState& state, glm::uvec2 size);

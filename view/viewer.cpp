@@ -54,7 +54,8 @@ Viewer::Viewer(ViewerInfo info)
       traits_(info.traits),
       pace_(info.target_ms),
       paced_(info.target_ms > 0.0),
-      scale_(info.scale) {}
+      scale_(info.scale),
+      bookmarks_(std::move(info.bookmarks)) {}
 
 glm::uvec2 Viewer::paced_size() const {
   if (state_.resolution > 0.0F) return part_of(asked_, state_.resolution);
@@ -88,12 +89,13 @@ void Viewer::finish(Done done) {
   if (done.job.kind == Job::Kind::ask) asking_ = false;
   lost_ = done.lost;
   if (!done.error.empty()) {
+    if (done.job.kind == Job::Kind::picture) stop_saving();
     complain(done.error);
     keep_scene(done.job.state);
     return;
   }
   if (done.job.kind == Job::Kind::draw && !error_stays_) error_.clear();
-  if (done.job.kind == Job::Kind::picture) said_ = "saved " + done.job.file;
+  if (done.job.kind == Job::Kind::picture || done.job.kind == Job::Kind::capture) say_saved(done.job.file);
   if (done.proof) proof_ = done.proof;
   if (done.proof) said_ = words_of(*proof_);
   if (done.others) others_ = std::move(*done.others);
@@ -111,6 +113,12 @@ void Viewer::complain(const std::string& error) {
   error_ = error;
   error_stays_ = true;
   ++errors_;
+}
+
+void Viewer::say_saved(const std::string& file) {
+  said_ = "saved " + file;
+  error_.clear();
+  error_stays_ = false;
 }
 
 void Viewer::keep_scene(const ViewState& failed) {
@@ -187,12 +195,16 @@ void Viewer::pass_time(float seconds) {
 
 void Viewer::take_wishes() {
   const Wishes wishes = std::exchange(wishes_, {});
-  if (wishes.save_picture) save_picture(picture_file_);
-  if (wishes.save_state) save_state(state_file_);
+  if (wishes.save_picture) save_picture(files_.picture);
+  if (wishes.save_state) save_state(files_.state);
+  if (wishes.save_flight) save_flight(files_.picture, files_.frames);
+  if (wishes.stop_saving) stop_saving();
+  if (wishes.save_capture) save_capture(files_.capture);
+  take_bookmark_wishes(wishes);
   if (wishes.undo) undo(undone_, redone_);
   if (wishes.redo) undo(redone_, undone_);
   if (wishes.step) apply_keys({.pressed = {"period"}}, state_, shown_, wishes_, false);
-  if (wishes.save_numbers) save_numbers(numbers_file_);
+  if (wishes.save_numbers) save_numbers(files_.numbers);
   if (wishes.prove && !proving_ && shown_.number != 0) {
     proving_ = true;
     proof_.reset();
@@ -225,21 +237,22 @@ void Viewer::save_json(const char* what, const std::string& file,
     constexpr std::string_view KINDS[] = {".json"};
     check_output(what, file, KINDS);
     write_output(file, write);
-    said_ = "saved " + file;
+    say_saved(file);
   } catch (const Error& error) {
     complain(error.what());
   }
 }
 
+ViewState Viewer::saved_state() const {
+  ViewState saved = state_;
+  if (shown_.number == 0 || shown_.captured) return saved;
+  saved.request.size = shown_.state.request.size;
+  saved.request.size_given = true;
+  return saved;
+}
+
 void Viewer::save_state(const std::string& file) {
-  save_json("save state", file, [&](const std::filesystem::path& path) {
-    ViewState saved = state_;
-    if (shown_.number != 0 && !shown_.captured) {
-      saved.request.size = shown_.state.request.size;
-      saved.request.size_given = true;
-    }
-    app::save_state(path, saved);
-  });
+  save_json("save state", file, [&](const std::filesystem::path& path) { app::save_state(path, saved_state()); });
 }
 
 void Viewer::save_numbers(const std::string& file) {
@@ -252,7 +265,13 @@ void Viewer::save_numbers(const std::string& file) {
 void Viewer::open(const std::string& file) {
   try {
     if (is_state(file) && !is_capture(file)) {
-      state_ = load_state(file);
+      if (holds_bookmarks(file)) {
+        bookmarks_ = load_bookmarks(file);
+        files_.bookmarks = file;
+        said_ = fmt::format("opened {} bookmarks", bookmarks_.size());
+      } else {
+        state_ = load_state(file);
+      }
       return;
     }
     ViewState opened = state_;
@@ -260,6 +279,10 @@ void Viewer::open(const std::string& file) {
     opened.request.camera.clear();
     opened.request.free_camera.reset();
     opened.request.frame = -1;
+    if (is_capture(file) || std::filesystem::is_directory(file)) {  // has its own, and its decals in its surfaces
+      opened.request.lights_given = false;
+      opened.request.decals = 0;
+    }
     opened.edits.clear();
     opened.picked.reset();
     opened.light.reset();
@@ -274,6 +297,7 @@ nlohmann::json Viewer::report() const {
   json["error"] = error_;
   json["said"] = said_;
   json["pictures"] = shown_.number;
+  json["bookmarks"] = bookmarks_.size();
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
   if (proof_) json["proof"] = words_of(*proof_);

@@ -22,6 +22,7 @@ struct ViewerInfo {
   DeviceTraits traits;
   double target_ms = 0.0;  ///< how long a picture may take; 0: resolution is never lowered by itself
   float scale = 1.0F;      ///< of letters and panels
+  std::vector<Bookmark> bookmarks;
 };
 
 class Viewer {
@@ -58,7 +59,13 @@ class Viewer {
   void save_state(const std::string& file);
   /// Writes what `lamp render --json` prints of the picture that is shown.
   void save_numbers(const std::string& file);
-  /// Opens a scene, a capture or a state; what else it is is an error on the screen.
+  /// Asks for numbered pictures of frames of the flight, "A..B".
+  void save_flight(const std::string& file, const std::string& frames);
+  /// Asks for a capture in a folder.
+  void save_capture(const std::string& folder);
+  /// Writes the bookmarks.
+  void save_bookmarks(const std::string& file);
+  /// Opens a scene, a capture, a state or bookmarks; what else it is is an error on the screen.
   void open(const std::string& file);
   /// Says something on the screen.
   void say(const std::string& words) { said_ = words; }
@@ -75,12 +82,21 @@ class Viewer {
   void queue(Job::Kind kind);
   /// Forgets what was found out about another state.
   void forget_findings();
+  /// What is set, in the size that is shown.
+  [[nodiscard]] ViewState saved_state() const;
+  void add_bookmark();
+  void take_bookmark_wishes(const Wishes& wishes);
+  /// Pictures that are still to be saved.
+  [[nodiscard]] std::size_t waiting() const;
+  void stop_saving();
   void undo(std::vector<ViewState>& from, std::vector<ViewState>& to);
   void try_state(const ViewState& before);
   /// Shows an error until something is changed.
   void save_json(const char* what, const std::string& file,
                  const std::function<void(const std::filesystem::path&)>& write);
   void complain(const std::string& error);
+  /// In place of an error that was shown.
+  void say_saved(const std::string& file);
   /// After a scene could not be opened: the one that is shown stays.
   void keep_scene(const ViewState& failed);
 
@@ -110,11 +126,11 @@ class Viewer {
   bool error_stays_ = false;  ///< though what is drawn after it succeeds
   Places places_;
   Wishes wishes_;
-  std::string picture_file_ = "lamp-view.png";
-  std::string state_file_ = "lamp-view.json";
-  std::string numbers_file_ = "lamp-view-numbers.json";
-  ScreenRect area_;     ///< of the screen, that panels leave free
-  ScreenRect picture_;  ///< within that
+  SaveFiles files_;
+  std::vector<Bookmark> bookmarks_;
+  std::string bookmark_;  ///< the name that is chosen or typed
+  ScreenRect area_;       ///< of the screen, that panels leave free
+  ScreenRect picture_;    ///< within that
   glm::uvec2 asked_{1};
   std::optional<glm::vec2> last_mouse_, pressed_at_;
   bool dragging_ = false;

@@ -146,15 +146,16 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                  .times = times_,
                  .traits = traits_,
                  .wishes = wishes_,
-                 .picture_file = picture_file_,
-                 .state_file = state_file_,
-                 .numbers_file = numbers_file_,
+                 .files = files_,
+                 .waiting = waiting(),
+                 .bookmarks = bookmarks_,
+                 .bookmark = bookmark_,
                  .proof = proof_,
                  .proving = proving_,
                  .progress = progress};
     if (widgets.button("help", "All keys. H does the same.")) state_.help = !state_.help;
     for (void (*panel)(PanelFrame&) : {proof_panel, scene_panel, camera_panel, lights_panel, method_panel, shadow_panel,
-                                       against_panel, look_panel, times_panel, save_panel})
+                                       against_panel, look_panel, times_panel, save_panel, bookmark_panel})
       panel(p);
   }
   ImGui::End();

@@ -46,7 +46,8 @@ class ViewWindow {
         viewer_({.state = info.state,
                  .traits = context.device().traits,
                  .target_ms = context.software() ? SOFTWARE_PICTURE_MS : DEVICE_PICTURE_MS,
-                 .scale = window.scale()}),
+                 .scale = window.scale(),
+                 .bookmarks = info.bookmarks}),
         worker_(stage_, wake_window) {}
 
   ~ViewWindow() { swapchain_.wait(); }

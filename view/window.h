@@ -14,6 +14,7 @@ namespace lamp::app {
 
 struct WindowInfo {
   ViewState state;
+  std::vector<Bookmark> bookmarks;
   std::vector<ScriptLine> script;  ///< played with a fixed step of time; then the window closes
   bool plays = false;              ///< there is one
   glm::uvec2 size{1280, 720};

@@ -31,17 +31,6 @@ LightsFormat parse_lights_as(const std::string& text) {
   throw unknown_name("--lights-as", text, NAMES);
 }
 
-/// What the files hold: surfaces instead of meshes, and all lights.
-Scene frame_of(const Setup& setup, CapturedFrame captured) {
-  Scene frame{.lights = setup.scene.lights,
-              .directional_lights = setup.scene.directional_lights,
-              .sky = setup.scene.sky,
-              .ambient = setup.scene.ambient,
-              .captured = std::move(captured)};
-  frame.lights.insert(frame.lights.end(), setup.generated.begin(), setup.generated.end());
-  return frame;
-}
-
 bool has_glass(const Scene& scene) {
   return std::ranges::any_of(scene.materials, [](const Material& m) { return m.alpha_mode == AlphaMode::blend; });
 }
@@ -55,7 +44,10 @@ Exit capture(const CaptureOptions& o) {
   Session session(o.request, setup);
   std::optional<Lighting> painter;  // every decal at every pixel: what a capture shows depends on no method
   if (!setup.decals.empty()) painter = session.lighting(parse_method("all"), {}, ShadingPath::deferred);
-  const Scene frame = frame_of(setup, session.renderer().capture(painter ? &*painter : nullptr));
+  std::vector<Light> all = setup.scene.lights;
+  all.insert(all.end(), setup.generated.begin(), setup.generated.end());
+  const Scene frame =
+      captured_scene(setup.scene, std::move(all), session.renderer().capture(painter ? &*painter : nullptr));
   write_capture(o.out, frame, lights);
   print_out("capture   {}, {}x{}\nlights    {}: {}\n", o.out, setup.view.width(), setup.view.height(),
             setup.lights.size(), setup.lights_note);

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -17,6 +18,9 @@ inline constexpr const char* CAPTURE_FILE = "frame.json";
 /// camera, named "capture". Depth becomes reversed device depth; what the folder lacks becomes neutral.
 /// Throws Error with one line (file, element, what is wrong, what was expected).
 [[nodiscard]] Scene load_capture(const std::filesystem::path& folder);
+
+/// What a capture of a scene's frame holds: surfaces instead of meshes, and all lights of the frame.
+[[nodiscard]] Scene captured_scene(const Scene& scene, std::vector<Light> lights, CapturedFrame captured);
 
 enum class LightsFormat { npy, json };
 

@@ -107,6 +107,14 @@ void check_place(const fs::path& folder) {
 
 }  // namespace
 
+Scene captured_scene(const Scene& scene, std::vector<Light> lights, CapturedFrame captured) {
+  return {.lights = std::move(lights),
+          .directional_lights = scene.directional_lights,
+          .sky = scene.sky,
+          .ambient = scene.ambient,
+          .captured = std::move(captured)};
+}
+
 void check_capture_folder(const fs::path& folder) {
   try {
     check_place(folder);

@@ -109,6 +109,30 @@ TEST_F(Play, SavesThePictureOfTheSameOptions) {
   EXPECT_EQ(bytes_of_file("view.exr"), bytes_of_file("lamp.exr"));
 }
 
+/// The frames of a flight, and a capture with a changed light, as `lamp` makes them.
+TEST_F(Play, SavesFlightAndCaptureOfLamp) {
+  const nlohmann::json state = nlohmann::json::parse(R"({"edits": [{"light": 5, "type": "point", "position": [0, 1, 0],
+    "color": [1, 0.3, 0.1], "intensity": 80, "range": 9}], "exposure": "0.7"})");
+  play_script(parse_script(nlohmann::json{{"set", state}}.dump() + R"(
+{"wait": "idle"}
+{"save_state": "state.json"}
+{"click": "save flight"}
+{"wait": "idle"}
+{"click": "save capture"}
+{"wait": "idle"})",
+                           "flight"));
+  const std::string lamp = LAMP_EXECUTABLE;
+  ProgramResult run = run_program({lamp, "render", "--state", "state.json", "--frames", "28..29", "-o", "lamp.png"});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  for (const char* frame : {"-0028.png", "-0029.png"})
+    EXPECT_EQ(bytes_of_file("lamp-view" + std::string(frame)), bytes_of_file("lamp" + std::string(frame))) << frame;
+  run = run_program({lamp, "render", "lamp-view-capture", "--exposure", "0.7", "-o", "capture.exr"});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  run = run_program({lamp, "render", "--state", "state.json", "-o", "scene.exr"});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  EXPECT_EQ(bytes_of_file("capture.exr"), bytes_of_file("scene.exr"));
+}
+
 /// What stands in the window is what `lamp` prints, but for times.
 TEST_F(Play, ReportsTheNumbersOfLamp) {
   const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "plane", "--size", "96x54", "--lights", "32",

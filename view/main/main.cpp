@@ -25,6 +25,7 @@ struct ViewOptions {
   bool headless = false;
   bool validate = false;
   std::string script;
+  std::string bookmarks;
   std::string screen = "1280x720";
 };
 
@@ -38,6 +39,9 @@ void add_options(CLI::App& app, ViewOptions& o) {
   app.add_option("--script", o.script, "do what the lines of this file say, then end (docs/viewer.md)")
       ->type_name("FILE")
       ->group("Window");
+  app.add_option("--bookmarks", o.bookmarks, "open the bookmarks that lamp-view saved in this file")
+      ->type_name("FILE")
+      ->group("Window");
   app.add_option("--screen", o.screen, "size of the window, or of the screen that nobody sees, in pixels")
       ->type_name("WIDTHxHEIGHT")
       ->group("Window")
@@ -46,10 +50,15 @@ void add_options(CLI::App& app, ViewOptions& o) {
       ->group("Device");
 }
 
+std::vector<Bookmark> bookmarks_of(const ViewOptions& o) {
+  return o.bookmarks.empty() ? std::vector<Bookmark>() : load_bookmarks(o.bookmarks);
+}
+
 /// In a window, as the user had it last, where neither options nor a script say otherwise.
 void show(const CLI::App& app, const ViewOptions& o, const std::vector<ScriptLine>& script,
           ContextInfo::Validation validation) {
   WindowInfo info{.state = o.state,
+                  .bookmarks = bookmarks_of(o),
                   .script = script,
                   .plays = !o.script.empty(),
                   .size = parse_size(o.screen),
@@ -95,7 +104,7 @@ Exit run(int argc, char** argv) {
   const std::vector<ScriptLine> script = o.script.empty() ? std::vector<ScriptLine>() : read_script(o.script);
   if (o.headless) {
     Context context({.device = o.state.request.device, .validation = validation});
-    run_headless(context, {.state = o.state, .screen = parse_size(o.screen)},
+    run_headless(context, {.state = o.state, .screen = parse_size(o.screen), .bookmarks = bookmarks_of(o)},
                  [&](Player& player) { play(player, script); });
   } else {
     show(app, o, script, validation);
