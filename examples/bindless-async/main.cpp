@@ -108,7 +108,7 @@ bool run(const Options& options) {
                .light_capacity = PARTICLES,
                .method = "lamplight",
                .options = {"depth=none", "tile=32"},
-               .light_layout = {.form = lamp::LightForm::points, .lights = {.offset = 0, .stride = sizeof(HostLight)}},
+               .light_layout = lamp::LightLayout::interleaved(sizeof(HostLight), offsetof(HostLight, position)),
                .readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT}));  // its queue knows no fragment shaders
   const lamp::vulkan::BoundLookUp lookup = culler.lookup();
   if (lookup.name != "cell_lists") throw std::runtime_error("forward.frag includes another look-up");
@@ -145,11 +145,12 @@ bool run(const Options& options) {
   info.shaders[1].spirv = FORWARD;
   std::vector<VkBuffer> handed_over{light_buffer.handle, count_buffer.handle};
   // lamplight {
-  for (const auto& bound : lookup.resources) {
-    info.descriptors.push_back({bound.binding, bound.resource.buffer, {}});
-    handed_over.push_back(bound.resource.buffer);
-  }
-  for (const auto& constant : lookup.constants) info.constants.push_back({constant.id, constant.value});
+  for (const auto& bound : lookup.resources) handed_over.push_back(bound.resource.buffer);
+  const lamp::vulkan::DescriptorWrites writes = lookup.writes();
+  const lamp::vulkan::SpecializationConstants constants = lookup.specialization();
+  info.bindings = lookup.layout_bindings(VK_SHADER_STAGE_FRAGMENT_BIT);
+  info.writes = writes.writes;
+  info.constants = constants.info();
   // }
   const Pipeline forward = gpu.make_pipeline(info);
   const VkSemaphore culling_done = gpu.make_semaphore();

@@ -42,10 +42,6 @@ struct Descriptor {
   VkBuffer buffer = VK_NULL_HANDLE;  ///< a storage buffer, or
   std::vector<VkImageView> views;    ///< an array of sampled images
 };
-struct Constant {
-  std::uint32_t id = 0;
-  std::uint32_t value = 0;
-};
 struct Shader {
   VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
   std::span<const std::uint32_t> spirv;
@@ -54,7 +50,9 @@ struct Shader {
 struct PipelineInfo {
   std::vector<Shader> shaders;
   std::vector<Descriptor> descriptors;
-  std::vector<Constant> constants;
+  std::vector<VkDescriptorSetLayoutBinding> bindings;  ///< more of them, with descriptors
+  std::vector<VkWriteDescriptorSet> writes;            ///< of these, into any set
+  VkSpecializationInfo constants{};
   std::vector<VkFormat> colors;
   VkFormat depth = VK_FORMAT_UNDEFINED;
   VkCompareOp depth_compare = VK_COMPARE_OP_GREATER;
@@ -119,7 +117,7 @@ class Gpu {
 
  private:
   [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties);
-  [[nodiscard]] VkPipelineLayout make_layout(std::span<const Descriptor> descriptors, VkDescriptorSet& set);
+  [[nodiscard]] VkPipelineLayout make_layout(const PipelineInfo& info, VkDescriptorSet& set);
   [[nodiscard]] VkPipeline make_drawing(const PipelineInfo& info,
                                         std::span<const VkPipelineShaderStageCreateInfo> stages,
                                         VkPipelineLayout layout) const;

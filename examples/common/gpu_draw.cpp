@@ -5,11 +5,12 @@
 
 #include "gpu.h"
 
-VkPipelineLayout Gpu::make_layout(std::span<const Descriptor> descriptors, VkDescriptorSet& set) {
-  std::vector<VkDescriptorSetLayoutBinding> bindings;
+VkPipelineLayout Gpu::make_layout(const PipelineInfo& info, VkDescriptorSet& set) {
+  const std::vector<Descriptor>& descriptors = info.descriptors;
+  std::vector<VkDescriptorSetLayoutBinding> bindings = info.bindings;
   std::vector<VkDescriptorBufferInfo> buffers(descriptors.size());
   std::vector<std::vector<VkDescriptorImageInfo>> images(descriptors.size());
-  std::vector<VkWriteDescriptorSet> writes;
+  std::vector<VkWriteDescriptorSet> writes = info.writes;
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
     const Descriptor& d = descriptors[i];
     buffers[i] = {.buffer = d.buffer, .range = VK_WHOLE_SIZE};
@@ -49,25 +50,20 @@ VkPipelineLayout Gpu::make_layout(std::span<const Descriptor> descriptors, VkDes
   for (VkWriteDescriptorSet& write : writes) write.dstSet = set;
   vkUpdateDescriptorSets(device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
   constexpr VkPushConstantRange PUSHED{VK_SHADER_STAGE_ALL, 0, 128};
-  const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                        .setLayoutCount = 1,
-                                        .pSetLayouts = &set_layout,
-                                        .pushConstantRangeCount = 1,
-                                        .pPushConstantRanges = &PUSHED};
+  const VkPipelineLayoutCreateInfo layout_info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = 1,
+                                               .pSetLayouts = &set_layout,
+                                               .pushConstantRangeCount = 1,
+                                               .pPushConstantRanges = &PUSHED};
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(device, &info, nullptr, &layout), "creating a pipeline layout");
+  check(vkCreatePipelineLayout(device, &layout_info, nullptr, &layout), "creating a pipeline layout");
   destroy_.emplace_back([=, this] { vkDestroyPipelineLayout(device, layout, nullptr); });
   return layout;
 }
 
 Pipeline Gpu::make_pipeline(const PipelineInfo& info) {
   Pipeline made;
-  made.layout = make_layout(info.descriptors, made.set);
-  std::vector<VkSpecializationMapEntry> entries;
-  for (std::uint32_t i = 0; i < info.constants.size(); ++i)
-    entries.push_back({info.constants[i].id, i * std::uint32_t{sizeof(Constant)} + 4, 4});
-  const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                       info.constants.size() * sizeof(Constant), info.constants.data()};
+  made.layout = make_layout(info, made.set);
   std::vector<VkPipelineShaderStageCreateInfo> stages;
   for (const Shader& shader : info.shaders) {
     const VkShaderModuleCreateInfo module{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
@@ -76,7 +72,7 @@ Pipeline Gpu::make_pipeline(const PipelineInfo& info) {
     stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                       .stage = shader.stage,
                       .pName = "main",
-                      .pSpecializationInfo = &constants});
+                      .pSpecializationInfo = &info.constants});
     check(vkCreateShaderModule(device, &module, nullptr, &stages.back().module), "creating a shader module");
     destroy_.emplace_back([this, m = stages.back().module] { vkDestroyShaderModule(device, m, nullptr); });
   }

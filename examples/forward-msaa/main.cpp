@@ -70,9 +70,8 @@ bool run(const Options& options) {
                .height = SIZE.height,
                .light_capacity = LIGHTS,
                .method = "tiled",
-               .light_layout = {.form = lamp::LightForm::spots,
-                                .lights = {.offset = 0, .stride = sizeof(HostLight)},
-                                .cones = {.offset = offsetof(HostLight, direction), .stride = sizeof(HostLight)}},
+               .light_layout = lamp::LightLayout::interleaved(sizeof(HostLight), offsetof(HostLight, position),
+                                                              offsetof(HostLight, direction)),
                .depth_samples = SAMPLES}));
   // }
 
@@ -104,8 +103,11 @@ bool run(const Options& options) {
   info.shaders[1].spirv = FORWARD;
   // lamplight {
   const lamp::vulkan::BoundLookUp lookup = culler.lookup();
-  for (const auto& bound : lookup.resources) info.descriptors.push_back({bound.binding, bound.resource.buffer, {}});
-  for (const auto& constant : lookup.constants) info.constants.push_back({constant.id, constant.value});
+  const lamp::vulkan::DescriptorWrites writes = lookup.writes();
+  const lamp::vulkan::SpecializationConstants constants = lookup.specialization();
+  info.bindings = lookup.layout_bindings(VK_SHADER_STAGE_FRAGMENT_BIT);
+  info.writes = writes.writes;
+  info.constants = constants.info();
   // }
   const Pipeline forward = gpu.make_pipeline(info);
 

@@ -102,9 +102,12 @@ bool run(const Options& options) {
   const Pipeline brute_force = gpu.make_pipeline(info);
   info.shaders[1].spirv = FORWARD;
   // lamplight {
-  for (const auto& bound : culler.lookup().resources)
-    info.descriptors.push_back({bound.binding, bound.resource.buffer});
-  for (const auto& constant : culler.lookup().constants) info.constants.push_back({constant.id, constant.value});
+  const lamp::vulkan::BoundLookUp lookup = culler.lookup();
+  const lamp::vulkan::DescriptorWrites writes = lookup.writes();
+  const lamp::vulkan::SpecializationConstants constants = lookup.specialization();
+  info.bindings = lookup.layout_bindings(VK_SHADER_STAGE_FRAGMENT_BIT);
+  info.writes = writes.writes;
+  info.constants = constants.info();
   // }
   const Pipeline forward = gpu.make_pipeline(info);
 

@@ -110,10 +110,11 @@ bool run(const Options& options) {
                .views = EYES,
                .light_capacity = LIGHTS,
                .method = "tight",
-               .light_layout = {.form = lamp::LightForm::spots,
-                                .lights = {.offset = 0, .stride = sizeof(HostLight)},
-                                .cones = {.offset = offsetof(HostLight, direction), .stride = sizeof(HostLight)}}}));
+               .light_layout = lamp::LightLayout::interleaved(sizeof(HostLight), offsetof(HostLight, position),
+                                                              offsetof(HostLight, direction))}));
   const lamp::vulkan::BoundLookUp lookup = culler.lookup();
+  const lamp::vulkan::DescriptorWrites writes = lookup.writes();
+  const lamp::vulkan::SpecializationConstants constants = lookup.specialization();
   std::vector<lamp::View> cameras;
   std::vector<lamp::vulkan::CullerView> views;
   // }
@@ -132,8 +133,9 @@ bool run(const Options& options) {
     info.descriptors[3].buffer = eye.culled.handle;
     // lamplight {
     cameras.push_back(value_of(lamp::View::create(SIZE.width, SIZE.height, eye.clip_from_eye, eye.eye_from_world)));
-    for (const auto& bound : lookup.resources) info.descriptors.push_back({bound.binding, bound.resource.buffer});
-    for (const auto& constant : lookup.constants) info.constants.push_back({constant.id, constant.value});
+    info.bindings = lookup.layout_bindings(VK_SHADER_STAGE_COMPUTE_BIT);
+    info.writes = writes.writes;
+    info.constants = constants.info();
     // }
     eye.shade = gpu.make_pipeline(info);
   }

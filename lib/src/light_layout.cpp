@@ -34,6 +34,16 @@ std::optional<Error> check_places(const std::string& which, const RecordPlaces& 
 
 }  // namespace
 
+LightLayout LightLayout::interleaved(std::size_t record_bytes, std::size_t position_at,
+                                     std::optional<std::size_t> direction_at) {
+  const auto stride = static_cast<std::uint32_t>(record_bytes);
+  LightLayout layout{.form = LightForm::points, .lights = {static_cast<std::uint32_t>(position_at), stride}};
+  if (!direction_at) return layout;
+  layout.form = LightForm::spots;
+  layout.cones = {static_cast<std::uint32_t>(*direction_at), stride};
+  return layout;
+}
+
 bool LightLayout::is_standard() const {
   return form == LightForm::record && lights.offset == 0 && light_stride() == sizeof(shared::Light);
 }

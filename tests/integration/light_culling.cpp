@@ -29,7 +29,7 @@ LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engin
 }
 
 void LightCulling::make_pipeline() {
-  const lamp::vulkan::BoundLookUp lookup = culler_.lookup();
+  const lamp::vulkan::BoundLookUp lookup = culler_.lookup().moved_to(info_.first_binding, info_.first_constant);
   // The shader's own bindings, then the look-up's; the look-up's sizes are specialization constants.
   ComputePipelineInfo pipeline{.spirv = info_.spirv,
                                .set = info_.set,
@@ -37,14 +37,10 @@ void LightCulling::make_pipeline() {
                                             {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                             {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}};
   for (const lamp::vulkan::Bound& bound : lookup.resources)
-    pipeline.bindings.push_back({place(bound), bound.resource.type});
+    pipeline.bindings.push_back({bound.binding, bound.resource.type});
   for (const lamp::vulkan::Constant& constant : lookup.constants)
-    pipeline.constants.push_back({constant.id - lamp::LOOKUP_CONSTANT + info_.first_constant, constant.value});
+    pipeline.constants.push_back({constant.id, constant.value});
   count_ = engine_.make_compute_pipeline(pipeline);
-}
-
-std::uint32_t LightCulling::place(const lamp::vulkan::Bound& bound) const {
-  return bound.binding - lamp::LOOKUP_BINDING + info_.first_binding;
 }
 
 void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
@@ -59,8 +55,8 @@ void LightCulling::record(VkCommandBuffer commands, const Frame& frame) {
   std::vector<Descriptor> descriptors{{.binding = 0, .view = frame.depth.view},
                                       {.binding = 1, .buffer = frame.lights},
                                       {.binding = 2, .buffer = frame.counts}};
-  for (const lamp::vulkan::Bound& bound : culler_.lookup().resources)
-    descriptors.push_back({.binding = place(bound), .buffer = bound.resource.buffer});
+  for (const lamp::vulkan::Bound& bound : culler_.lookup().moved_to(info_.first_binding).resources)
+    descriptors.push_back({.binding = bound.binding, .buffer = bound.resource.buffer});
   engine_.bind(commands, count_, descriptors);
   vkCmdDispatch(commands, (info_.size.width + 7) / 8, (info_.size.height + 7) / 8, 1);
 }

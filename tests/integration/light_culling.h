@@ -48,7 +48,6 @@ class LightCulling {
 
  private:
   void make_pipeline();
-  [[nodiscard]] std::uint32_t place(const lamp::vulkan::Bound& bound) const;
 
   Engine& engine_;
   LightCullingInfo info_;

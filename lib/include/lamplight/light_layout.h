@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -30,6 +31,11 @@ struct LAMPLIGHT_API LightLayout {
   LightForm form = LightForm::record;
   RecordPlaces lights;  ///< in the light buffer
   RecordPlaces cones;   ///< in the cone buffer, of form spots
+
+  /// Of a host's record of so many bytes: where in it lie position and range, and direction and outer angle, if there
+  /// are spots, for which the light buffer is given as the cone buffer too.
+  [[nodiscard]] static LightLayout interleaved(std::size_t record_bytes, std::size_t position_at,
+                                               std::optional<std::size_t> direction_at = std::nullopt);
 
   /// Records one behind the other: what every pass reads as it is.
   [[nodiscard]] bool is_standard() const;

@@ -5,6 +5,7 @@
 
 #include "lamplight/light.h"                       // IWYU pragma: export
 #include "lamplight/view.h"                        // IWYU pragma: export
+#include "lamplight/vulkan/bound_lookup.h"         // IWYU pragma: export
 #include "lamplight/vulkan/buffer.h"               // IWYU pragma: export
 #include "lamplight/vulkan/culler.h"               // IWYU pragma: export
 #include "lamplight/vulkan/descriptor_sets.h"      // IWYU pragma: export

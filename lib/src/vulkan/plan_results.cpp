@@ -69,13 +69,6 @@ void PlanRunner::record_counts(Recorder& recorder, const Buffer& to, std::uint64
   recorder.barrier({{.resource = target, .stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
-std::vector<Use> BoundLookUp::buffer_uses(VkPipelineStageFlags2 stages) const {
-  std::vector<Use> of_buffers;
-  for (const Use& use : uses)
-    if (use.resource.buffer != VK_NULL_HANDLE) of_buffers.push_back({use.resource, stages, use.access});
-  return of_buffers;
-}
-
 BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which, std::uint32_t view) const {
   const bool fused = which == Passes::fused;
   const LookUp& lookup = fused ? plan_.fused->lookup : plan_.lookup;

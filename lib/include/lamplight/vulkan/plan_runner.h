@@ -11,6 +11,7 @@
 #include "lamplight/plan.h"
 #include "lamplight/shared/counters.h"
 #include "lamplight/shared/frame.h"
+#include "lamplight/vulkan/bound_lookup.h"
 #include "lamplight/vulkan/descriptor_sets.h"
 #include "lamplight/vulkan/pass_pipeline.h"
 #include "lamplight/vulkan/recorder.h"
@@ -30,17 +31,6 @@ struct PlanInputs {
   /// The records of the views, as in `frame`. If the GPU counts the lights there, with the most that there may be,
   /// which passes are dispatched for.
   const shared::Frame* host_frame = nullptr;
-};
-
-/// A look-up's resources at their bindings and how a compute shader uses each, and its constants with their ids.
-struct LAMPLIGHT_API BoundLookUp {
-  std::string_view name;
-  std::vector<Constant> constants;
-  std::vector<Bound> resources;
-  std::vector<Use> uses;
-
-  /// Those of buffers, by shaders of these stages.
-  [[nodiscard]] std::vector<Use> buffer_uses(VkPipelineStageFlags2 stages) const;
 };
 
 /// Passes before all others: that which fills a plan's buffers from what host passes wrote, and that which clears its
