@@ -195,6 +195,9 @@ void Context::create_device(const ContextInfo& info) {
   features.base.features.multiDrawIndirect = has.multiDrawIndirect;
   features.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;
   doubles_ = has.shaderFloat64 == VK_TRUE;
+  vulkan::RequiredFeatures all(VK_FALSE);
+  vkGetPhysicalDeviceFeatures2(physical_, &all.base);
+  features.vulkan12.bufferDeviceAddress = all.vulkan12.bufferDeviceAddress;
 
   const float priority = 1.0F;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -218,6 +221,7 @@ void Context::create_device(const ContextInfo& info) {
   device_.traits.conservative_raster = optional.conservative_raster;
   device_.pipeline_statistics = optional.describes;
   device_.pipeline_robustness = optional.unchecked;
+  addresses_ = features.vulkan12.bufferDeviceAddress == VK_TRUE;
   pipelines_ = std::make_unique<vulkan::PipelineStore>();
   device_.pipelines = pipelines_.get();
   sets_ = std::make_unique<vulkan::DescriptorSets>(device_);

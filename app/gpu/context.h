@@ -47,6 +47,7 @@ class Context {
   [[nodiscard]] const DeviceRow& row() const { return row_; }
   /// Whether shaders may compute in double precision.
   [[nodiscard]] bool has_doubles() const { return doubles_; }
+  [[nodiscard]] bool has_buffer_addresses() const { return addresses_; }
   /// A device that is the processor under another name, as Mesa's llvmpipe.
   [[nodiscard]] bool software() const { return row_.kind == "CPU"; }
 
@@ -87,6 +88,7 @@ class Context {
   vulkan::Device device_;
   DeviceRow row_;
   bool doubles_ = false;
+  bool addresses_ = false;
   std::chrono::steady_clock::time_point last_done_ = std::chrono::steady_clock::now();
 };
 

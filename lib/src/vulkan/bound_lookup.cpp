@@ -57,6 +57,20 @@ SpecializationConstants BoundLookUp::specialization(std::vector<Constant> own) c
   return made;
 }
 
+Result<std::vector<VkDeviceAddress>> BoundLookUp::addresses(const Device& device) const {
+  if (!device.buffer_addresses)
+    return Error{"look-up " + std::string(name),
+                 "expected a device with the feature bufferDeviceAddress that says Device::buffer_addresses, "
+                 "got one without"};
+  std::vector<VkDeviceAddress> found;
+  for (const Bound& bound : resources) {
+    const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
+                                         .buffer = bound.resource.buffer};
+    found.push_back(device.vk.vkGetBufferDeviceAddress(device.handle, &info) + bound.resource.offset);
+  }
+  return found;
+}
+
 std::vector<Use> BoundLookUp::buffer_uses(VkPipelineStageFlags2 stages) const {
   std::vector<Use> of_buffers;
   for (const Use& use : uses)

@@ -45,8 +45,13 @@ Result<Allocation> Buffer::allocate(const Device& device, const BufferInfo& info
   const MemoryFlags flags = flags_of(info.memory);
   const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, flags.preferred);
   if (!type) return type.error();
-  const VkMemoryAllocateInfo allocate{
-      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type.value()};
+  const VkMemoryAllocateFlagsInfo addressable{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                              .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
+  const bool has_address = (info.usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+  const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                      .pNext = has_address ? &addressable : nullptr,
+                                      .allocationSize = needs.size,
+                                      .memoryTypeIndex = type.value()};
   if (const VkResult r = device.vk.vkAllocateMemory(device.handle, &allocate, nullptr, &made.memory); r != VK_SUCCESS)
     return failed(info, r);
   memory_ = OwnedMemory(device.handle, made.memory, device.vk.vkFreeMemory);

@@ -55,11 +55,11 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   Result<PlanRunner> runner = PlanRunner::create(device, std::move(plan.value()));
   if (!runner) return runner.error();
   culler.runner_ = std::move(runner.value());
-  Result<Buffer> frame =
-      Buffer::create(device, {.name = "frame",
-                              .bytes = info.views * sizeof(shared::Frame),
-                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+  Result<Buffer> frame = Buffer::create(
+      device, {.name = "frame",
+               .bytes = info.views * sizeof(shared::Frame),
+               .usage = device.addressable(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT)});
   if (!frame) return frame.error();
   const std::uint64_t slots_bytes = info.frames_in_flight * culler.slot_bytes();
   Result<Buffer> counts = Buffer::create(device, {.name = "counts read-back",

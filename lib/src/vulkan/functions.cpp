@@ -101,6 +101,7 @@ Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
   loader.required("vkDestroySampler", vk.vkDestroySampler);
   loader.required("vkDestroyShaderModule", vk.vkDestroyShaderModule);
   loader.required("vkFreeMemory", vk.vkFreeMemory);
+  loader.required("vkGetBufferDeviceAddress", vk.vkGetBufferDeviceAddress);
   loader.required("vkGetBufferMemoryRequirements", vk.vkGetBufferMemoryRequirements);
   loader.required("vkGetQueryPoolResults", vk.vkGetQueryPoolResults);
   loader.required("vkMapMemory", vk.vkMapMemory);

@@ -12,11 +12,11 @@
 namespace lamp::vulkan {
 namespace {
 
-BufferInfo buffer_info(const Plan& plan, const BufferDesc& desc) {
+BufferInfo buffer_info(const Device& device, const Plan& plan, const BufferDesc& desc) {
   VkBufferUsageFlags usage =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   if (desc.indirect) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-  return {.name = desc.name, .bytes = plan.all_bytes(desc), .usage = usage};
+  return {.name = desc.name, .bytes = plan.all_bytes(desc), .usage = device.addressable(usage)};
 }
 
 /// What a buffer of upload memory is filled from; none for others.
@@ -74,7 +74,7 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   runner.sets_ = DescriptorSets(device);
   runner.offset_alignment_ = device.traits.storage_offset_alignment;
   for (const BufferDesc& desc : runner.plan_.buffers) {
-    Result<Buffer> buffer = Buffer::create(device, buffer_info(runner.plan_, desc));
+    Result<Buffer> buffer = Buffer::create(device, buffer_info(device, runner.plan_, desc));
     if (!buffer) return buffer.error();
     runner.buffers_.push_back(std::move(buffer.value()));
     Result<Buffer> slots = make_slots(device, runner.plan_, desc);

@@ -51,6 +51,9 @@ struct LAMPLIGHT_API BoundLookUp {
   [[nodiscard]] DescriptorWrites writes(VkDescriptorSet set = VK_NULL_HANDLE) const;
   /// Its constants behind those of your own.
   [[nodiscard]] SpecializationConstants specialization(std::vector<Constant> own = {}) const;
+  /// Of its buffers, in the order of their bindings: what a shader with LOOKUP_ADDRESSES reads instead of descriptors.
+  /// Errors: a device that does not say Device::buffer_addresses.
+  [[nodiscard]] Result<std::vector<VkDeviceAddress>> addresses(const Device& device) const;
   /// Those of buffers, by shaders of these stages.
   [[nodiscard]] std::vector<Use> buffer_uses(VkPipelineStageFlags2 stages) const;
 };

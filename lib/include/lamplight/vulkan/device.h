@@ -73,6 +73,14 @@ struct LAMPLIGHT_API Device {
                                        ///< pipelines shall be compiled so that the driver can describe them
   bool pipeline_robustness = false;    ///< VK_EXT_pipeline_robustness and its feature are enabled: pipelines then say
                                        ///< that they stay within their buffers, and a driver leaves out its checks
+  bool buffer_addresses = false;       ///< the feature bufferDeviceAddress is enabled, and buffers that are made from
+                                       ///< now on shall have addresses (BoundLookUp::addresses)
+
+  /// A buffer's usage, with what its address needs.
+  [[nodiscard]] VkBufferUsageFlags addressable(VkBufferUsageFlags usage) const {
+    constexpr VkBufferUsageFlags ADDRESS = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    return buffer_addresses ? usage | ADDRESS : usage;
+  }
 
   /// Whether descriptors are pushed: VK_KHR_push_descriptor is enabled, and nobody cleared its function. Else they lie
   /// in sets. Pipelines are made for one or the other.

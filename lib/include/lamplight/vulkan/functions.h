@@ -60,6 +60,7 @@ struct DeviceFunctions {
   PFN_vkDestroySampler vkDestroySampler = nullptr;
   PFN_vkDestroyShaderModule vkDestroyShaderModule = nullptr;
   PFN_vkFreeMemory vkFreeMemory = nullptr;
+  PFN_vkGetBufferDeviceAddress vkGetBufferDeviceAddress = nullptr;
   PFN_vkGetBufferMemoryRequirements vkGetBufferMemoryRequirements = nullptr;
   PFN_vkGetQueryPoolResults vkGetQueryPoolResults = nullptr;
   PFN_vkMapMemory vkMapMemory = nullptr;

@@ -27,7 +27,9 @@ struct Allocation {
 /// a Culler or a PlanRunner, on that thread.
 struct MemoryCallbacks {
   void* user = nullptr;  ///< handed back
-  /// Another result than VK_SUCCESS becomes the error of whoever wanted the buffer, and `out` is not looked at.
+  /// With Device::buffer_addresses, memory for buffers on the GPU alone is allocated with
+  /// VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. Another result than VK_SUCCESS becomes the error of whoever wanted the
+  /// buffer, and `out` is not looked at.
   VkResult (*allocate)(void* user, VkBuffer buffer, const VkMemoryRequirements& needs, MemoryUse use,
                        Allocation& out) = nullptr;
   void (*release)(void* user, const Allocation& allocation) = nullptr;  ///< after its buffer was destroyed

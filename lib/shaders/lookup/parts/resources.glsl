@@ -2,6 +2,8 @@
 // LOOKUP_SET, LOOKUP_FIRST_BINDING and LOOKUP_FIRST_CONSTANT before it includes a look-up; the host adds the same to its
 // bindings and ids. The first binding is the frame, of each view one behind the other. Where there are several views, a
 // buffer has a part for each; LOOKUP_VIEW says which view is meant where a call does not (gl_ViewIndex, for example).
+// Buffers without descriptors, in GLSL: LOOKUP_ADDRESSES is an array of uvec2 in the host's push constants or buffer,
+// which holds BoundLookUp::addresses. The shader then requires GL_EXT_buffer_reference_uvec2.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LOOKUP_RESOURCES
 #define LOOKUP_RESOURCES
@@ -29,11 +31,20 @@
   [[vk::binding(LOOKUP_FIRST_BINDING + place, LOOKUP_SET)]] StructuredBuffer<type> name
 #define LOOKUP_CONSTANT(place, type, name, value) \
   [[vk::constant_id(LOOKUP_FIRST_CONSTANT + place)]] const type name = value
+#elif defined(LOOKUP_ADDRESSES)
+#define LOOKUP_BUFFER(place, block, type, name)                                                              \
+  layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer block { type at_address[]; }; \
+  const uint name##_PLACE = place
 #else
 #define LOOKUP_BUFFER(place, block, type, name) \
   layout(set = LOOKUP_SET, binding = LOOKUP_FIRST_BINDING + place, scalar) readonly buffer block { type name[]; }
+#endif
+#ifndef LAMP_HLSL
 #define LOOKUP_CONSTANT(place, type, name, value) \
   layout(constant_id = LOOKUP_FIRST_CONSTANT + place) const type name = value
+#endif
+#ifdef LOOKUP_ADDRESSES
+#include "lookup/parts/addresses.glsl"
 #endif
 LOOKUP_BUFFER(0, LookupFrame, Frame, lookup_frames);
 #define lookup_frame lookup_frames[LOOKUP_VIEW]

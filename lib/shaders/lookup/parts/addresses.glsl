@@ -1,0 +1,15 @@
+// What the names of a look-up's buffers mean where the host gives addresses: LOOKUP_BUFFER declares a block and the
+// place of its address, and a macro cannot define another. Behind ## a name stays a name.
+// Needs: LOOKUP_ADDRESSES.
+// SPDX-License-Identifier: Apache-2.0
+#define lookup_frames LookupFrame(LOOKUP_ADDRESSES[lookup_frames_PLACE]).at_address
+#define lookup_bits LookupBits(LOOKUP_ADDRESSES[lookup_bits_PLACE]).at_address
+#define lookup_piece_lists LookupPieceLists(LOOKUP_ADDRESSES[lookup_piece_lists_PLACE]).at_address
+#define lookup_spans LookupSpans(LOOKUP_ADDRESSES[lookup_spans_PLACE]).at_address
+#define lookup_lists LookupLists(LOOKUP_ADDRESSES[lookup_lists_PLACE]).at_address
+#define lookup_ranges LookupRanges(LOOKUP_ADDRESSES[lookup_ranges_PLACE]).at_address
+#define lookup_cells LookupCells(LOOKUP_ADDRESSES[lookup_cells_PLACE]).at_address
+#define lookup_splits LookupSplits(LOOKUP_ADDRESSES[lookup_splits_PLACE]).at_address
+#define lookup_bins LookupBins(LOOKUP_ADDRESSES[lookup_bins_PLACE]).at_address
+#define lookup_order LookupOrder(LOOKUP_ADDRESSES[lookup_order_PLACE]).at_address
+#define lookup_headers LookupHeaders(LOOKUP_ADDRESSES[lookup_headers_PLACE]).at_address
