@@ -1,5 +1,6 @@
-# Debian packages of the components, by CPack: liblamplight0 (the number is the SOVERSION), liblamplight-dev and
-# lamplight-tools. Build the preset `debian`, then run `cpack -B FOLDER` in its build folder.
+# Debian packages of the components, by CPack: liblamplight0 (the number is the SOVERSION), liblamplight-dev,
+# lamplight-tools and, where the window is built, lamplight-view. Build the preset `debian`, then run `cpack -B FOLDER` in
+# its build folder.
 option(LAMPLIGHT_DEBIAN "Install what Debian packages hold besides, and let cpack make them" OFF)
 set(LAMPLIGHT_MAINTAINER "Lamplight maintainers <maintainers@lamplight.invalid>" CACHE STRING
     "Who answers for the Debian packages: NAME <ADDRESS>")
@@ -42,8 +43,19 @@ set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "${runtime} ${same_version}")
 set(CPACK_DEBIAN_TOOL_DESCRIPTION "light culling on the GPU (the tool lamp)
 ${about}This package contains lamp, which renders scenes with many lights, verifies
 methods of culling against an oracle, and measures them.")
+set(CPACK_DEBIAN_VIEW_PACKAGE_NAME lamplight-view)
+set(CPACK_DEBIAN_VIEW_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_VIEW_PACKAGE_DEPENDS "${runtime} ${same_version}")
+set(CPACK_DEBIAN_VIEW_DESCRIPTION "light culling on the GPU (the window lamp-view)
+${about}This package contains lamp-view, which shows scenes with many lights while they
+are culled: which lights are in the cell of a pixel, why, and whether one is
+missing.")
 
-foreach(component runtime development tool)
+set(components runtime development tool)
+if(LAMPLIGHT_VIEW)
+  list(APPEND components view)
+endif()
+foreach(component IN LISTS components)
   string(TOUPPER ${component} COMPONENT)
   set(name ${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
   set(documents ${CMAKE_INSTALL_DATADIR}/doc/${name})
@@ -67,7 +79,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_NAME lamplight)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each has its own
 set(CPACK_PACKAGE_CONTACT "${LAMPLIGHT_MAINTAINER}")
-set(CPACK_COMPONENTS_ALL runtime development tool)
+set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
