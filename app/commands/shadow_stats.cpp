@@ -40,6 +40,11 @@ std::string truth_words(const ShadowFindings& truth) {
                      truth.thinned > 1 ? fmt::format(", one of {}", truth.thinned) : "", truth.unclear);
 }
 
+std::string cut_words(const ShadowFindings& truth) {
+  return fmt::format("{} of {} pairs that maps leave dark are beyond the light's radial bound, and {} that they light",
+                     truth.cut, truth.dark, truth.lost);
+}
+
 nlohmann::json to_json(const ShadowStats& shadows) {
   const ShadowCounts& c = shadows.counts;
   nlohmann::json json{{"filter", shadow_filter_name(shadows.settings.filter)},
@@ -63,6 +68,9 @@ nlohmann::json to_json(const ShadowStats& shadows) {
                      {"thinned", truth->thinned},
                      {"unclear", truth->unclear},
                      {"in_shadow", truth->in_shadow},
+                     {"dark", truth->dark},
+                     {"cut", truth->cut},
+                     {"lost", truth->lost},
                      {"leaks", truth->all.leaks()},
                      {"false_shadows", truth->all.false_shadows()},
                      {"leaks_away", truth->away.leaks()},

@@ -76,6 +76,8 @@ void set_walked(Stats& stats, std::span<const Visit> visits);
 [[nodiscard]] std::string shadow_words(const ShadowStats& shadows);
 /// "leaks 1.2 % of the light that rays stop, ..."
 [[nodiscard]] std::string truth_words(const ShadowFindings& truth);
+/// "12 of 34 pairs that maps leave dark are beyond ..."
+[[nodiscard]] std::string cut_words(const ShadowFindings& truth);
 [[nodiscard]] std::optional<ShadowStats> shadow_stats(const Shadows* shadows);
 [[nodiscard]] nlohmann::json to_json(const ShadowStats& shadows);
 

@@ -13,6 +13,7 @@
 #include "commands/miss_map.h"
 #include "commands/pictures.h"
 #include "commands/verify_rows.h"
+#include "commands/verify_shadows.h"
 #include "render/antialias.h"
 #include "render/gpu_verifier.h"
 #include "system/print.h"
@@ -78,9 +79,14 @@ void for_each_picture(Renderer& renderer, const std::function<void(std::span<con
   }
 }
 
-void visit_band(Session& session, const Truth& truth, std::vector<Candidate>& candidates) {
+/// Lights that are cut by what their maps hold need not be where these leave no light.
+void visit_band(Session& session, const Truth& all, std::vector<Candidate>& candidates) {
   using Passes = vulkan::PlanRunner::Passes;
+  std::optional<Truth> lit;
   for (Candidate& candidate : candidates) {
+    const bool cut = is_cut(session, candidate.lighting);
+    if (cut && !lit) lit = lit_truth(session.renderer(), session.shaders(), all);
+    const Truth& truth = cut ? *lit : all;
     progress(fmt::format("verify rows {} .. {}: {}", truth.first_row, truth.first_row + truth.rows,
                          candidate.lighting.info().method->name));
     const FramePicture of = session.renderer().shown();
@@ -267,7 +273,7 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
   print_table(rows);
   if (const auto& shadows = rows.front().shadows) print_out("shadows: {}\n", shadow_words(*shadows));
   if (const auto& shadows = rows.front().shadows; shadows && shadows->truth)
-    print_out("shadows: {}\n", truth_words(*shadows->truth));
+    print_out("shadows: {}\nshadows: {}\n", truth_words(*shadows->truth), cut_words(*shadows->truth));
 }
 
 std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
@@ -285,14 +291,6 @@ Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& 
                             : o.request.depth_samples > 1 ? "several samples a pixel"
                                                           : "decals"));
   return Verifier::oracle;
-}
-
-/// Held against rays, which need triangles, where a frame has one view, and its depth one sample a pixel.
-std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
-  const Renderer& renderer = session.renderer();
-  if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().several()) return std::nullopt;
-  progress("verify shadows: rays");
-  return check_shadows(session.renderer(), session.shaders(), setup.scene, setup.lights);
 }
 
 Exit verify(const VerifyOptions& o) {
@@ -317,6 +315,9 @@ Exit verify(const VerifyOptions& o) {
   } else {
     first = session.renderer().render(candidates.front().lighting).image;  // and its depth
   }
+  const bool any_cut = std::ranges::any_of(candidates, [&](const Candidate& c) { return is_cut(session, c.lighting); });
+  if (any_cut && verifier == Verifier::gpu)
+    throw Error("--verifier gpu: knows nothing of shadows, which option occlusion=radial asks for; use oracle");
   if (verifier == Verifier::gpu)
     find_by_gpu(session, setup, candidates);
   else
@@ -337,6 +338,7 @@ Exit verify(const VerifyOptions& o) {
   if (!o.out.empty() && !o.json) print_out("picture: {}\n", o.out);
   Verdict worst = Verdict::ok;
   for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
+  if (shadows && shadows->lost != 0) worst = Verdict::failed;
   return exit_of(worst);
 }
 

@@ -9,6 +9,7 @@
 
 #include "gpu/check.h"
 #include "lamplight/light.h"
+#include "lamplight/shared/radial.h"
 #include "render/decal_pass.h"
 #include "render/pass_uses.h"
 
@@ -28,6 +29,11 @@ FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity,
   lights_ = take(vulkan::Buffer::create(device, {.name = "lights", .bytes = light_bytes, .usage = STORAGE}));
   spheres_ = take(vulkan::Buffer::create(device, {.name = "spheres", .bytes = sphere_bytes, .usage = STORAGE}));
   decals_ = take(vulkan::Buffer::create(device, {.name = "decals", .bytes = decal_bytes, .usage = STORAGE}));
+  no_radial_ = take(vulkan::Buffer::create(device, {.name = "no radial bounds",
+                                                    .bytes = sizeof(shared::RadialBound),
+                                                    .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                                    .memory = vulkan::MemoryUse::upload}));
+  std::ranges::fill(no_radial_.mapped(), std::byte{0});
   staging_ = take(vulkan::Buffer::create(device, {.name = "frame staging",
                                                   .bytes = frame_.bytes() + light_bytes + sphere_bytes + decal_bytes,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -90,6 +96,7 @@ vulkan::PlanInputs FrameData::plan_inputs(std::span<const vulkan::Resource> dept
   return {.frame = frame_.handle(),
           .lights = lights_.handle(),
           .spheres = spheres_.handle(),
+          .radial = no_radial_.handle(),
           .depth = depths.front(),
           .depths = depths,
           .host_lights = host_lights_,

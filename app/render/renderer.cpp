@@ -149,7 +149,9 @@ void Renderer::draw_depths() {
 }
 
 vulkan::PlanInputs Renderer::plan_inputs() const {
-  return (all_pictures_ ? all_pictures_->data : data_).plan_inputs(culled_depths_);
+  vulkan::PlanInputs inputs = (all_pictures_ ? all_pictures_->data : data_).plan_inputs(culled_depths_);
+  if (shadows_) inputs.radial = shadows_->radial_bounds().handle();
+  return inputs;
 }
 
 void Renderer::record_upload(vulkan::Recorder& recorder) {

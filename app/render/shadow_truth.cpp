@@ -18,6 +18,8 @@ namespace {
 constexpr std::uint32_t GROUP = 64;          // threads of shadow_pairs.comp
 constexpr std::size_t MOST_PAIRS = 1 << 19;  // five rays each, in a few seconds
 
+constexpr std::size_t ASKED_PAIRS = 1 << 21;  // at once, of the GPU
+
 struct Pair {
   std::uint32_t pixel = 0;
   std::uint32_t light = 0;
@@ -43,15 +45,23 @@ class Thinned {
   std::uint64_t stride_ = 1;
 };
 
-/// Light without shadows, and the share of it that the filter leaves, for each pair.
-std::vector<glm::vec2> ask_look_up(Renderer& renderer, const ShaderLibrary& shaders, const std::vector<Pair>& pairs) {
+/// What the GPU says of a pair.
+struct LookedUp {
+  float light = 0.0F;    ///< without shadows
+  float share = 0.0F;    ///< of it, that the filter leaves
+  float reached = 0.0F;  ///< 1: the radial bound lets it
+  float unused = 0.0F;
+};
+
+std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shaders, const std::vector<Pair>& pairs) {
+  if (pairs.empty()) return {};
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const Targets& targets = renderer.targets();
   const vulkan::Buffer asked = upload_buffer(renderer.context(), "pairs of pixel and light", bytes_of(pairs),
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer answers =
       take(vulkan::Buffer::create(renderer.device(), {.name = "shadow answers",
-                                                      .bytes = pairs.size() * sizeof(glm::vec2),
+                                                      .bytes = pairs.size() * sizeof(LookedUp),
                                                       .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                                       .memory = vulkan::MemoryUse::readback}));
   const vulkan::Resource written = vulkan::Resource::storage(answers.handle());
@@ -60,7 +70,8 @@ std::vector<glm::vec2> ask_look_up(Renderer& renderer, const ShaderLibrary& shad
                                    {2, vulkan::Resource::storage(asked.handle())},
                                    {3, renderer.data().lights()},
                                    {5, targets.base_color.sampled()},
-                                   {6, targets.surface.sampled()}};
+                                   {6, targets.surface.sampled()},
+                                   {9, vulkan::Resource::storage(renderer.shadows()->radial_bounds().handle())}};
   for (const vulkan::Bound& b : renderer.shadow_bound()) bound.push_back(b);
   std::vector<vulkan::Use> uses;
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
@@ -83,8 +94,8 @@ std::vector<glm::vec2> ask_look_up(Renderer& renderer, const ShaderLibrary& shad
   });
   renderer.forget(asked);
   renderer.forget(answers);
-  std::vector<glm::vec2> found(pairs.size());
-  std::memcpy(found.data(), answers.mapped().data(), found.size() * sizeof(glm::vec2));
+  std::vector<LookedUp> found(pairs.size());
+  std::memcpy(found.data(), answers.mapped().data(), found.size() * sizeof(LookedUp));
   return found;
 }
 
@@ -139,6 +150,32 @@ void add(ShadowLight& to, Answer answer, double light, double share) {
 
 }  // namespace
 
+Truth lit_truth(Renderer& renderer, const ShaderLibrary& shaders, const Truth& truth) {
+  Truth lit{.first_row = truth.first_row, .rows = truth.rows, .offsets = {0}, .boundary_pairs = truth.boundary_pairs};
+  renderer.need_surfaces();
+  const std::uint32_t first_pixel = truth.first_row * renderer.view().width();
+  std::vector<Pair> pairs;
+  const auto keep_lit = [&](std::uint32_t first, std::uint32_t end) {
+    const std::vector<LookedUp> found = ask_look_up(renderer, shaders, pairs);
+    std::size_t k = 0;
+    for (std::uint32_t pixel = first; pixel < end; ++pixel) {
+      for (std::uint32_t i = truth.offsets[pixel]; i < truth.offsets[pixel + 1]; ++i, ++k)
+        if (found[k].share > 0.0F) lit.lights.push_back(truth.lights[i]);
+      lit.offsets.push_back(static_cast<std::uint32_t>(lit.lights.size()));
+    }
+    pairs.clear();
+  };
+  std::uint32_t first = 0;
+  for (std::uint32_t pixel = 0; pixel + 1 < truth.offsets.size(); ++pixel) {
+    for (std::uint32_t i = truth.offsets[pixel]; i < truth.offsets[pixel + 1]; ++i)
+      pairs.push_back({.pixel = first_pixel + pixel, .light = truth.lights[i]});
+    if (pairs.size() < ASKED_PAIRS && pixel + 2 < truth.offsets.size()) continue;
+    keep_lit(first, pixel + 1);
+    first = pixel + 1;
+  }
+  return lit;
+}
+
 ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
                              std::span<const shared::Light> lights) {
   renderer.need_surfaces();
@@ -154,24 +191,29 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
   const std::vector<Pair>& pairs = thinned.pairs();
   ShadowFindings found{.thinned = thinned.stride()};
   if (pairs.empty()) return found;
-  const std::vector<glm::vec2> looked_up = ask_look_up(renderer, shaders, pairs);
+  const std::vector<LookedUp> looked_up = ask_look_up(renderer, shaders, pairs);
   const Occluders occluders = scene_occluders(scene);
   std::vector<Answers> answers(pairs.size());
   tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-    if (looked_up[i].x > 0.0F)
+    if (looked_up[i].light > 0.0F)
       answers[i] = by_rays(occluders, view, depth, pairs[i].pixel, glm::dvec3(lights[pairs[i].light].position));
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double light = double{looked_up[i].x};
+    const double light = double{looked_up[i].light};
     if (!(light > 0.0)) continue;  // it faces away
     ++found.pairs;
+    const bool is_dark = looked_up[i].share == 0.0F;
+    const bool is_cut = looked_up[i].reached == 0.0F;
+    found.dark += is_dark ? 1 : 0;
+    found.cut += is_dark && is_cut ? 1 : 0;
+    found.lost += !is_dark && is_cut ? 1 : 0;
     if (answers[i].own == Answer::unclear) {
       ++found.unclear;
       continue;
     }
     found.in_shadow += answers[i].own == Answer::stopped ? 1 : 0;
-    add(found.all, answers[i].own, light, double{looked_up[i].y});
-    if (answers[i].away) add(found.away, answers[i].own, light, double{looked_up[i].y});
+    add(found.all, answers[i].own, light, double{looked_up[i].share});
+    if (answers[i].away) add(found.away, answers[i].own, light, double{looked_up[i].share});
   }
   return found;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "oracle/occluders.h"
+#include "oracle/reference.h"
 #include "render/renderer.h"
 
 namespace lamp::app {
@@ -33,6 +34,9 @@ struct ShadowFindings {
   std::uint64_t unclear = 0;    ///< of them, left out: other ends of the ray give another answer
   std::uint64_t thinned = 1;    ///< one pair of so many was looked at
   std::uint64_t in_shadow = 0;  ///< by rays
+  std::uint64_t dark = 0;       ///< to which the look-up leaves no light
+  std::uint64_t cut = 0;        ///< of these, beyond the light's radial bound
+  std::uint64_t lost = 0;       ///< beyond the bound although the look-up lights them: a fault
   ShadowLight all;
   ShadowLight away;  ///< of the pairs away from edges
 };
@@ -40,5 +44,9 @@ struct ShadowFindings {
 /// Of the renderer's frame, which casts shadows and whose surfaces are drawn anew.
 [[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
                                            std::span<const shared::Light> lights);
+
+/// The pairs of a truth that the frame's look-up of shadows leaves some light: what lists must hold of lights that are
+/// cut by their radial bounds. Of a renderer that casts shadows.
+[[nodiscard]] Truth lit_truth(Renderer& renderer, const ShaderLibrary& shaders, const Truth& truth);
 
 }  // namespace lamp::app

@@ -75,7 +75,8 @@ Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene&
     : settings_(settings),
       scene_(scene),
       casters_(shadow_casters(scene)),
-      schedule_(make_atlas(context.device(), settings, std::min(light_capacity, settings.lights))) {
+      schedule_(make_atlas(context.device(), settings, std::min(light_capacity, settings.lights))),
+      radial_(context, shaders, settings.filter, light_capacity) {
   check_features(context);
   const vulkan::Device& device = context.device();
   const auto casters = static_cast<std::uint32_t>(casters_.casters.size());
@@ -149,6 +150,7 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
     for (std::uint32_t i = 0; i < squares_of(maps_[redraw.light]); ++i)
       clears_.push_back(clear_rect(maps_[redraw.light], i));
   if (moments_) moments_->set(maps_, frame.redraws);
+  radial_.set(maps_, lights, frame.redraws);
   const std::span<std::byte> to = staging_.mapped();
   if (!maps_.empty()) std::memcpy(to.data(), maps_.data(), maps_.size() * sizeof(shared::ShadowMap));
   if (view_count_ != 0)
@@ -163,7 +165,9 @@ void Shadows::record(vulkan::Recorder& recorder) {
   cleared_ = true;
   for (std::uint32_t at = 0; at < view_count_ && !casters_.casters.empty(); at += views_a_batch_)
     record_batch(recorder, at, std::min(views_a_batch_, view_count_ - at));
-  if (moments_) moments_->record(recorder, vulkan::Resource::storage(map_buffer_.handle()), atlas_);
+  const vulkan::Resource maps = vulkan::Resource::storage(map_buffer_.handle());
+  if (moments_) moments_->record(recorder, maps, atlas_);
+  radial_.record(recorder, maps, atlas_);
   recorder.end_pass();
 }
 

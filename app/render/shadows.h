@@ -14,6 +14,7 @@
 #include "render/shader_library.h"
 #include "render/shadow_casters.h"
 #include "render/shadow_moments.h"
+#include "render/shadow_radial.h"
 
 namespace lamp::app {
 
@@ -68,6 +69,8 @@ class Shadows {
   /// Of vsm and evsm; else null.
   [[nodiscard]] const ShadowMoments* moments() const { return moments_ ? &*moments_ : nullptr; }
   [[nodiscard]] ShadowBound bound() const;
+  /// How far each light reaches before something stops it.
+  [[nodiscard]] const vulkan::Buffer& radial_bounds() const { return radial_.bounds(); }
 
  private:
   void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
@@ -96,6 +99,7 @@ class Shadows {
   vulkan::Pipeline masked_;
 
   std::optional<ShadowMoments> moments_;
+  ShadowRadial radial_;
   bool changed_ = false;  ///< since the last `record`
   ShadowCounts counts_;
   std::vector<std::uint32_t> waiting_;

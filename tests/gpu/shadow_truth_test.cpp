@@ -53,6 +53,9 @@ TEST_F(GpuTest, ShadowsAreNearTheTruth) {
       EXPECT_LT(found.all.false_shadows(), blurred ? 0.05 : 0.02);
       EXPECT_LT(found.away.leaks(), found.all.leaks());
       EXPECT_LT(found.away.false_shadows(), blurred ? 0.03 : 0.01);
+      EXPECT_EQ(found.lost, 0U) << "radial bounds cut what is lit";
+      EXPECT_GT(found.dark, 100U);
+      EXPECT_LE(found.cut, found.dark);
     }
 }
 

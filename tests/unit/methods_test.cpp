@@ -182,6 +182,19 @@ TEST_P(EveryMethod, MakesRecordsOfItsOwnExactlyIfItReadsAny) {
   }
 }
 
+// What brute force looks at knows no cell: it alone has nothing to cut.
+TEST_P(EveryMethod, ReadsRadialBoundsExactlyIfAsked) {
+  const Method& method = *GetParam();
+  EXPECT_FALSE(lamp::make_plan(method, ordinary_problem(defaults_of(method))).value().binds(lamp::INPUT_RADIAL));
+  const lamp::Result<Options> radial = lamp::resolve_options(method, {"occlusion=radial"});
+  ASSERT_EQ(radial.ok(), method.name != "all");
+  if (!radial) return;
+  const Plan plan = lamp::make_plan(method, ordinary_problem(radial.value())).value();
+  EXPECT_TRUE(plan.binds(lamp::INPUT_RADIAL));
+  EXPECT_EQ(std::ranges::find(plan.lookup.bindings, lamp::INPUT_RADIAL, &lamp::Binding::resource),
+            plan.lookup.bindings.end());
+}
+
 // No look-up reads a light: an engine's shader needs nothing of them but its own.
 TEST_P(EveryMethod, LooksLightsUpWithoutReadingThem) {
   const Method& method = *GetParam();

@@ -30,7 +30,9 @@ inline constexpr ResourceId INPUT_LIGHTS = 1;   ///< storage buffer, what Plan::
 inline constexpr ResourceId INPUT_DEPTH = 2;    ///< sampled image, device depth; may be larger than the picture
 inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::LightSphere[light capacity]
 inline constexpr ResourceId INPUT_CONES = 4;    ///< storage buffer, likewise, where the layout has cones
-inline constexpr ResourceId PLAN_BUFFER = 5;    ///< the first buffer of the plan
+/// Storage buffer, shared::RadialBound of the first lights: where option occlusion=radial reads it.
+inline constexpr ResourceId INPUT_RADIAL = 5;
+inline constexpr ResourceId PLAN_BUFFER = 6;  ///< the first buffer of the plan
 inline constexpr ResourceId NO_RESOURCE = ~0U;
 
 enum class Access : std::uint8_t { read, write, read_write };

@@ -129,6 +129,10 @@ class LAMPLIGHT_API ShadowAtlas {
 /// How many squares a light has: 0 if it reaches nothing, or has no intensity.
 [[nodiscard]] LAMPLIGHT_API std::uint32_t shadow_squares(const shared::Light& light, PointShadows points);
 
+/// Whether a map, made some frames ago, shows all that its light reaches now, from where it is now. What it holds then
+/// cuts the light (shared/radial.h).
+[[nodiscard]] LAMPLIGHT_API bool shadow_shows_all(const shared::ShadowMap& map, const shared::Light& light);
+
 /// Appends the views that a map is drawn by, for an atlas of this size. `light` is written into them.
 LAMPLIGHT_API void add_shadow_views(const shared::ShadowMap& map, std::uint32_t atlas_size, std::uint32_t light,
                                     std::vector<shared::ShadowView>& views);

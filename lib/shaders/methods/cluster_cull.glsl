@@ -1,14 +1,18 @@
 // The clusters of one tile, by one work group: batches of lights against the tile's sides, then one thread a slice walks
 // the survivors in order. Count and fill visit exactly the same pairs.
-// Needs: TILE_PX, SLICES, SLICE_SCALE, NEAR_MM, FAR_M; `frame`, `bounds`; the macros VISIT(light) and, after each 32
+// Needs: RADIAL_BINDING; TILE_PX, SLICES, SLICE_SCALE, NEAR_MM, FAR_M; `frame`, `bounds`; the macros VISIT(light) and, after each 32
 // lights, END_OF_WORD(word), used by the thread of a slice; and SURVIVORS(word, bits): lights 32 word + i that are between
 // the tile's sides, by the thread that has them.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_CLUSTER_CULL
 #define LAMP_METHODS_CLUSTER_CULL
 #include "common/frame.glsl"
+#include "common/radial_bounds.glsl"
 #include "common/slices.glsl"
+#include "common/tile_volume.glsl"
 #include "common/volume_tests.glsl"
+
+layout(constant_id = 6) const bool RADIAL = false;
 
 const uint BATCH = 256u;  // the largest work group
 shared uint s_survivors[BATCH / 32u];
@@ -26,6 +30,16 @@ void cluster_box(uvec2 tile, float z_begin, float z_end, out vec3 box_min, out v
     box_min = min(box_min, p);
     box_max = max(box_max, p);
   }
+}
+
+// Whether anything of a cluster is lit, as far as the light's radial bound tells.
+bool is_lit_in(uint light, LightBounds sphere, uvec2 tile, float z_begin, float z_end) {
+  if (!RADIAL) return true;
+  vec4 x_edges;
+  vec4 y_edges;
+  tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
+  return radial_reaches(frame, light, x_edges, y_edges,
+                        radial_depths(sphere, is_perspective(frame) ? max(z_begin, 0.0) : z_begin, z_end));
 }
 
 uint cluster_index(uvec2 tile, uint slice) {
@@ -58,7 +72,9 @@ void visit_clusters(uvec2 tile) {
       for (uint word = 0u; word < threads / 32u; ++word) {
         for (uint bits = s_survivors[word]; bits != 0u; bits &= bits - 1u) {
           const uint i = word * 32u + uint(findLSB(bits));
-          if (sphere_touches_depths(s_bounds[i], z_begin, z_end) && sphere_touches_box(s_bounds[i], box_min, box_max))
+          if (sphere_touches_depths(s_bounds[i], z_begin, z_end) &&
+              sphere_touches_box(s_bounds[i], box_min, box_max) &&
+              is_lit_in(first + i, s_bounds[i], tile, z_begin, z_end))
             VISIT(first + i);
         }
         END_OF_WORD(first / 32u + word);

@@ -11,7 +11,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
 #define SLICE_CONSTANT 2
 #include "common/slice_constants.glsl"
-layout(constant_id = 6) const uint WORDS = 1;  // words a cluster: light capacity / 32, rounded up
+layout(constant_id = 7) const uint WORDS = 1;  // words a cluster: light capacity / 32, rounded up
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BitBuffer { uint bits[]; };
@@ -22,6 +22,7 @@ void write_word(uint word) {
   if (word < WORDS) bits[base + word] = found;
   found = 0u;
 }
+#define RADIAL_BINDING 3
 #define VISIT(light) found |= 1u << ((light) % 32u)
 #define END_OF_WORD(word) write_word(word)
 #define SURVIVORS(word, bits)

@@ -15,6 +15,7 @@ layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds 
 layout(set = 0, binding = 2, scalar) writeonly buffer RangeBuffer { uvec2 ranges[]; };
 
 uint found = 0u;
+#define RADIAL_BINDING 3
 #define VISIT(light) ++found
 #define END_OF_WORD(word)
 #define SURVIVORS(word, bits)

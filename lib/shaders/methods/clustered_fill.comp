@@ -11,8 +11,8 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
 #define SLICE_CONSTANT 2
 #include "common/slice_constants.glsl"
-layout(constant_id = 6) const uint ENTRIES = 1;
-layout(constant_id = 7) const uint WORDS = 0;  // of a tile's bits; 0: there are none
+layout(constant_id = 7) const uint ENTRIES = 1;
+layout(constant_id = 8) const uint WORDS = 0;  // of a tile's bits; 0: there are none
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
@@ -23,6 +23,7 @@ shared bool s_overflowed;
 
 uint at = 0u;
 uint end = 0u;  // equal to `at` for a cluster that does not fit
+#define RADIAL_BINDING 5
 #define VISIT(light) if (at < end) lists[at++] = light
 #define END_OF_WORD(word)
 #define SURVIVORS(word, bits) keep(word, bits)

@@ -9,11 +9,11 @@
 #define LAMP_METHODS_LAMPLIGHT_BIT_PIECES
 #extension GL_EXT_control_flow_attributes : require
 
-layout(constant_id = 9) const uint MOST_SUBGROUPS = 64;  // of a work group
-layout(constant_id = 10) const uint PIECES = 1;  // capacity, at least one a cell
-layout(constant_id = 11) const uint LAYERS = 1;  // of cells
-layout(constant_id = 12) const uint CROWDED = ~0u;    // a cell of more lights is; ~0: none is
-layout(constant_id = 13) const uint PARTS = 1;        // a power of two
+layout(constant_id = 10) const uint MOST_SUBGROUPS = 64;  // of a work group
+layout(constant_id = 11) const uint PIECES = 1;  // capacity, at least one a cell
+layout(constant_id = 12) const uint LAYERS = 1;  // of cells
+layout(constant_id = 13) const uint CROWDED = ~0u;    // a cell of more lights is; ~0: none is
+layout(constant_id = 14) const uint PARTS = 1;        // a power of two
 #include "common/subgroup_scan.glsl"
 
 #include "methods/lamplight_cell_count.glsl"

@@ -6,9 +6,9 @@
 #ifndef LAMP_METHODS_LAMPLIGHT_LIST_ORDER
 #define LAMP_METHODS_LAMPLIGHT_LIST_ORDER
 
-layout(constant_id = 9) const uint RUN_WORDS = 8;  // bits of a block
-layout(constant_id = 10) const uint BLOCK = 256;    // lights
-layout(constant_id = 11) const uint LAYERS = 1;     // of cells
+layout(constant_id = 10) const uint RUN_WORDS = 8;  // bits of a block
+layout(constant_id = 11) const uint BLOCK = 256;    // lights
+layout(constant_id = 12) const uint LAYERS = 1;     // of cells
 
 #include "methods/lamplight_cell_count.glsl"
 

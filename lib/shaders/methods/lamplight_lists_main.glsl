@@ -11,9 +11,10 @@ layout(constant_id = 5) const uint ROWS = 16;        // that a work group looks 
 layout(constant_id = 6) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 7) const uint CELL_ROWS = 16;
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
+layout(constant_id = 9) const bool RADIAL = false;   // lights cut by radial bounds
 #ifdef SLICED
-layout(constant_id = 14) const uint CELL_SLICES = 4;
-#define SLICE_CONSTANT 15
+layout(constant_id = 15) const uint CELL_SLICES = 4;
+#define SLICE_CONSTANT 16
 #include "common/slice_constants.glsl"
 #endif
 #include "methods/lamplight_exact.glsl"
@@ -33,16 +34,18 @@ layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[];
 #ifdef CELL_BITS
 const bool LIGHTS_MISS = false;  // the code for it costs more here than it saves
 layout(set = 0, binding = 8, scalar) readonly buffer BitBuffer { uint cell_bits[]; };  // [cell][word]
-#define DEPTH_BINDING 9
+#define DEPTH_BINDING 10
 #include "methods/lamplight_bit_pieces.glsl"
 #include "methods/lamplight_bit_order.glsl"
 #else
 const bool LIGHTS_MISS = CELL_ROWS > ROWS;
 layout(set = 0, binding = 8, scalar) readonly buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer PlaceBuffer { uint places[]; };  // [block][cell]
-#define DEPTH_BINDING 10
+#define DEPTH_BINDING 11
 #include "methods/lamplight_list_order.glsl"
 #endif
+#define RADIAL_BINDING (DEPTH_BINDING - 1)
+#include "common/radial_bounds.glsl"
 #ifndef SLICED
 layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
 #endif

@@ -10,9 +10,9 @@ layout(local_size_x_id = 0) in;  // before anything that asks for the work group
 #include "methods/tile_inputs.glsl"
 #include "common/pixel_tests.glsl"
 
-layout(constant_id = 13) const uint WORDS = 1;  // words a cell: light capacity / 32, rounded up
-layout(set = 0, binding = 6, scalar) writeonly buffer BitBuffer { uint bits[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer SplitBuffer { float splits[]; };  // a tile
+layout(constant_id = 14) const uint WORDS = 1;  // words a cell: light capacity / 32, rounded up
+layout(set = 0, binding = 7, scalar) writeonly buffer BitBuffer { uint bits[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer SplitBuffer { float splits[]; };  // a tile
 
 const uint BATCH_WORDS = 8u;  // 256 threads at most, 32 lights a word
 shared uint s_found[2u * BATCH_WORDS];

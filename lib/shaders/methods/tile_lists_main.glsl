@@ -7,9 +7,9 @@ layout(local_size_x_id = 0) in;  // before anything that asks for the work group
 #include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
 
-layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[]; };    // count, then lights, a cell
-layout(set = 0, binding = 7, scalar) writeonly buffer SplitBuffer { float splits[]; };  // a tile
-layout(set = 0, binding = 8, scalar) buffer CounterBuffer { Counters counters; };
+layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[]; };    // count, then lights, a cell
+layout(set = 0, binding = 8, scalar) writeonly buffer SplitBuffer { float splits[]; };  // a tile
+layout(set = 0, binding = 9, scalar) buffer CounterBuffer { Counters counters; };
 #include "methods/tile_overflow.glsl"
 
 void main() {

@@ -9,11 +9,11 @@ layout(local_size_x_id = 0) in;  // before anything that asks for the work group
 #include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
 
-layout(constant_id = 13) const uint ENTRIES = 1;  // of the shared list
-layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer SplitBuffer { float splits[]; };   // a tile
-layout(set = 0, binding = 8, scalar) buffer CounterBuffer { Counters counters; };
-layout(set = 0, binding = 9, scalar) writeonly buffer HeaderBuffer { uvec2 headers[]; };  // offset, points | spots << 16
+layout(constant_id = 14) const uint ENTRIES = 1;  // of the shared list
+layout(set = 0, binding = 7, scalar) writeonly buffer ListBuffer { uint lists[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer SplitBuffer { float splits[]; };   // a tile
+layout(set = 0, binding = 9, scalar) buffer CounterBuffer { Counters counters; };
+layout(set = 0, binding = 10, scalar) writeonly buffer HeaderBuffer { uvec2 headers[]; };  // offset, points | spots << 16
 #include "methods/tile_overflow.glsl"
 
 const uint OVERFLOWED = ~0u;

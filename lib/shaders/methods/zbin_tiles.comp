@@ -5,16 +5,31 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "common/frame.glsl"
+#include "common/tile_volume.glsl"
 #include "common/volume_tests.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 8;
 layout(constant_id = 2) const uint WORDS = 1;  // words a tile: light capacity / 32, rounded up
+layout(constant_id = 3) const bool RADIAL = false;
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SortedBuffer { LightBounds sorted[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BitBuffer { uint bits[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer OrderBuffer { uint order[]; };  // by RADIAL alone
+#define RADIAL_BINDING 4
+#include "common/radial_bounds.glsl"
 
 shared uint s_found[8];  // 256 threads at most, one bit each
+
+// Whether anything of the tile is lit, at any depth, as far as the light's radial bound tells.
+bool is_lit_in(uint rank, uvec2 tile) {
+  if (!RADIAL) return true;
+  vec4 x_edges;
+  vec4 y_edges;
+  tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
+  return radial_reaches(frame, order[rank], x_edges, y_edges,
+                        radial_depths(sorted[rank], is_perspective(frame) ? 0.0 : -3e38, 3e38));
+}
 
 void main() {
   const uint thread = gl_LocalInvocationIndex;
@@ -25,7 +40,8 @@ void main() {
   for (uint first = 0u; first < light_count_of(frame); first += gl_WorkGroupSize.x) {
     if (thread < 8u) s_found[thread] = 0u;
     barrier();  // cleared words before bits are set
-    if (first + thread < light_count_of(frame) && sphere_touches_sides(sorted[first + thread], planes))
+    if (first + thread < light_count_of(frame) && sphere_touches_sides(sorted[first + thread], planes) &&
+        is_lit_in(first + thread, tile))
       atomicOr(s_found[thread / 32u], 1u << (thread % 32u));
     barrier();  // all bits before the words are written
     if (thread < gl_WorkGroupSize.x / 32u && first / 32u + thread < WORDS)

@@ -161,11 +161,12 @@ Plan plan_raster_tile(const Problem& problem) {
   const std::uint32_t depth_bounds = problem.options.word("depth") == "test" ? 0 : 1;
   for (const auto& [draw, step, writes] : tile_draws(plan, problem, b)) {
     Pass pass = draw_pass(problem, raster, b, draw);
-    pass.constants.insert(pass.constants.end(), {step, depth_bounds});
+    pass.constants.insert(pass.constants.end(), {step, depth_bounds, parts::is_radial(problem.options) ? 1U : 0U});
     pass.bindings.insert(pass.bindings.end(), {{INPUT_DEPTH},
                                                {raster.exact() ? INPUT_LIGHTS : b.ranges},
                                                {writes, Access::read_write},
-                                               {step == shared::TILES_BEHIND ? b.stencil : INPUT_LIGHTS}});
+                                               {step == shared::TILES_BEHIND ? b.stencil : INPUT_LIGHTS},
+                                               parts::radial_binding(problem, INPUT_LIGHTS)});
     plan.passes.push_back(std::move(pass));
   }
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_bits"),
@@ -206,9 +207,10 @@ Plan plan_raster_cluster(const Problem& problem) {
     Pass pass = draw_pass(problem, raster, b, draw);
     pass.constants.push_back(mode);
     pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
-    pass.constants.push_back(early_px);
-    pass.bindings.insert(pass.bindings.end(),
-                         {{b.bits, Access::read_write}, {early_px != 0 ? b.ranges : INPUT_LIGHTS}});
+    pass.constants.insert(pass.constants.end(), {early_px, parts::is_radial(problem.options) ? 1U : 0U});
+    pass.bindings.insert(pass.bindings.end(), {{b.bits, Access::read_write},
+                                               {early_px != 0 ? b.ranges : INPUT_LIGHTS},
+                                               parts::radial_binding(problem, INPUT_LIGHTS)});
     plan.passes.push_back(std::move(pass));
   }
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),
@@ -256,6 +258,7 @@ Method drobot_raster_tile_method() {
                    .fallback = "bounds",
                    .choices = {"test", "bounds", "stencil"}},
                   compact_option(),
+                  parts::occlusion_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_tile,
       .check = check_raster_walk};
@@ -283,6 +286,7 @@ Method drobot_raster_cluster_method() {
                    .fallback = "off",
                    .choices = {"on", "off"}},
                   compact_option(),
+                  parts::occlusion_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_cluster,
       .check = check_raster_walk};

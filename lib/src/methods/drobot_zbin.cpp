@@ -144,11 +144,13 @@ Plan plan_drobot_zbin(const Problem& problem) {
   plan.ordered = false;
   Buffers b = add_sorted_lights(plan, problem, s);
   b.bits = plan.add({.name = "tile bits", .bytes = s.tiles * s.words * 4});
-  plan.passes.push_back({.name = "tile bits",
-                         .shader = "methods/zbin_tiles",
-                         .constants = {s.threads, s.tile_px, s.words},
-                         .bindings = {{INPUT_FRAME}, {b.sorted}, {b.bits, Access::write}},
-                         .extent = {.cells = {.px = s.tile_px}}});
+  plan.passes.push_back(
+      {.name = "tile bits",
+       .shader = "methods/zbin_tiles",
+       .constants = {s.threads, s.tile_px, s.words, parts::is_radial(problem.options) ? 1U : 0U},
+       .bindings =
+           {{INPUT_FRAME}, {b.sorted}, {b.bits, Access::write}, {b.order}, parts::radial_binding(problem, b.sorted)},
+       .extent = {.cells = {.px = s.tile_px}}});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_zbins"),
                  .constants = {s.tile_px, s.words, s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U},
                  .bindings = {{INPUT_FRAME}, {b.bits}, {b.bins}, {b.order}}};
@@ -176,6 +178,7 @@ Method drobot_zbin_method() {
             .choices = {"uniform", "log2"}},
            parts::slice_near_option(),
            parts::slice_far_option(),
+           parts::occlusion_option(),
            parts::walk_option("scalar-entity"),
            {.key = "sort", .help = "where lights are sorted and binned", .fallback = "gpu", .choices = {"gpu", "cpu"}}},
       .plan = plan_drobot_zbin,

@@ -237,8 +237,9 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                                            : "lists",
                                 s),
             .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.listed, pairs, s.group_rows, mark_words,
-                                      s.cell_rows, s.bits ? 1U : 0U, order_size, s.cell_bits ? s.pieces : s.block,
-                                      s.cell_grid().layers, has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
+                                      s.cell_rows, s.bits ? 1U : 0U, parts::is_radial(problem.options) ? 1U : 0U,
+                                      order_size, s.cell_bits ? s.pieces : s.block, s.cell_grid().layers,
+                                      has_small_subgroups(problem) ? ~0U : CROWDED, PARTS},
                                      problem, s),
             .bindings = {{INPUT_FRAME},
                          {INPUT_LIGHTS},
@@ -254,6 +255,7 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
             .full_subgroups = threads};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});
+  pass.bindings.push_back(parts::radial_binding(problem, INPUT_SPHERES));
   if (!s.sliced()) pass.bindings.push_back({b.tile_depths});
   if (pruned) pass.bindings.push_back({INPUT_DEPTH});
   return pass;
@@ -347,6 +349,7 @@ std::vector<OptionSpec> lamplight_options() {
            .help = "pixel: lights that reach no pixel of a tile are dropped",
            .fallback = "none",
            .choices = {"none", "pixel"}},
+          parts::occlusion_option(),
           {.key = "depth",
            .help = "none: tiles are cut into slices, right at any depth, and no depth buffer is read",
            .fallback = "buffer",

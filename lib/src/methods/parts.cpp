@@ -48,6 +48,19 @@ Capacity own_lists(const Plan& plan, std::string_view option, std::uint64_t entr
           .needed_offset = offsetof(shared::Counters, longest_list)};
 }
 
+OptionSpec occlusion_option() {
+  return {.key = "occlusion",
+          .help = "radial: lights are cut to how far their shadow maps let them reach, by direction",
+          .fallback = "none",
+          .choices = {"none", "radial"}};
+}
+
+bool is_radial(const Options& options) { return options.word("occlusion") == "radial"; }
+
+Binding radial_binding(const Problem& problem, ResourceId other) {
+  return {is_radial(problem.options) ? INPUT_RADIAL : other};
+}
+
 OptionSpec walk_option(std::string_view fallback) {
   return {.key = "walk",
           .help = "each thread by itself, or all threads of a subgroup one cell (lists) or one light (bits) at a time",

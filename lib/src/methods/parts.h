@@ -51,6 +51,12 @@ constexpr std::uint64_t SMALL_LISTS = 5U << 18;
 /// What a cell keeps: a list, or a bit for each light.
 enum class Container : std::uint8_t { list, bits };
 
+/// Whether lights are cut by how far their shadow maps let them reach (shared/radial.h).
+[[nodiscard]] OptionSpec occlusion_option();
+[[nodiscard]] bool is_radial(const Options& options);
+/// What a pass binds for that: the bounds, or another resource, which is not read.
+[[nodiscard]] Binding radial_binding(const Problem& problem, ResourceId other);
+
 /// How a look-up walks: each thread by itself (plain), or all threads of a subgroup one cell at a time (lists) or one
 /// light at a time (bits).
 [[nodiscard]] OptionSpec walk_option(std::string_view fallback = "plain");

@@ -28,14 +28,21 @@ std::vector<std::uint32_t> tile_constants(const TiledAxes& axes) {
           axes.cached_frusta ? 1U : 0U,
           axes.reduce == TiledAxes::Reduce::parallel ? 1U : 0U,
           axes.ranges() * axes.capacity,
-          axes.ranges()};
+          axes.ranges(),
+          axes.radial ? 1U : 0U};
 }
 
 /// Bindings of tile_inputs.glsl. Where the axes do without a buffer, another one is bound, and not read.
 std::vector<Binding> tile_bindings(const TiledAxes& axes, const Buffers& b) {
   const ResourceId lights = axes.reads_lights() ? INPUT_LIGHTS : b.bounds;
   const auto or_other = [&](ResourceId id) { return Binding{id == NO_RESOURCE ? lights : id}; };
-  return {{INPUT_FRAME}, {INPUT_DEPTH}, {lights}, or_other(b.bounds), or_other(b.frusta), or_other(b.ranges)};
+  return {{INPUT_FRAME},
+          {INPUT_DEPTH},
+          {lights},
+          or_other(b.bounds),
+          or_other(b.frusta),
+          or_other(b.ranges),
+          {axes.radial ? INPUT_RADIAL : lights}};
 }
 
 /// What comes before the cull: light bounds, tile frusta, depth ranges, as far as the axes have them.

@@ -51,6 +51,7 @@ TiledAxes tiled_axes(const Options& options) {
           .bits = options.word("container") == "bits",
           .prune = options.word("prune") == "pixel",
           .aos = options.word("lights") == "aos",
+          .radial = parts::is_radial(options),
           .cached_frusta = options.word("frusta") == "cached"};
 }
 
@@ -71,6 +72,7 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
        .help = "culling data: its own 16-byte buffer, or the light records",
        .fallback = "soa",
        .choices = {"soa", "aos"}},
+      parts::occlusion_option(),
       {.key = "prune",
        .help = "drop lights that reach none of the tile's pixels",
        .fallback = "none",

@@ -28,6 +28,7 @@ struct TiledAxes {
   bool bits = false;           ///< container
   bool prune = false;          ///< by pixel
   bool aos = false;            ///< bounds made from the light records
+  bool radial = false;         ///< lights cut by their radial bounds
   bool cached_frusta = false;  ///< kept until size or projection changes
 
   [[nodiscard]] std::uint32_t ranges() const {

@@ -155,6 +155,14 @@ shared::ShadowMap shadow_map(const shared::Light& light, const ShadowAtlasInfo& 
   return map;
 }
 
+bool shadow_shows_all(const shared::ShadowMap& map, const shared::Light& light) {
+  if (map.kind == shared::SHADOW_NONE || map.position != light.position || !(light.range <= map.range_m)) return false;
+  if (map.kind != shared::SHADOW_SPOT) return true;
+  const float half_side = static_cast<float>(map.side) * 0.5F;
+  return light.type == shared::LIGHT_SPOT && map.axis_z == light.direction && light.cos_outer > 0.0F &&
+         map.scale * light.sin_outer <= half_side * light.cos_outer;
+}
+
 void add_shadow_views(const shared::ShadowMap& map, std::uint32_t atlas_size, std::uint32_t light,
                       std::vector<shared::ShadowView>& views) {
   if (map.kind == shared::SHADOW_SPOT) {

@@ -122,6 +122,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
                     .lights = frame.lights,
                     .cones = frame.cones,
                     .spheres = frame.spheres,
+                    .radial = frame.radial,
                     .depth = depths.front(),
                     .host_lights = frame.host_lights,
                     .host_frame = views.value().records.data()};
@@ -132,7 +133,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   tracker_.reset();
   for (const Resource& depth : depths)
     if (depth.image != VK_NULL_HANDLE) tracker_.assume(depth);
-  for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres})
+  for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres, inputs.radial})
     if (part.buffer != VK_NULL_HANDLE) tracker_.assume(Resource::storage(part));
   Recorder recorder(device_, commands, tracker_);
   // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.

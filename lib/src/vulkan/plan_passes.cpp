@@ -74,6 +74,8 @@ Resource PlanRunner::all_views(ResourceId id, const PlanInputs& inputs) const {
       return Resource::storage(inputs.cones);
     case INPUT_SPHERES:
       return Resource::storage(inputs.spheres);
+    case INPUT_RADIAL:
+      return Resource::storage(inputs.radial);
     default:
       return id == INPUT_DEPTH ? resource(id, inputs, 0) : Resource::storage(buffer(id));
   }

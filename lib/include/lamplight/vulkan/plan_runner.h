@@ -24,6 +24,7 @@ struct PlanInputs {
   BufferPart lights;                 ///< as many as the record says, in the plan's layout
   BufferPart cones;                  ///< likewise, where the layout has them
   BufferPart spheres;                ///< shared::LightSphere, as many
+  BufferPart radial;                 ///< shared::RadialBound of the first lights, at least one; nothing cuts others
   Resource depth;                    ///< image, view, aspect and layout; unset where none is needed
   std::span<const Resource> depths;  ///< of several views: one each, instead
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights

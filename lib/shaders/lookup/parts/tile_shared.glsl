@@ -11,7 +11,7 @@
 #include "lamplight/shared/counters.h"
 #include "methods/tile_cull.glsl"
 
-layout(set = 0, binding = TILE_BINDING + 6, scalar) buffer CounterBuffer { Counters counters; };
+layout(set = 0, binding = TILE_BINDING + 7, scalar) buffer CounterBuffer { Counters counters; };
 #include "methods/tile_overflow.glsl"
 
 #include "lookup/parts/list_walk.glsl"

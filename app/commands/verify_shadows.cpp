@@ -1,0 +1,17 @@
+// Asks the shadows of a session's frame.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/verify_shadows.h"
+
+namespace lamp::app {
+
+bool is_cut(Session& session, const Lighting& lighting) {
+  return session.renderer().shadows() != nullptr && lighting.runner().plan().binds(INPUT_RADIAL);
+}
+
+std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
+  Renderer& renderer = session.renderer();
+  if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().several()) return std::nullopt;
+  return check_shadows(renderer, session.shaders(), setup.scene, setup.lights);
+}
+
+}  // namespace lamp::app

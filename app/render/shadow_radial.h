@@ -1,0 +1,39 @@
+// Radial bounds of a scene's lights (lamplight/shared/radial.h): made anew for lights whose maps or places changed.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gpu/context.h"
+#include "lamplight/shadow_atlas.h"
+#include "lamplight/shared/radial.h"
+#include "render/pass_uses.h"
+#include "render/shader_library.h"
+
+namespace lamp::app {
+
+class ShadowRadial {
+ public:
+  /// At first nothing is known of any light.
+  ShadowRadial(Context& context, const ShaderLibrary& shaders, ShadowFilter filter, std::uint32_t light_capacity);
+
+  /// Of the next `record`: lights that were redrawn, and those of another map or place than the last time.
+  void set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,
+           std::span<const ShadowRedraw> redraws);
+  /// `maps`: the buffer of all maps; `atlas`: depths.
+  void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas);
+
+  /// shared::RadialBound of each light.
+  [[nodiscard]] const vulkan::Buffer& bounds() const { return bounds_; }
+
+ private:
+  vulkan::Buffer bounds_;
+  vulkan::Buffer jobs_;
+  vulkan::Pipeline pipeline_;
+  std::vector<shared::ShadowMap> maps_;  ///< as they were made from
+  std::vector<std::uint8_t> shows_all_;
+  std::vector<std::uint8_t> pending_;  ///< to be made by the next `record`
+  std::uint32_t job_count_ = 0;
+};
+
+}  // namespace lamp::app

@@ -1,0 +1,96 @@
+// Radial bounds (shared/radial.h) of lights from their shadow maps: a work group a light. A block of texels may light
+// points whose directions lie around it, by what taps and the normal offset move; each cell that such a direction
+// touches must reach as far as the farthest of them.
+// Promise: shadow_of of the same map and filter is 0 beyond the bound. docs/methods/shadow-maps.md has the reasoning.
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define SHADOW_FIRST_BINDING 0
+#define SHADOW_FIRST_CONSTANT 0
+#include "common/radial_cells.glsl"
+#include "shadow/parts/radial_reach.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 3, scalar) readonly buffer JobBuffer { RadialJob jobs[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer BoundBuffer { RadialBound bounds[]; };
+layout(push_constant) uniform Push { uint job_count; };
+
+const uint CELLS = RADIAL_SIDE * RADIAL_SIDE;
+const uint BLOCKS = 16u;             // a side of a square, a quarter of a cell's angle and less
+const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
+shared uint s_bytes[CELLS];
+
+void reach(RadialCells cells, uint value) {
+  if (!cells.any) return;
+  for (uint y = cells.first.y; y <= cells.last.y; ++y)
+    for (uint x = cells.first.x; x <= cells.last.x; ++x) atomicMax(s_bytes[y * RADIAL_SIDE + x], value);
+}
+
+// The greatest depth of a block's texels; infinite where nothing was drawn.
+float farthest_of_block(uint light, uint square, uvec2 first, uint size) {
+  float nearest_stored = 1.0;  // near / w
+  for (uint i = 0u; i < size * size; ++i) {
+    const ivec2 texel = ivec2(first + uvec2(i % size, i / size));
+    nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
+  }
+  return nearest_stored > 0.0 ? shadow_maps[light].near_m / nearest_stored : RADIAL_UNBOUNDED;
+}
+
+void reach_of_block(uint light, uint square, uvec2 first, uint size, float unit_m, float scale) {
+  const RadialBox box = radial_box(light, square, vec2(first), float(size));
+  const float w = radial_farthest_lit(light, farthest_of_block(light, square, first, size));
+  const float reach_m = w * radial_longest(light, box);
+  const uint value = reach_m < unit_m * float(RADIAL_ANY - 1u) ? uint(reach_m / unit_m * 1.00001) + 1u : RADIAL_ANY;
+  if (shadow_maps[light].kind == SHADOW_SPOT) {
+    reach(radial_cells_of_spot(scale, box.low, box.high), value);
+  } else {
+    for (uint octant = 0u; octant < 8u; ++octant) reach(radial_cells_of_octant(octant, box.low, box.high), value);
+  }
+}
+
+RadialBound header_of(uint light, bool known) {
+  RadialBound bound;
+  bound.position = shadow_maps[light].position;
+  bound.kind = !known ? RADIAL_NONE : shadow_maps[light].kind == SHADOW_SPOT ? RADIAL_SPOT : RADIAL_OCTAHEDRON;
+  bound.axis_x = shadow_maps[light].axis_x;
+  bound.axis_z = shadow_maps[light].axis_z;
+  bound.scale = float(RADIAL_SIDE) * shadow_maps[light].scale / float(max(shadow_maps[light].side, 1u));
+  bound.unit_m = shadow_maps[light].range_m / float(RADIAL_ANY);
+  return bound;
+}
+
+void main() {
+  const uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+  if (number >= job_count) return;
+  const uint thread = gl_LocalInvocationIndex;
+  const uint light = jobs[number].light;
+  const uint kind = shadow_maps[light].kind;
+  const bool known = jobs[number].shows_all != 0u && kind != SHADOW_NONE && radial_is_bounded(light);
+  const RadialBound bound = header_of(light, known);
+  if (thread < CELLS) s_bytes[thread] = known ? 0u : RADIAL_ANY;
+  barrier();  // initial values before blocks reach farther
+  const uint side = shadow_maps[light].side;
+  const uint blocks = min(side, kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
+  const uint squares = !known ? 0u : kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
+  for (uint i = thread; i < squares * blocks * blocks; i += gl_WorkGroupSize.x) {
+    const uint block = i % (blocks * blocks);
+    const uint size = side / blocks;
+    reach_of_block(light, i / (blocks * blocks), uvec2(block % blocks, block / blocks) * size, size, bound.unit_m,
+                   bound.scale);
+  }
+  barrier();  // all blocks before bytes are packed
+  if (thread == 0u) {
+    bounds[light].position = bound.position;
+    bounds[light].kind = bound.kind;
+    bounds[light].axis_x = bound.axis_x;
+    bounds[light].scale = bound.scale;
+    bounds[light].axis_z = bound.axis_z;
+    bounds[light].unit_m = bound.unit_m;
+  }
+  if (thread >= CELLS / 4u) return;
+  uint word = 0u;
+  for (uint i = 0u; i < 4u; ++i) word |= s_bytes[thread * 4u + i] << (8u * i);
+  bounds[light].bytes[thread] = word;
+}
