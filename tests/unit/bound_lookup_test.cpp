@@ -13,13 +13,19 @@ namespace {
 using lamp::vulkan::BoundLookUp;
 using lamp::vulkan::Resource;
 
-VkBuffer handle(std::uintptr_t number) { return reinterpret_cast<VkBuffer>(number); }
+/// Of nothing, but each its own.
+constexpr char OBJECTS[3] = {};
+template <class Handle>
+Handle handle(int number) {
+  return reinterpret_cast<Handle>(const_cast<char*>(&OBJECTS[number]));
+}
 
 /// Two constants and two buffers, of which the second shows a part.
 BoundLookUp some_lookup() {
   return {.name = "some",
           .constants = {{100, 16}, {103, 7}},
-          .resources = {{16, Resource::storage({handle(1)})}, {17, Resource::storage({handle(2), 256, 1024})}}};
+          .resources = {{16, Resource::storage({handle<VkBuffer>(1)})},
+                        {17, Resource::storage({handle<VkBuffer>(2), 256, 1024})}}};
 }
 
 TEST(BoundLookUp, HasBindingsBehindThoseOfTheHost) {
@@ -34,11 +40,11 @@ TEST(BoundLookUp, HasBindingsBehindThoseOfTheHost) {
 }
 
 TEST(BoundLookUp, WritesItsBuffersAlsoWhereTheWritesAreMoved) {
-  const auto set = reinterpret_cast<VkDescriptorSet>(std::uintptr_t{9});
+  const auto set = handle<VkDescriptorSet>(0);
   lamp::vulkan::DescriptorWrites made = some_lookup().writes(set);
   const lamp::vulkan::DescriptorWrites moved = std::move(made);
   ASSERT_EQ(moved.writes.size(), 2);
-  EXPECT_EQ(moved.writes[0].pBufferInfo->buffer, handle(1));
+  EXPECT_EQ(moved.writes[0].pBufferInfo->buffer, handle<VkBuffer>(1));
   EXPECT_EQ(moved.writes[0].pBufferInfo->range, VK_WHOLE_SIZE);
   EXPECT_EQ(moved.writes[1].dstSet, set);
   EXPECT_EQ(moved.writes[1].dstBinding, 17);
