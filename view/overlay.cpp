@@ -223,6 +223,7 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
       return app::missed(walked);
     case Overlay::difference:
       return difference(walked);
+    case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay
     case Overlay::none:
       break;
   }

@@ -73,6 +73,11 @@ void legend_text(const Legend& legend) {
                                          legend.cells, legend.mean, legend.max)
                                  .c_str());
       break;
+    case Overlay::shadow_atlas:
+      ImGui::TextUnformatted(fmt::format("{} lights have a shadow map; {:.0f} texels a side are shown, near is bright",
+                                         legend.cells, legend.max)
+                                 .c_str());
+      break;
     case Overlay::none:
       break;
   }
@@ -111,6 +116,8 @@ void look_panel(PanelFrame& p) {
       "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, those that did not "
       "fit, what is missed, or how two methods differ.",
       [&](std::string_view name) {
+        const bool needs_shadows = name == overlay_names()[static_cast<std::size_t>(Overlay::shadow_atlas)];
+        if (needs_shadows && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
         const bool needs_two = name == overlay_names()[static_cast<std::size_t>(Overlay::difference)];
         return needs_two && !p.state.against ? std::string("needs a second method: see A against B, or press B") : "";
       });

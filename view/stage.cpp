@@ -11,7 +11,6 @@
 #include "commands/pictures.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
-#include "render/judgement.h"
 #include "render/pixel_lights.h"
 #include "render/verification.h"
 #include "scene/capture.h"
@@ -38,6 +37,12 @@ std::string key_of(const LightingInfo& info, bool grow) {
                      info.width, info.height, info.light_capacity, static_cast<int>(info.path),
                      static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed,
                      info.shadows ? static_cast<int>(*info.shadows) : -1, grow);
+}
+
+bool can_be_laid_over(const ViewState& state) {
+  if (state.overlay == Overlay::difference) return state.against.has_value();
+  if (state.overlay == Overlay::shadow_atlas) return requested_shadows(state.request).has_value();
+  return state.overlay != Overlay::none;
 }
 
 }  // namespace
@@ -192,39 +197,27 @@ std::vector<Visit> Stage::checked_visits(Lighting& lighting) {
   return visits;
 }
 
-std::vector<Visit> Stage::visits_of_other(const Overlaying& o) {
-  const Request& r = o.state.request;
-  const Against& against = *o.state.against;
-  const Chosen other = o.second ? lighting(r, r.method, r.options) : lighting(r, against.method, against.options);
-  return renderer_->visit_all(other.lighting);
-}
-
 Legend Stage::lay_over(const Overlaying& o) {
   const View& view = renderer_->view();
   const Overlay overlay = o.state.overlay;
   if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
   visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
   const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
-  const Overlaid made = make_overlay(overlay, o.state.palette,
-                                     {.view = view,
-                                      .visits = o.second && !other.empty() ? other : visits_,
-                                      .depth = depth_,
-                                      .other = o.second ? visits_ : other,
-                                      .lights = static_cast<std::uint32_t>(lights_->lights->size()),
-                                      .overflowed = o.overflowed,
-                                      .scale_max = o.scale_max});
+  const Overlaid made = overlay == Overlay::shadow_atlas
+                            ? shadow_overlay(o.state)
+                            : make_overlay(overlay, o.state.palette,
+                                           {.view = view,
+                                            .visits = o.second && !other.empty() ? other : visits_,
+                                            .depth = depth_,
+                                            .other = o.second ? visits_ : other,
+                                            .lights = static_cast<std::uint32_t>(lights_->lights->size()),
+                                            .overflowed = o.overflowed,
+                                            .scale_max = o.scale_max});
   const std::span<std::uint32_t> to = display_->overlay();
   for (std::uint32_t y = 0; y < view.height(); ++y)
     for (std::uint32_t x = o.first_x; x < std::min(o.end_x, view.width()); ++x)
       to[x + std::size_t{view.width()} * y] = made.pixels[x + std::size_t{view.width()} * y];
   return made.legend;
-}
-
-float Stage::picture_difference(const ViewState& state) {
-  const Request& r = state.request;
-  const HdrImage first = renderer_->relight(lighting(r, r.method, r.options).lighting).image;
-  const Against& against = *state.against;
-  return max_abs_difference(first, renderer_->relight(lighting(r, against.method, against.options).lighting).image);
 }
 
 Inspected Stage::inspected(Lighting& lighting) {
@@ -261,7 +254,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
     });
     if (sets_exposure) shown.exposure = exposure ? *exposure : display_->exposure();
     ShownSide made = side(state, chosen, std::move(rendered));
-    const bool overlaid = state.overlay != Overlay::none && (state.overlay != Overlay::difference || state.against);
+    const bool overlaid = can_be_laid_over(state);
     if (overlaid)
       made.legend = lay_over({.state = state,
                               .lighting = chosen.lighting,

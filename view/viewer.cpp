@@ -303,6 +303,7 @@ nlohmann::json Viewer::report() const {
   if (proof_) json["proof"] = words_of(*proof_);
   if (shown_.picture_difference) json["picture_difference"] = *shown_.picture_difference;
   if (shown_.first.legend.overlay == Overlay::difference) json["differing_pixels"] = shown_.first.legend.cells;
+  if (shown_.first.legend.overlay == Overlay::shadow_atlas) json["atlas_side_shown"] = shown_.first.legend.max;
   if (!shown_.first.lengths.empty()) json["longest_lists"] = shown_.first.lengths.back().high;
   json["decals_shown"] = shown_.decals.size();
   if (shown_.first.legend.overlay == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;

@@ -18,14 +18,15 @@ namespace lamp::app {
 /// What is laid over the picture.
 enum class Overlay : std::uint8_t {
   none,
-  heat,         ///< lights that each pixel walks
-  cells,        ///< a colour for each cell
-  depth_range,  ///< how deep the surfaces of a cell's pixels reach from front to back
-  overflow,     ///< cells that did not fit, in a signal colour
-  missed,       ///< pixels whose list lacks a light that reaches them, likewise
-  difference,   ///< lights that one of two methods walks and the other does not; of two methods alone
+  heat,          ///< lights that each pixel walks
+  cells,         ///< a colour for each cell
+  depth_range,   ///< how deep the surfaces of a cell's pixels reach from front to back
+  overflow,      ///< cells that did not fit, in a signal colour
+  missed,        ///< pixels whose list lacks a light that reaches them, likewise
+  difference,    ///< lights that one of two methods walks and the other does not; of two methods alone
+  shadow_atlas,  ///< the shadow maps of all lights, or of the light that is looked at; where lights cast shadows
 };
-/// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", in the order of Overlay.
+/// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", "shadow-atlas", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
 
 /// Colours of the heat map.

@@ -5,6 +5,7 @@
 #include "render/heatmap.h"
 #include "view/overlay.h"
 #include "view/pace.h"
+#include "view/shadow_overlay.h"
 #include "view/times.h"
 
 namespace lamp::app {
@@ -83,6 +84,31 @@ TEST(Overlays, DifferenceSaysWhichWalksMore) {
   EXPECT_EQ(color(made.pixels[1]), SECOND_WALKS_MORE);
   EXPECT_EQ(color(made.pixels[2]), glm::u8vec3(glm::vec3(FIRST_WALKS_MORE) / 2.0F + 0.5F));
   EXPECT_EQ(color(made.pixels[3]), glm::u8vec3(0));
+}
+
+/// An atlas of 64 texels: light 1 has a square of 16 at (16, 0), all of whose surfaces are half its range away.
+TEST(Overlays, ShadowAtlasShowsWhoseSquareIsWhere) {
+  std::vector<float> texels(std::size_t{64} * 64, 0.0F);
+  for (std::size_t y = 0; y < 16; ++y)
+    for (std::size_t x = 16; x < 32; ++x) texels[x + 64 * y] = 0.2F;  // near / w, with w = 0.5 m
+  const std::vector<shared::ShadowMap> maps{
+      {}, {.kind = shared::SHADOW_SPOT, .near_m = 0.1F, .range_m = 1.0F, .side = 16, .squares = {1}}};
+  AtlasSeen seen{.texels = texels, .side = 64, .maps = maps, .picture = {80, 64}};
+  const Overlaid all = make_shadow_overlay(Palette::grey, seen);
+  const auto at = [](const Overlaid& made, std::size_t x, std::size_t y) { return color(made.pixels[x + 80 * y]); };
+  EXPECT_EQ(all.legend.cells, 1);
+  EXPECT_EQ(all.legend.max, 64.0);
+  EXPECT_EQ(at(all, 2, 2), glm::u8vec3(0));  // beside the atlas
+  const glm::u8vec3 half = palette_color(Palette::grey, 0.5);
+  EXPECT_EQ(at(all, 8 + 24, 8), half);
+  EXPECT_NE(at(all, 8 + 40, 8), half);
+  seen.light = 1;
+  const Overlaid one = make_shadow_overlay(Palette::grey, seen);
+  EXPECT_EQ(one.legend.max, 16.0);
+  EXPECT_EQ(at(one, 40, 32), half);
+  EXPECT_EQ(at(one, 70, 60), half);
+  seen.light = 0;  // has none: all are shown
+  EXPECT_EQ(make_shadow_overlay(Palette::grey, seen).legend.max, 64.0);
 }
 
 TEST(ListLengthsTest, CountCells) {

@@ -1,0 +1,26 @@
+// The shadow atlas over the picture: whose square is where, and how far what it sees is. Pure: no device.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "lamplight/shared/shadow.h"
+#include "view/overlay.h"
+
+namespace lamp::app {
+
+struct AtlasSeen {
+  std::span<const float> texels;  ///< side * side, as the atlas holds them
+  std::uint32_t side = 0;
+  std::span<const shared::ShadowMap> maps;  ///< of each light
+  std::optional<std::uint32_t> light;       ///< whose squares alone are shown, if it has any
+  glm::uvec2 picture{0};
+};
+
+/// The atlas, or the light's squares beside each other, as large as the picture has room for. Near is bright, nothing
+/// drawn is black. The legend's `cells` are the lights with a map, `max` texels a side: of the atlas, or of the square.
+[[nodiscard]] Overlaid make_shadow_overlay(Palette palette, const AtlasSeen& seen);
+
+}  // namespace lamp::app
