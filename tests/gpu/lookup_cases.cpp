@@ -30,6 +30,9 @@ std::vector<LookUpCase> lookup_cases() {
           {"cell_lists", "lamplight", {"container=list", "mean_cells=1", "mean_capacity=1"}},
           {"cell_bits", "lamplight", {"container=bits", "tile=8"}},
           {"cell_bits", "lamplight", {"container=bits", "depth=none"}},
+          {"world_cells", "world-cells", {}},
+          {"world_cells", "world-cells", {"brick=800"}},
+          {"world_cells", "world-cells", {"mean_bricks=1"}},
           {"cell_lists_stepped", "lamplight", {"container=list", "cells=list"}, LOOKUP_LIGHTS},
           {"cell_bits_stepped", "lamplight", {"container=bits", "cells=list"}, LOOKUP_LIGHTS}};
 }

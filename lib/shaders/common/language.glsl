@@ -13,6 +13,7 @@
 #define LAMP_BITS(word, first, count) ((word) >> (first) & ((1u << (count)) - 1u))
 #define LAMP_DIFFER(a, b) any((a) != (b))
 #define LAMP_UNROLL [unroll]
+#define LAMP_AS_FLOAT(bits) asfloat(bits)
 
 #else
 #extension GL_EXT_scalar_block_layout : require
@@ -24,6 +25,7 @@
 #define LAMP_BITS(word, first, count) bitfieldExtract(word, int(first), int(count))  // fewer than 32
 #define LAMP_DIFFER(a, b) ((a) != (b))  // vectors, in any component
 #define LAMP_UNROLL [[unroll]]
+#define LAMP_AS_FLOAT(bits) uintBitsToFloat(bits)
 
 #endif
 #endif

@@ -15,5 +15,6 @@ namespace lamp {
 [[nodiscard]] Method drobot_raster_tile_method();
 [[nodiscard]] Method drobot_raster_cluster_method();
 [[nodiscard]] Method lamplight_method();
+[[nodiscard]] Method world_cells_method();
 
 }  // namespace lamp

@@ -13,3 +13,6 @@
 #define lookup_bins LookupBins(LOOKUP_ADDRESSES[lookup_bins_PLACE]).at_address
 #define lookup_order LookupOrder(LOOKUP_ADDRESSES[lookup_order_PLACE]).at_address
 #define lookup_headers LookupHeaders(LOOKUP_ADDRESSES[lookup_headers_PLACE]).at_address
+#define lookup_buckets LookupBuckets(LOOKUP_ADDRESSES[lookup_buckets_PLACE]).at_address
+#define lookup_entries LookupEntries(LOOKUP_ADDRESSES[lookup_entries_PLACE]).at_address
+#define lookup_totals LookupTotals(LOOKUP_ADDRESSES[lookup_totals_PLACE]).at_address

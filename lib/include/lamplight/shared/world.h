@@ -1,0 +1,68 @@
+// What the passes of `world-cells` hand on: buckets of bricks of cells, pieces of a bucket's lights, running totals.
+// Promise: the same bytes in C++ plans, in GLSL and in HLSL.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMPLIGHT_SHARED_WORLD_H
+#define LAMPLIGHT_SHARED_WORLD_H
+
+#include "counters.h"
+#include "glsl.h"
+
+#ifdef __cplusplus
+namespace lamp::shared {
+#endif
+
+// A brick is a cube of 4 x 4 x 4 cells. The bricks of level 0 have a side of 2^WORLD_LEAST m, those of the next level
+// twice that, and so on; one corner of each level lies at the world's origin. A light is listed at one level, by its
+// range. Beyond all levels is one brick that is the whole world.
+LAMP_CONST BRICK_CELLS = 64u;
+LAMP_CONST WORLD_LEVELS = 20u;
+LAMP_CONST WORLD_EVERYTHING = WORLD_LEVELS;  // the level of the brick that is the whole world
+LAMP_CONST WORLD_LEAST = 5u;                 // 2^-5 m to 2^14 m
+
+// Farthest brick from the origin, in bricks: rounding widens a light's sphere so that none is listed farther out.
+LAMP_CONST_FLOAT WORLD_FARTHEST = 4194304.0f;
+
+// An entry is a light and, in its low bits, which of the light's bricks it is listed for.
+LAMP_CONST ENTRY_BRICK_BITS = 8u;
+LAMP_CONST MOST_BRICKS_ACROSS = 6u;  // of a light
+
+// Bricks with the same hash share a bucket. Its entries ascend from `first` on. Their cells' bits begin at word
+// 2 * first, in blocks of 32 entries: in a block of n entries each cell has n bits, one cell behind the other.
+struct WorldBucket {
+  uint first;
+  uint count;  // WORLD_ALL: did not fit; walk every light
+};
+LAMP_CONST WORLD_ALL = 0xffffffffu;
+
+// Entries of a bucket that one work group puts in order.
+LAMP_CONST WORLD_PIECE = 128u;
+struct WorldPiece {
+  uint bucket;
+  uint begin;  // the piece's first entry among the bucket's
+};
+
+// Work groups are numbered x + WORLD_GROUPS_ACROSS * y: a device may take no more than 65535 along one axis.
+LAMP_CONST WORLD_GROUPS_ACROSS = 32768u;
+
+// Zeroed at the start of every frame.
+struct WorldTotals {
+  Counters counters;
+  uint levels;    // bit l: a light is listed at level l
+  uint pieces;    // of all buckets
+  uint pieces_x;  // their group counts
+  uint pieces_y;
+  uint pieces_z;
+  uint long_pieces;  // of buckets with more than one
+  uint long_x;
+  uint long_y;
+  uint long_z;
+};
+LAMP_CONST WORLD_TOTALS_LEVELS = 4u;  // the place of `levels`, in words
+
+#ifdef __cplusplus
+static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 52);
+static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_BRICK_BITS);
+}  // namespace lamp::shared
+#endif
+
+#endif

@@ -1,0 +1,103 @@
+// The bricks that a light may reach: its level, and a box of them; and the light itself, widened by what rounding moves.
+// Needs: BRICK_RATIO, a brick's least side over the light's range.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_WORLD_BRICKS
+#define LAMP_COMMON_WORLD_BRICKS
+#include "common/frame.glsl"
+#include "common/world_cells.glsl"
+#include "lamplight/shared/light.h"
+
+// Several shaders work these out, each by itself, and count on the same bits: what decides is made of additions,
+// multiplications and comparisons alone, in this order, which Vulkan rounds in one way.
+struct LightBricks {
+  uint level;
+  vec3 first;  // brick
+  uvec3 size;  // bricks; 0 of a light that reaches nothing
+  vec3 center;
+  float radius;
+};
+
+float sum_of(vec3 v) {
+  precise const float sum = v.x + v.y + v.z;
+  return sum;
+}
+
+float square_of(vec3 v) {
+  precise const float sum = v.x * v.x + v.y * v.y + v.z * v.z;
+  return sum;
+}
+
+// Positions that look-ups are asked for come from view space through a matrix, as pixels' do: what that may move them is
+// a share of their distance from the eye and from the origin.
+float world_slack(Frame frame, vec3 position) {
+  precise const float slack = 2.0 * ROUND_POSITION * (sum_of(abs(position)) + sum_of(abs(frame.eye_world)));
+  return slack;
+}
+
+// The least level whose bricks are not smaller than that.
+uint level_of(float side) {
+  const uint bits = floatBitsToUint(side * bricks_a_metre(0u));
+  const uint rounded_up = (bits + (1u << MANTISSA_BITS) - 1u) >> MANTISSA_BITS;
+  return max(rounded_up, EXPONENT_OF_1) - EXPONENT_OF_1;
+}
+
+LightBricks bricks_of(Frame frame, LightSphere sphere) {
+  LightBricks b;
+  b.center = sphere.center;
+  precise const float radius = sphere.radius * (1.0 + ROUND_RADIUS) + world_slack(frame, sphere.center);
+  b.radius = radius;
+  precise const float side = BRICK_RATIO * radius;
+  b.level = min(level_of(side), WORLD_EVERYTHING);
+  b.first = vec3(0.0);
+  b.size = uvec3(sphere.radius < 0.0 ? 0u : 1u);
+  if (sphere.radius < 0.0 || b.level == WORLD_EVERYTHING) return b;
+  const float scale = bricks_a_metre(b.level);
+  precise const vec3 low = (sphere.center - radius) * scale;
+  precise const vec3 high = (sphere.center + radius) * scale;
+  b.first = floor(low);
+  b.size = uvec3(floor(high) - floor(low)) + 1u;
+  return b;
+}
+
+// Which of the light's bricks, in 8 bits, and back.
+uint brick_code(uvec3 offset) { return offset.x + MOST_BRICKS_ACROSS * (offset.y + MOST_BRICKS_ACROSS * offset.z); }
+vec3 brick_of_code(LightBricks b, uint code) {
+  return b.first + vec3(code % MOST_BRICKS_ACROSS, code / MOST_BRICKS_ACROSS % MOST_BRICKS_ACROSS,
+                        code / (MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS));
+}
+
+bool sphere_touches_cube(LightBricks b, vec3 low, float side) {
+  precise const vec3 outside = max(max(low - b.center, b.center - (low + side)), vec3(0.0));
+  precise const float radius2 = b.radius * b.radius;
+  return square_of(outside) <= radius2;
+}
+
+const float HALF_DIAGONAL = 0.86602545;  // of a cube with a side of 1
+
+// A spot's cone, in world space.
+struct WorldCone {
+  vec3 tip;
+  vec3 axis;
+  float sin_angle;
+  float cos_angle;
+  float slack;  // m
+};
+
+WorldCone world_cone(Frame frame, Light light) {
+  return WorldCone(light.position, light.direction, light.sin_outer, light.cos_outer, world_slack(frame, light.position));
+}
+
+// Against the sphere around a cube: its distance to the cone's nearest generatrix, and to the plane through the tip.
+// Based on: Wronski, Cull That Cone! (2017).
+bool cone_touches_cube(WorldCone cone, vec3 low, float side) {
+  precise const vec3 offset = low + 0.5 * side - cone.tip;
+  precise const float along = offset.x * cone.axis.x + offset.y * cone.axis.y + offset.z * cone.axis.z;
+  precise const vec3 aside = offset - along * cone.axis;  // not a difference of squares: narrow cones need it exact
+  precise const float reach = HALF_DIAGONAL * side + cone.slack + 2.0 * ROUND_RADIUS * sum_of(abs(offset));
+  precise const float beyond = reach + cone.sin_angle * along;
+  precise const float aside2 = cone.cos_angle * cone.cos_angle * square_of(aside);
+  precise const float beyond2 = beyond * beyond;
+  return along >= -reach && beyond >= 0.0 && aside2 <= beyond2;
+}
+
+#endif

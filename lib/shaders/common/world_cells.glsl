@@ -1,0 +1,27 @@
+// Bricks of cells in the world, for lists and for look-ups, in GLSL and in HLSL. Sides are powers of two, so that the
+// brick and the cell of a position are exact, however far from the origin.
+// Based on: Teschner et al., Optimized Spatial Hashing for Collision Detection of Deformable Objects, VMV (2003); the
+// mixing of Ellis, lowbias32, Prospecting for Hash Functions (2018).
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_WORLD_CELLS
+#define LAMP_COMMON_WORLD_CELLS
+#include "common/language.glsl"
+#include "lamplight/shared/world.h"
+
+const uint EXPONENT_OF_1 = 127u;  // of a float
+const uint MANTISSA_BITS = 23u;
+
+// Metres, and how many bricks a metre.
+float brick_side(uint level) { return LAMP_AS_FLOAT((EXPONENT_OF_1 + level - WORLD_LEAST) << MANTISSA_BITS); }
+float bricks_a_metre(uint level) { return LAMP_AS_FLOAT((EXPONENT_OF_1 + WORLD_LEAST - level) << MANTISSA_BITS); }
+
+// Of buckets, whose number is a power of two. The brick's coordinates are whole numbers.
+uint bucket_of(uint level, vec3 brick, uint buckets) {
+  uint hash = uint(int(brick.x)) * 0x8da6b343u + uint(int(brick.y)) * 0xd8163841u + uint(int(brick.z)) * 0xcb1ab31fu +
+              level * 0x9e3779b9u;
+  hash = (hash ^ (hash >> 16)) * 0x7feb352du;
+  hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
+  return (hash ^ (hash >> 16)) & (buckets - 1u);
+}
+
+#endif

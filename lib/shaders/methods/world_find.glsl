@@ -1,0 +1,38 @@
+// Lights look for the bricks that they reach: a few threads for each light, which share its box of bricks out.
+// Needs: FOUND(light, code, bucket), run for each brick; SAW(level), run once for each light.
+// SPDX-License-Identifier: Apache-2.0
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint LIGHT_THREADS = 8;
+layout(constant_id = 2) const float BRICK_RATIO = 1.0;
+layout(constant_id = 3) const uint BUCKETS = 1;
+#include "common/world_bricks.glsl"
+
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
+layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
+
+uvec3 brick_offset(uint i, uvec3 size) { return uvec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)); }
+
+bool meets_brick(LightBricks b, bool is_spot, WorldCone cone, vec3 brick) {
+  if (b.level == WORLD_EVERYTHING) return true;
+  const float side = brick_side(b.level);
+  return sphere_touches_cube(b, brick * side, side) && (!is_spot || cone_touches_cube(cone, brick * side, side));
+}
+
+void find_bricks(uint light, uint first) {
+  const LightBricks b = bricks_of(frame, spheres[light]);
+  const uint bricks = b.size.x * b.size.y * b.size.z;
+  if (first == 0u && bricks != 0u) SAW(b.level);
+  const bool is_spot = lights[light].type == LIGHT_SPOT;
+  const WorldCone cone = world_cone(frame, lights[light]);
+  for (uint i = first; i < bricks; i += LIGHT_THREADS) {
+    const uvec3 offset = brick_offset(i, b.size);
+    const vec3 brick = b.first + vec3(offset);
+    if (meets_brick(b, is_spot, cone, brick)) FOUND(light, brick_code(offset), bucket_of(b.level, brick, BUCKETS));
+  }
+}
+
+void main() {
+  const uint light = gl_GlobalInvocationID.x / LIGHT_THREADS;
+  if (light < light_count_of(frame)) find_bricks(light, gl_GlobalInvocationID.x % LIGHT_THREADS);
+}

@@ -1,0 +1,247 @@
+// World cells: the lights of any point of the world, on screen or off. Lights look for bricks of cells, which are
+// larger for lights of larger range; bricks are found by a hash, so that there are no bounds, and only those with
+// lights exist. Based on: Teschner et al., Optimized Spatial Hashing for Collision Detection of Deformable Objects, VMV
+// (2003); levels by size: Eitz, Lixu, Hierarchical Spatial Hashing for Real-Time Collision Detection, SMI (2007).
+// Promise: work grows with lights and what they reach; lists ascend; what does not fit is counted, and walked the long
+// way. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+#include "lamplight/shared/world.h"
+#include "methods.h"
+#include "parts.h"
+
+namespace lamp {
+namespace {
+
+using shared::BRICK_CELLS;
+using shared::WORLD_PIECE;
+
+constexpr std::uint32_t THREADS = 256;
+constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, where there are groups for it
+constexpr std::uint32_t SCAN_BUCKETS = 4;         // of a thread
+constexpr std::uint32_t PIECE_THREADS = 64;       // one for each cell of a brick
+constexpr std::uint32_t LIGHT_BUCKETS = 16;       // for each light,
+constexpr std::uint32_t LEAST_BUCKETS = 1024;     // but no fewer
+constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes each
+constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // the place of a word of bits has 32 bits
+constexpr std::uint64_t ENTRY_BYTES = 12;         // with the bits of the brick's cells
+constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
+constexpr std::uint32_t MOST_PERCENT = 1600;
+constexpr std::uint64_t BUDGET = (64U << 20) / ENTRY_BYTES;  // entries, for brick=0
+constexpr std::uint32_t FINEST_PERCENT = 100;                // for brick=0,
+constexpr std::uint32_t COARSEST_PERCENT = 400;  // and where lights are so many that the budget does not matter
+constexpr std::uint64_t MEAN_BRICKS = 24;        // default of the option
+constexpr std::uint32_t LEAST_PERCENT = 50;      // of the range: a code tells 6 bricks across apart
+static_assert(2 * 100 / LEAST_PERCENT + 2 <= shared::MOST_BRICKS_ACROSS);
+static_assert(BRICK_CELLS == PIECE_THREADS);
+
+/// Bricks that a sphere anywhere reaches, on average, whose side is `ratio` of its radius: the volume of points within
+/// a radius of a cube, over the cube's (Steiner's formula).
+double mean_bricks(double ratio) {
+  const double pi = std::numbers::pi;
+  return 1 + 6 / ratio + 3 * pi / (ratio * ratio) + 4 * pi / 3 / (ratio * ratio * ratio);
+}
+
+/// Of one light, wherever it is.
+std::uint64_t most_bricks(double ratio) {
+  const auto across = static_cast<std::uint64_t>(std::ceil(2 / ratio)) + 1;
+  return across * across * across;
+}
+
+struct Sizes {
+  float ratio;  ///< a brick's side is this share of a light's range, to twice that
+  std::uint32_t buckets;
+  std::uint32_t entries;
+  std::uint32_t pieces;
+  std::uint32_t long_pieces;
+};
+
+/// Percent of a light's range: as the option says, or the least for which the entries of lights anywhere take no more
+/// than BUDGET.
+std::uint32_t brick_percent(const Problem& problem) {
+  if (const std::uint32_t percent = problem.options.integer("brick"); percent != 0) return percent;
+  std::uint32_t percent = FINEST_PERCENT;
+  while (percent < COARSEST_PERCENT && parts::capacity(problem) * mean_bricks(percent / 100.0) > BUDGET) ++percent;
+  return percent;
+}
+
+std::uint64_t bricks_anywhere(const Problem& problem, double ratio) {
+  return static_cast<std::uint64_t>(parts::capacity(problem) * mean_bricks(ratio));
+}
+
+/// Room for lights anywhere, and for all bricks of all lights where these are few.
+std::uint64_t default_entries(const Problem& problem, double ratio) {
+  const std::uint64_t worst = parts::capacity(problem) * most_bricks(ratio);
+  if (worst * ENTRY_BYTES <= SMALL_BYTES) return worst;
+  std::uint64_t anywhere = bricks_anywhere(problem, ratio);
+  if (problem.options.integer("brick") == 0)  // more lights never have less room, though their bricks be larger
+    anywhere = std::max(anywhere, std::min(BUDGET, bricks_anywhere(problem, FINEST_PERCENT / 100.0)));
+  return std::min(worst, anywhere);
+}
+
+std::uint64_t wanted_entries(const Problem& problem, double ratio) {
+  const std::uint64_t lights = parts::capacity(problem);
+  const std::uint64_t mean = problem.options.integer("mean_bricks");
+  const std::uint64_t usual = default_entries(problem, ratio);
+  return mean < MEAN_BRICKS ? std::min(usual, lights * mean) : usual + lights * (mean - MEAN_BRICKS);
+}
+
+Sizes sizes_of(const Problem& problem) {
+  Sizes s{.ratio = static_cast<float>(brick_percent(problem)) / 100.0F};
+  const std::uint64_t wanted_buckets = std::bit_ceil(std::uint64_t{parts::capacity(problem)} * LIGHT_BUCKETS);
+  s.buckets = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted_buckets, LEAST_BUCKETS, MOST_BUCKETS));
+  s.entries = static_cast<std::uint32_t>(
+      std::min({wanted_entries(problem, s.ratio), MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 8}));
+  s.long_pieces = parts::divide_up(s.entries, WORLD_PIECE / 2);  // each bucket of more than one is over half full
+  s.pieces = std::min(s.buckets, s.entries) + s.long_pieces;
+  return s;
+}
+
+struct Buffers {
+  ResourceId totals, counts, buckets, pieces, long_pieces, entries, bits;
+};
+
+Buffers add_buffers(Plan& plan, const Sizes& s) {
+  Buffers b{};
+  b.totals = plan.add({.name = "totals", .bytes = sizeof(shared::WorldTotals), .zeroed = true, .indirect = true});
+  plan.counters = b.totals;
+  b.counts = plan.add({.name = "bucket counts", .bytes = std::uint64_t{s.buckets} * 4, .zeroed = true});
+  b.buckets = plan.add({.name = "buckets", .bytes = std::uint64_t{s.buckets} * sizeof(shared::WorldBucket)});
+  b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::WorldPiece)});
+  b.long_pieces = plan.add({.name = "long pieces", .bytes = std::uint64_t{s.long_pieces} * sizeof(shared::WorldPiece)});
+  b.entries = plan.add({.name = "bucket entries", .bytes = std::uint64_t{s.entries} * 4});
+  b.bits = plan.add({.name = "cell bits", .bytes = std::uint64_t{s.entries} * 8});
+  return b;
+}
+
+std::uint32_t threads_of(const Problem& problem) {
+  return std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
+}
+
+/// A pass with some threads for each light.
+Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
+  const std::uint32_t threads = threads_of(problem);
+  std::uint32_t of_light = LIGHT_THREADS;
+  while (of_light > 1 && parts::divide_up(parts::capacity(problem), threads / of_light) > problem.traits.max_groups[0])
+    of_light /= 2;
+  return {.constants = {threads, of_light, std::bit_cast<std::uint32_t>(s.ratio), s.buckets},
+          .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.counts, Access::read_write}},
+          .extent = {.lights_per_group = threads / of_light}};
+}
+
+Pass count_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
+  Pass pass = find_pass(problem, s, b);
+  pass.name = "count bricks";
+  pass.shader = "methods/world_count";
+  pass.bindings.push_back({b.totals, Access::read_write});
+  return pass;
+}
+
+Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
+  Pass pass = find_pass(problem, s, b);
+  pass.name = "fill buckets";
+  pass.shader = "methods/world_fill";
+  pass.bindings.insert(pass.bindings.end(), {{b.buckets}, {b.entries, Access::write}});
+  return pass;
+}
+
+Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
+  const std::uint32_t threads = threads_of(problem);
+  return {.name = "scan buckets",
+          .shader = "methods/world_scan",
+          .constants = {threads, s.entries},
+          .bindings = {{b.counts, Access::read_write},
+                       {b.totals, Access::read_write},
+                       {b.buckets, Access::write},
+                       {b.pieces, Access::write},
+                       {b.long_pieces, Access::write}},
+          .extent = {.x = s.buckets / (threads * SCAN_BUCKETS)},
+          .shared_bytes = 256 * 4 + 12};
+}
+
+/// Of all pieces, or of long buckets'.
+Pass piece_pass(const Sizes& s, const Buffers& b, ResourceId pieces) {
+  const bool is_long = pieces == b.long_pieces;
+  return {.name = is_long ? "bits of long buckets" : "order and bits",
+          .shader = is_long ? "methods/world_bits" : "methods/world_order",
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio)},
+          .bindings = {{INPUT_FRAME},
+                       {INPUT_LIGHTS},
+                       {INPUT_SPHERES},
+                       {b.totals},
+                       {b.buckets},
+                       {pieces},
+                       {b.entries, Access::read_write},
+                       {b.bits, Access::write}},
+          .extent = {.indirect = b.totals,
+                     .indirect_offset =
+                         is_long ? offsetof(shared::WorldTotals, long_x) : offsetof(shared::WorldTotals, pieces_x)},
+          .shared_bytes = WORLD_PIECE * 16 + BRICK_CELLS * 4};
+}
+
+Pass merge_pass(const Buffers& b) {
+  return {.name = "merge long buckets",
+          .shader = "methods/world_merge",
+          .bindings = {{b.totals}, {b.buckets}, {b.long_pieces}, {b.bits}, {b.entries, Access::write}},
+          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, long_x)}};
+}
+
+Plan plan_world_cells(const Problem& problem) {
+  const Sizes sizes = sizes_of(problem);
+  Plan plan;
+  plan.cells = std::uint64_t{sizes.buckets} * BRICK_CELLS;
+  plan.any_depth = true;
+  const Buffers b = add_buffers(plan, sizes);
+  plan.capacities = {parts::shared_list(plan, "mean_bricks", sizes.entries, parts::capacity(problem))};
+  plan.passes = {count_pass(problem, sizes, b),
+                 scan_pass(problem, sizes, b),
+                 fill_pass(problem, sizes, b),
+                 piece_pass(sizes, b, b.pieces),
+                 merge_pass(b),
+                 piece_pass(sizes, b, b.long_pieces)};
+  plan.lookup = {.name = "world_cells",
+                 .constants = {sizes.buckets},
+                 .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.totals}}};
+  return plan;
+}
+
+std::optional<Error> check_world_cells(const Problem& problem) {
+  const std::uint32_t percent = problem.options.integer("brick");
+  if (percent == 0 || percent >= LEAST_PERCENT) return std::nullopt;
+  return Error{"option brick", "expected 0, or " + std::to_string(LEAST_PERCENT) +
+                                   " and more: a light has at most 6 bricks across; got " + std::to_string(percent)};
+}
+
+}  // namespace
+
+Method world_cells_method() {
+  return {.name = "world-cells",
+          .title = "World cells: lights at any point",
+          .source = "This project, docs/methods/world-cells.md",
+          .summary = "Lights are listed in cells of the world, larger ones for larger lights; no camera, no bounds.",
+          .result = "world_cells",
+          .needs_depth = false,
+          .any_depth = true,
+          .any_point = true,
+          .options = {{.key = "brick",
+                       .help = "least side of a brick of 4 x 4 x 4 cells, percent of a light's range, 50 and more; 0: "
+                               "100, and more where the lists of all lights would take over 64 MiB",
+                       .fallback = "0",
+                       .min = 0,
+                       .max = MOST_PERCENT},
+                      {.key = "mean_bricks",
+                       .help = "bricks a light, on average, that there is room for; from 24 on, as many as lights "
+                               "anywhere reach and what is beyond 24, and all where these are few",
+                       .fallback = "24",
+                       .min = 1,
+                       .max = 256}},
+          .plan = plan_world_cells,
+          .check = check_world_cells};
+}
+
+}  // namespace lamp
