@@ -1,0 +1,144 @@
+// Two dispatches over a part of the points: one counts, one writes the lists.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/point_walks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "gpu/check.h"
+#include "gpu/transfer.h"
+#include "render/pass_uses.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr const char* POINT_SHADER = "world_walk";
+constexpr std::uint32_t WALK_GROUP = 64;            // threads of it
+constexpr std::uint32_t POINTS_AT_ONCE = 1U << 14;  // points
+constexpr std::uint32_t POINT_BINDING = 0;          // its bindings
+constexpr std::uint32_t WORD_BINDING = 1;
+constexpr std::uint32_t ENDED_BINDING = 2;
+constexpr std::uint32_t LIST_BINDING = 3;
+
+vulkan::Buffer host_words(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
+  return take(
+      vulkan::Buffer::create(device, {.name = name,
+                                      .bytes = std::max<std::uint64_t>(bytes, 16),
+                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                      .memory = vulkan::MemoryUse::readback}));
+}
+
+std::vector<std::uint32_t> first_words(const vulkan::Buffer& buffer, std::size_t count) {
+  std::vector<std::uint32_t> words(count);
+  if (count != 0) std::memcpy(words.data(), buffer.mapped().data(), count * sizeof(std::uint32_t));
+  return words;
+}
+
+}  // namespace
+
+PointWalks::PointWalks(Context& context, const ShaderLibrary& shaders, Plan plan, const View& view,
+                       std::span<const shared::Light> lights)
+    : context_(context), data_(context.device(), static_cast<std::uint32_t>(lights.size())) {
+  data_.set({&view, 1}, lights);
+  runner_ = take(vulkan::PlanRunner::create(context.device(), std::move(plan), shaders.source()));
+  const vulkan::BoundLookUp lookup = runner_.lookup(inputs());
+  vulkan::PipelineInfo info{.name = POINT_SHADER,
+                            .constants = lookup.constants,
+                            .bindings = {{POINT_BINDING}, {WORD_BINDING}, {ENDED_BINDING}, {LIST_BINDING}},
+                            .push_constant_bytes = 12};
+  for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
+  pipeline_ = take(vulkan::Pipeline::compute(context.device(), info, shaders.spirv(POINT_SHADER)));
+  words_ = host_words(context.device(), "counts of points", POINTS_AT_ONCE * sizeof(std::uint32_t));
+  ended_ = host_words(context.device(), "ended points", POINTS_AT_ONCE * sizeof(std::uint32_t));
+}
+
+vulkan::PlanInputs PointWalks::inputs() const {
+  const vulkan::Resource no_depth;
+  vulkan::PlanInputs inputs = data_.plan_inputs({&no_depth, 1});
+  inputs.depths = {};
+  return inputs;
+}
+
+PointLights PointWalks::walk(std::span<const glm::vec3> points) {
+  cull();
+  PointLights found;
+  for (std::size_t first = 0; first < points.size(); first += POINTS_AT_ONCE)
+    walk_part(points.subspan(first, std::min<std::size_t>(POINTS_AT_ONCE, points.size() - first)), found);
+  return found;
+}
+
+void PointWalks::cull() {
+  const vulkan::Buffer counts = host_words(context_.device(), "counts", vulkan::count_bytes(plan()));
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    data_.record_upload(recorder);
+    static_cast<void>(take(runner_.record(recorder, inputs())));
+    runner_.record_counts(recorder, counts);
+    recorder.barrier({host_reads(vulkan::Resource::storage(counts.handle()))});
+  });
+  runner_.finish(runner_.records());
+  counts_ = vulkan::read_counts(plan(), counts.mapped());
+  tracker_.forget(counts.handle());
+}
+
+void PointWalks::walk_part(std::span<const glm::vec3> points, PointLights& to) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  const vulkan::Buffer positions =
+      upload_buffer(context_, "points", std::as_bytes(points), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  {
+    const vulkan::Buffer none = host_words(context_.device(), "no lists", 0);
+    dispatch(positions, none, count, /*writes=*/false);
+  }
+  std::vector<std::uint32_t> firsts = first_words(words_, count);
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : firsts) {
+    const std::uint32_t length = first;
+    first = sum;
+    sum += length;
+    to.offsets.push_back(to.offsets.back() + length);
+  }
+  if (count != 0) std::memcpy(words_.mapped().data(), firsts.data(), count * sizeof(std::uint32_t));
+  const vulkan::Buffer lists = host_words(context_.device(), "lists of points", std::uint64_t{sum} * 4);
+  dispatch(positions, lists, count, /*writes=*/true);
+  const std::vector<std::uint32_t> lights = first_words(lists, sum);
+  to.lights.insert(to.lights.end(), lights.begin(), lights.end());
+  const std::vector<std::uint32_t> ended = first_words(ended_, count);
+  to.ended.insert(to.ended.end(), ended.begin(), ended.end());
+}
+
+void PointWalks::dispatch(const vulkan::Buffer& points, const vulkan::Buffer& lists, std::uint32_t count, bool writes) {
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  const vulkan::BoundLookUp lookup = runner_.lookup(inputs());
+  std::vector<vulkan::Bound> bound = lookup.resources;
+  std::vector<vulkan::Use> uses;
+  for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
+  const vulkan::Resource from = vulkan::Resource::storage(points.handle());
+  bound.push_back({POINT_BINDING, from});
+  uses.push_back(reads(from, COMPUTE));
+  std::vector<vulkan::Use> to_host;
+  const std::array<std::pair<std::uint32_t, const vulkan::Buffer*>, 3> outputs{
+      {{WORD_BINDING, &words_}, {ENDED_BINDING, &ended_}, {LIST_BINDING, &lists}}};
+  for (const auto& [binding, buffer] : outputs) {
+    const vulkan::Resource resource = vulkan::Resource::storage(buffer->handle());
+    bound.push_back({binding, resource});
+    uses.push_back({.resource = resource,
+                    .stages = COMPUTE,
+                    .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+    to_host.push_back(host_reads(resource));
+  }
+  const std::array<std::uint32_t, 3> push{count, writes ? 1U : 0U, /*two*/ 2U};
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    recorder.begin_pass(POINT_SHADER, uses);
+    recorder.bind(pipeline_, bound);
+    vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), push.data());
+    vkCmdDispatch(commands, (count + WALK_GROUP - 1) / WALK_GROUP, 1, 1);
+    recorder.end_pass();
+    recorder.barrier(to_host);
+  });
+  for (const vulkan::Buffer* buffer : {&points, &lists}) tracker_.forget(buffer->handle());
+}
+
+}  // namespace lamp::app
