@@ -59,8 +59,12 @@ std::vector<GroupEntry> entries_of(const Series& series) {
   for (const SuiteMethod& method : series.methods)
     for (const Swept& swept : combinations(series))
       for (const std::string& path : method.path.empty() ? series.paths : std::vector<std::string>{method.path}) {
-        GroupEntry entry{
-            .method = method.name, .options = method.options, .path = path, .label = method.label, .swept = swept};
+        GroupEntry entry{.method = method.name,
+                         .options = method.options,
+                         .path = path,
+                         .label = method.label,
+                         .host = method.host,
+                         .swept = swept};
         if (series.paths.size() > 1 && method.path.empty() && series.chart.x != "path") entry.label += ", " + path;
         for (const auto& [key, value] : swept) entry.options.push_back(fmt::format("{}={}", key, value));
         entries.push_back(std::move(entry));
@@ -74,6 +78,7 @@ Group base_of(const Series& series, const Limits& limits) {
             .brdf = series.brdf,
             .depth = series.depth,
             .depth_samples = series.depth_samples,
+            .stereo_m = series.stereo_m,
             .seed = series.seed,
             .frame = series.frame,
             .entries = entries_of(series)};
@@ -85,6 +90,7 @@ Group base_of(const Series& series, const Limits& limits) {
           .brdf = series.brdf,
           .depth = series.depth,
           .depth_samples = series.depth_samples,
+          .stereo_m = series.stereo_m,
           .seed = series.seed,
           .frame = series.frame,
           .frames = limits.frames.value_or(std::min(series.frames, most)),
@@ -106,7 +112,7 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
   const std::uint64_t pairs = std::uint64_t{width} * rows * series.depth_samples * group.lights;
   const std::uint64_t all_pairs = std::uint64_t{width} * height * group.lights;
-  group.verify.verifier = series.depth_samples > 1  // which the oracle alone knows of
+  group.verify.verifier = series.depth_samples > 1 || series.stereo_m > 0.0  // which the oracle alone knows of
                               ? Verifier::oracle
                               : chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
   const bool by_gpu = group.verify.verifier == Verifier::gpu;
@@ -160,10 +166,16 @@ void choose_pictures(const Series& series, std::span<Group> groups) {
   for (const auto& [scene, group] : most) group->pictures = true;
 }
 
-/// Nothing of reversed depth of one sample: keys of old results hold.
+/// Nothing of one eye and of reversed depth of one sample: keys of old results hold.
 std::string depth_words(const Group& group) {
   return (group.depth == "reversed" ? "" : " depth=" + group.depth) +
-         (group.depth_samples == 1 ? "" : fmt::format(" depth_samples={}", group.depth_samples));
+         (group.depth_samples == 1 ? "" : fmt::format(" depth_samples={}", group.depth_samples)) +
+         (group.stereo_m == 0.0 ? "" : fmt::format(" stereo={}", group.stereo_m));
+}
+
+std::string host_words(const GroupEntry& entry) {
+  if (entry.host == Host::plan) return "";
+  return fmt::format(" host={}", host_names()[static_cast<std::size_t>(entry.host)]);
 }
 
 }  // namespace
@@ -208,12 +220,12 @@ std::string key_of(const Group& group, const GroupEntry& entry) {
     lights = fmt::format("{}..{} in {} waves", group.flight->from, group.flight->to, group.flight->waves);
   std::vector<std::string> options = entry.options;
   return fmt::format(
-      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={}{} | {} {}{}{} | "
+      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={}{} | {} {}{}{}{} | "
       "frames={}+{} verify={}{}",
       group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
       group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
-      depth_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ", entry.path, group.warm_up,
-      group.frames, words_of(group.verify), group.pictures ? " pictures" : "");
+      depth_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ", entry.path,
+      host_words(entry), group.warm_up, group.frames, words_of(group.verify), group.pictures ? " pictures" : "");
 }
 
 std::uint32_t lights_at(const LightWave& wave, std::uint32_t frame, std::uint32_t frames) {

@@ -15,6 +15,7 @@ struct GroupEntry {
   std::vector<std::string> options;  ///< KEY=VALUE, later ones win
   std::string path;
   std::string label;
+  Host host = Host::plan;
   std::vector<std::pair<std::string, std::string>> swept;  ///< the series' options here: for the chart's x axis
 };
 
@@ -23,6 +24,7 @@ struct Group {
   std::string series;
   std::string scene, size, range, camera, projection, brdf, depth;
   std::uint32_t depth_samples = 1;
+  double stereo_m = 0.0;
   std::uint32_t lights = 0;  ///< the most, in a flight
   double spots = 0.0;
   std::uint64_t seed = 1;

@@ -65,6 +65,14 @@ void check_method(const SuiteMethod& method, const std::string& where) {
   if (!options.ok()) throw Error(fmt::format("{}: method {}: {}", where, method.name, options.error().text()));
 }
 
+Host parse_host(SuiteJson& object) {
+  std::string name(host_names().front());
+  object.read("host", name);
+  const auto found = std::ranges::find(host_names(), name);
+  if (found == host_names().end()) object.wrong("host", fmt::format("{}", fmt::join(host_names(), " or ")));
+  return static_cast<Host>(found - host_names().begin());
+}
+
 SuiteMethod parse_method_entry(const json& value, const std::string& where) {
   SuiteMethod method;
   if (value.is_string()) {
@@ -75,6 +83,7 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
     object.read("options", method.options);
     object.read("label", method.label);
     object.read("path", method.path);
+    method.host = parse_host(object);
     object.finish();
   }
   check_method(method, where);
@@ -159,6 +168,7 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("brdf", series.brdf);
   object.read("depth", series.depth);
   object.read("depth_samples", series.depth_samples, 1, 8);
+  object.read("stereo", series.stereo_m, 0.0, 1000.0);
   object.read("seed", series.seed);
   std::uint32_t frame = ~0U;
   object.read("frame", frame, 0, MAX_FRAMES);

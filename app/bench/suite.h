@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/lighting_pipelines.h"
 #include "render/verification.h"
 
 namespace lamp::app {
@@ -22,6 +23,7 @@ struct SuiteMethod {
   std::vector<std::string> options;  ///< KEY=VALUE
   std::string label;                 ///< in charts and tables
   std::string path;                  ///< empty: each of the series'
+  Host host = Host::plan;
 };
 
 /// How many lights a frame of a flight has: from + (to - from) t², with t going 0 → 1 → 0 `waves` times over the
@@ -66,6 +68,7 @@ struct Series {
   std::string brdf = "ggx";
   std::string depth = "reversed";   ///< or "standard"
   std::uint32_t depth_samples = 1;  ///< a pixel, of the depth that lights are culled with
+  double stereo_m = 0.0;            ///< between two eyes, each with half of the size's width; 0: one eye
   std::uint64_t seed = 1;
   int frame = -1;                  ///< of the scene's flight, for the camera and for when the lights begin; -1: camera
   std::uint32_t frames = 60;       ///< timed ones

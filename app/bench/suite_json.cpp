@@ -76,6 +76,12 @@ void SuiteJson::read(std::string_view key, std::uint64_t& out) {
   out = at(key).get<std::uint64_t>();
 }
 
+void SuiteJson::read(std::string_view key, double& out, double min, double max) {
+  if (!has(key)) return;
+  if (!is_within(at(key), min, max)) wrong(key, fmt::format("a number from {} to {}", min, max));
+  out = at(key).get<double>();
+}
+
 void SuiteJson::read(std::string_view key, std::vector<std::string>& out) {
   if (!has(key)) return;
   if (!is_list(at(key), [](const json& v) { return v.is_string(); })) wrong(key, "a list of texts");

@@ -26,6 +26,7 @@ class SuiteJson {
   void read(std::string_view key, bool& out);
   void read(std::string_view key, std::uint32_t& out, std::uint64_t min, std::uint64_t max);
   void read(std::string_view key, std::uint64_t& out);
+  void read(std::string_view key, double& out, double min, double max);
   void read(std::string_view key, std::vector<std::string>& out);
   void read(std::string_view key, std::vector<double>& out, double min, double max);
   void read(std::string_view key, std::vector<std::uint32_t>& out, std::uint64_t min, std::uint64_t max);

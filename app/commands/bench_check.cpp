@@ -37,12 +37,13 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
   const glm::uvec2 size = parse_size(group.size);
   return {.method = &method,
           .options = take(resolve_options(method, entry.options)),
-          .width = size.x,
+          .width = group.stereo_m > 0.0 ? size.x / 2 : size.x,
           .height = size.y,
           .light_capacity = light_capacity(scene, group),
           .path = parse_path(entry.path),
           .brdf = parse_brdf(group.brdf),
-          .depth = parse_depth(group.depth, group.depth_samples),
+          .depth = host_depth_of(group),
+          .host = entry.host,
           .transparency = !scene.gpu->blended().empty(),
           .captured = scene.scene.captured.has_value()};
 }
@@ -52,30 +53,30 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
       group_(group),
       renderer_(renderer),
       frame_(frame),
-      rows_(checked_rows(group.verify, frame.view.height())) {
-  renderer_.set_frame(frame.view, frame.lights);
+      rows_(checked_rows(group.verify, frame.view().height())) {
+  renderer_.set_frame(frame.views, frame.lights);
 }
 
 void Checker::need_truths() {
   if (group_.verify.verifier == Verifier::gpu) {
     if (!verifier_) verifier_.emplace(renderer_, frame_.lights, group_.verify.every_list ? Rows{} : rows_);
   } else if (depths_.empty()) {
-    const std::uint32_t samples = renderer_.depth().samples;
-    truths_.resize(samples);
-    for (std::uint32_t i = 0; i < samples; ++i) {
-      renderer_.show({.sample = i});
-      depths_.push_back(samples > 1 ? renderer_.draw_depth() : renderer_.read_depth());
+    const std::vector<FramePicture> pictures = renderer_.all_pictures();
+    truths_.resize(pictures.size());
+    for (const FramePicture& picture : pictures) {
+      renderer_.show(picture);
+      depths_.push_back(renderer_.depth().several() ? renderer_.draw_depth() : renderer_.read_depth());
     }
   }
 }
 
-void Checker::for_each_truth(std::uint32_t sample, const std::function<void(const Truth&)>& use) {
-  for (const Truth& truth : truths_[sample]) use(truth);
-  if (!truths_[sample].empty()) return;
+void Checker::for_each_truth(std::size_t picture, const std::function<void(const Truth&)>& use) {
+  for (const Truth& truth : truths_[picture]) use(truth);
+  if (!truths_[picture].empty()) return;
   std::uint64_t lights = 0;
   std::vector<Truth> kept;
   lamp::app::for_each_truth({.view = renderer_.view(),
-                             .depth = depths_[sample],
+                             .depth = depths_[picture],
                              .lights = frame_.lights,
                              .first_row = rows_.first,
                              .rows = rows_.count},
@@ -84,7 +85,7 @@ void Checker::for_each_truth(std::uint32_t sample, const std::function<void(cons
                               lights += truth.lights.size();
                               if (lights <= KEPT_LIGHTS / depths_.size()) kept.push_back(truth);
                             });
-  if (lights <= KEPT_LIGHTS / depths_.size()) truths_[sample] = std::move(kept);
+  if (lights <= KEPT_LIGHTS / depths_.size()) truths_[picture] = std::move(kept);
 }
 
 const HdrImage& Checker::reference(ShadingPath path) {
@@ -95,7 +96,7 @@ const HdrImage& Checker::reference(ShadingPath path) {
         lighting_info(device_.scene(group_.scene), group_, {.method = "all", .path = forward ? "forward" : "deferred"});
     info.shaded = rows_;
     Lighting lighting(device_.context().device(), device_.shaders(), info);
-    image = cropped(render_samples(renderer_, lighting, frame_.lights, {}, {}).image, rows_);
+    image = cropped(render_views(renderer_, lighting, frame_.lights, {}, {}).image, rows_);
   }
   return *image;
 }
@@ -103,10 +104,12 @@ const HdrImage& Checker::reference(ShadingPath path) {
 Findings Checker::find(Lighting& lighting) {
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
   if (verifier_) return verifier_->check(lighting, which);
-  Verification verification(frame_.view.width());
-  for (std::uint32_t i = renderer_.depth().samples; i-- != 0;) {  // the first last: it is timed
-    renderer_.show({.sample = i});
-    for_each_truth(i, [&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which)); });
+  Verification verification(frame_.view().width(), renderer_.depth());
+  const std::vector<FramePicture> pictures = renderer_.all_pictures();  // the first last: it is timed
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    renderer_.show(pictures[i]);
+    for_each_truth(
+        i, [&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which), pictures[i]); });
   }
   return verification.findings();
 }
@@ -124,7 +127,7 @@ Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked
 Checked Checker::check(Lighting& lighting) {
   Checked checked{.verdict = "unverified",
                   .reason = group_.unchecked,
-                  .rendered = render_samples(renderer_, lighting, frame_.lights, {}, {})};
+                  .rendered = render_views(renderer_, lighting, frame_.lights, {}, {})};
   if (group_.verify.what == Verify::What::nothing) return checked;
   const bool by_volumes = lighting.info().path == ShadingPath::standard_deferred;
   if (by_volumes && !group_.verify.compares_pictures) return checked;

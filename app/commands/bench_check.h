@@ -36,7 +36,7 @@ class Checker {
   /// Uses the depth that was rendered last: the same for every entry.
   void need_truths();
   /// The oracle's.
-  void for_each_truth(std::uint32_t sample, const std::function<void(const Truth&)>& use);
+  void for_each_truth(std::size_t picture, const std::function<void(const Truth&)>& use);
   [[nodiscard]] Judgement judge_output(const Lighting& lighting, const Checked& checked);
 
   BenchDevice& device_;
@@ -44,7 +44,7 @@ class Checker {
   Renderer& renderer_;
   const BenchFrame& frame_;
   Rows rows_;
-  std::vector<std::vector<float>> depths_;  ///< of each sample a pixel
+  std::vector<std::vector<float>> depths_;  ///< of each of the renderer's pictures
   std::vector<std::vector<Truth>> truths_;  ///< likewise, of all rows, where they are few enough to be kept
   std::optional<GpuVerifier> verifier_;
   std::optional<HdrImage> forward_, deferred_;

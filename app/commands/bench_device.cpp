@@ -28,8 +28,12 @@ Camera camera_of(const Scene& scene, const Group& group, std::uint32_t frame) {
 }
 
 View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
-  const glm::uvec2 size = parse_size(group.size);
-  const HostDepth depth = parse_depth(group.depth, group.depth_samples);
+  glm::uvec2 size = parse_size(group.size);
+  const HostDepth depth = host_depth_of(group);
+  if (group.stereo_m > 0.0 && (size.x % 2 != 0 || scene.captured))
+    throw Error(
+        fmt::format("series '{}': stereo: expected an even width and a scene that is no captured frame, got {} of {}",
+                    group.series, group.size, group.scene));
   if (scene.captured) {
     const View& view = scene.captured->view;
     if (size != glm::uvec2(view.width(), view.height()) || group.projection != "camera" || group.frame >= 0 ||
@@ -42,11 +46,24 @@ View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
                               group.scene, group.depth, depth.samples));
     return view;
   }
+  if (group.stereo_m > 0.0) size.x /= 2;
   const View view = view_of(camera_of(scene, group, frame), size.x, size.y, group.projection);
   return depth.reversed ? view : with_standard_depth(view);
 }
 
+std::vector<View> views_at(const Scene& scene, const Group& group, std::uint32_t frame) {
+  const View view = view_at(scene, group, frame);
+  if (group.stereo_m > 0.0) return both_eyes(view, group.stereo_m);
+  return {view};
+}
+
 }  // namespace
+
+HostDepth host_depth_of(const Group& group) {
+  HostDepth depth = parse_depth(group.depth, group.depth_samples);
+  depth.views = group.stereo_m > 0.0 ? 2 : 1;
+  return depth;
+}
 
 BenchDevice::BenchDevice(const Request& request)
     : shaders_(request.shader_dir),
@@ -85,7 +102,7 @@ BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t numb
   const std::uint32_t frame = scene_frame(group, number, path_frames);
   const std::uint32_t count = group.flight ? lights_at(*group.flight, number, group.frames) : group.lights;
   if (!scene.air && count != 0) scene.air = find_open_air(scene.scene);
-  BenchFrame made{.number = number, .view = view_at(scene.scene, group, frame), .lights = pack(scene.scene.lights)};
+  BenchFrame made{.number = number, .views = views_at(scene.scene, group, frame), .lights = pack(scene.scene.lights)};
   if (count == 0) return made;
   const std::vector<shared::Light> generated = pack(place_lights(*scene.air, {.count = count,
                                                                               .spots = request.spots,
@@ -113,7 +130,8 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .frame = group.frame,
           .projection = group.projection,
           .depth = group.depth,
-          .depth_samples = group.depth_samples};
+          .depth_samples = group.depth_samples,
+          .stereo_m = static_cast<float>(group.stereo_m)};
 }
 
 }  // namespace lamp::app

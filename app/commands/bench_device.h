@@ -41,10 +41,12 @@ class BenchDevice {
   BenchScene scene_;
 };
 
-/// Camera and lights of one timed frame.
+/// Cameras and lights of one timed frame.
 struct BenchFrame {
   std::uint32_t number = 0;  ///< from 0
-  View view;
+  std::vector<View> views;
+
+  [[nodiscard]] const View& view() const { return views.front(); }
   std::vector<shared::Light> lights;
 };
 /// Throws Error for a scene, camera, flight or projection that is not there.
@@ -54,6 +56,9 @@ void check_views(std::span<const Group> groups);
 
 /// The most lights that a frame of the group has, the scene's own included.
 [[nodiscard]] std::uint32_t light_capacity(const BenchScene& scene, const Group& group);
+
+/// Depth and views as the group has them.
+[[nodiscard]] HostDepth host_depth_of(const Group& group);
 
 /// The request of one group's entry, for the checks that every command makes.
 [[nodiscard]] Request request_of(const Group& group, const GroupEntry& entry);

@@ -12,6 +12,7 @@
 #include "commands/bench_check.h"
 #include "commands/bench_pictures.h"
 #include "commands/stats.h"
+#include "gpu/check.h"
 #include "render/frame_times.h"
 
 namespace lamp::app {
@@ -100,6 +101,8 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
                   {"method", entry.method}};
   if (group.depth != "reversed") parameters["depth"] = group.depth;
   if (group.depth_samples != 1) parameters["depth_samples"] = group.depth_samples;
+  if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
+  if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];
   for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
   return parameters;
 }
@@ -119,7 +122,7 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
   candidate.times.fill(rendered, *candidate.lighting);
   Stats stats = make_stats({.device = info.device.context().row(),
                             .scene = info.group.scene,
-                            .view = frame.view,
+                            .view = frame.view(),
                             .lights = light_capacity(info.device.scene(info.group.scene), info.group),
                             .frames = static_cast<std::uint32_t>(candidate.frames.size())},
                            *candidate.lighting, std::move(rendered));
@@ -155,7 +158,7 @@ MethodChoice choose_for(const MeasureInfo& info, const BenchScene& scene, Render
   if (!info.explain && !has_auto(info.group)) return {};
   const MethodChoice chosen =
       info.device.chooser().choose(renderer, {.scene = scene.scene,
-                                              .view = frame.view,
+                                              .view = frame.view(),
                                               .lights = frame.lights,
                                               .light_capacity = light_capacity(scene, info.group)});
   if (info.explain) info.explain(info.device.chooser().explanation());
@@ -227,6 +230,12 @@ void check_all(const MeasureInfo& info, std::list<Candidate>& candidates, std::o
   }
 }
 
+/// The same view in a quarter of the pixels.
+View half_of(const View& view) {
+  return take(View::create(std::max(1U, view.width() / 2), std::max(1U, view.height() / 2), view.clip_from_view(),
+                           view.view_from_world()));
+}
+
 bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) {
   if (info.group.flight || info.device.software()) return false;
   return candidate.spent_ms > LONGEST_MS && (!warm || candidate.frames.size() >= FEWEST_FRAMES);
@@ -238,10 +247,11 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     const bool warm = round >= info.group.warm_up;
     const std::uint32_t number = warm ? round - info.group.warm_up : 0;
     const BenchFrame frame = bench_frame(scene, info.group, number);
-    renderer.set_frame(frame.view, frame.lights);
+    renderer.set_frame(frame.views, frame.lights);
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.runs() || has_enough(info, candidate, warm)) continue;
+      if (candidate.entry->host == Host::changing_size) renderer.cull_as(*candidate.lighting, half_of(frame.view()));
       const std::vector<vulkan::Timestamps::Time> times =
           renderer.time(*candidate.lighting, warm ? candidate.times.next() : Timing::parts);
       candidate.spent_ms += span_ms(times);
@@ -300,9 +310,9 @@ std::vector<json> measure(const MeasureInfo& info) {
   std::optional<Checker> checker;
   std::list<Candidate> candidates;
   try {
-    renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view.width(), frame.view.height(),
-                     light_capacity(scene, info.group), /*decal_capacity=*/0,
-                     parse_depth(info.group.depth, info.group.depth_samples));
+    renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view().width(),
+                     frame.view().height(), light_capacity(scene, info.group), /*decal_capacity=*/0,
+                     host_depth_of(info.group));
     checker.emplace(info.device, info.group, *renderer, frame);
     candidates = make_candidates(info, scene, choose_for(info, scene, *renderer, frame));
   } catch (const Error& error) {

@@ -26,7 +26,6 @@ std::vector<Visit> visit_all(Session& session, Lighting& lighting) {
   std::vector<Visit> all(views * width * renderer.targets().height);
   for (std::uint32_t view = views; view-- != 0;) {
     renderer.show({.view = view});
-    static_cast<void>(renderer.draw_depth());
     const std::vector<Visit> visits = renderer.visit_all(lighting);
     for (std::size_t i = 0; i < visits.size(); ++i) all[(i / width * views + view) * width + i % width] = visits[i];
   }

@@ -62,6 +62,7 @@ std::vector<std::pair<std::string, std::string>> changed_options(const Options& 
 Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info)
     : info_(info), traits_(device.traits) {
   runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(info, device), shaders.source()));
+  if (info.host == Host::culler) culler_.emplace(device, info);
   shade_ = shading_pipeline(device, shaders, info, runner_.plan());
   if (info.path == ShadingPath::standard_deferred) volumes_ = volumes_pipeline(device, shaders, info);
   if (info.transparency) {
@@ -97,17 +98,34 @@ bool Lighting::fused() const { return is_fused(info_, runner_.plan()); }
 
 bool Lighting::is_cull_pass(std::string_view name) const {
   const std::vector<Pass>& passes = fused() ? runner_.plan().fused->passes : runner_.plan().passes;
-  return name == vulkan::UPLOAD_PASS || name == vulkan::CLEAR_PASS ||
+  return name == vulkan::UPLOAD_PASS || name == vulkan::CLEAR_PASS || name == CullerPass::NAME ||
          std::ranges::any_of(passes, [&](const Pass& pass) { return pass.name == name; });
 }
 
 void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {
+  if (culler_) return culler_->record(recorder, frame);
   static_cast<void>(take(runner_.record(recorder, frame.inputs)));
+}
+
+vulkan::BoundLookUp Lighting::lookup(const LightingFrame& frame) const {
+  if (culler_) return culler_->lookup();
+  return runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate, frame.view);
+}
+
+void Lighting::record_counts(vulkan::Recorder& recorder, const vulkan::Buffer& to) {
+  if (!culler_) runner_.record_counts(recorder, to);
+}
+
+vulkan::FrameCounts Lighting::counts(const vulkan::Buffer& read) const {
+  if (culler_) return {.counters = culler_->counters()};
+  if (runner_.plan().counters == NO_RESOURCE) return {};
+  return vulkan::read_counts(runner_.plan(), read.mapped());
 }
 
 void Lighting::finish() {
   for (vulkan::PlanRunner* runner : {&runner_, any_depth_runner_ ? &*any_depth_runner_ : nullptr})
     if (runner != nullptr && runner->records() != 0) runner->finish(runner->records());
+  if (culler_) culler_->finish();
 }
 
 void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame) {
@@ -117,7 +135,7 @@ void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
     frame.geometry.record_gbuffer(recorder, frame.scene, frame.data, frame.targets);
   if (!decals_) return;
   record_cull(recorder, frame);
-  decals_->record(recorder, frame.data, frame.targets, runner_.lookup(frame.inputs, Passes::separate, frame.view));
+  decals_->record(recorder, frame.data, frame.targets, lookup(frame));
 }
 
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
@@ -145,9 +163,9 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}},
                                 .depth = &frame.targets.depth,
                                 .depth_use = Attachments::Depth::test};
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs, Passes::separate, frame.view);
+  const vulkan::BoundLookUp walked = lookup(frame);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
-  append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
+  append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS)});
   append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
@@ -158,21 +176,21 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
                          .frame = &frame.data,
                          .draws = frame.scene.opaque(),
                          .pipeline = &shade_,
-                         .more = with_decals_and_shadows(lookup.resources, frame)});
+                         .more = with_decals_and_shadows(walked.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }
 
 void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame) {
   const Attachments attachments{.colors = {{&frame.targets.hdr, Load::clear, frame.scene.scene().sky}}};
-  const vulkan::BoundLookUp lookup = runner_.lookup(frame.inputs, Passes::separate, frame.view);
+  const vulkan::BoundLookUp walked = lookup(frame);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
   bound = with_shadows(std::move(bound), frame);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
-  append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
-  append(bound, lookup.resources);
+  append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
+  append(bound, walked.resources);
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
@@ -184,8 +202,7 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
 
 void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const vulkan::BoundLookUp lookup =
-      runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate, frame.view);
+  const vulkan::BoundLookUp walked = lookup(frame);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame_constants()},
                  {2, frame.targets.hdr.storage()},
@@ -199,8 +216,8 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.data.lights(), COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
-  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, lookup.buffer_uses(COMPUTE));
-  append(bound, lookup.resources);
+  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, walked.buffer_uses(COMPUTE));
+  append(bound, walked.resources);
   bound = with_shadows(std::move(bound), frame);
   append(uses, shadow_uses(frame, COMPUTE));
   const glm::uvec2 group = shade_group(info_, runner_.plan());
@@ -233,8 +250,8 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
 
 void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame) {
   vulkan::PlanRunner& runner = any_depth_runner_ ? *any_depth_runner_ : runner_;
-  const bool walked = info_.path != ShadingPath::standard_deferred || decals_;
-  const bool culled = !any_depth_runner_ && walked && !fused();
+  const bool walks = info_.path != ShadingPath::standard_deferred || decals_;
+  const bool culled = !any_depth_runner_ && walks && !fused();
   recorder.name_group("transparent");
   if (!culled) static_cast<void>(take(runner.record(recorder, frame.inputs)));
   recorder.name_group("");
@@ -246,9 +263,9 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   });
   const Attachments attachments{
       .colors = {{&frame.targets.hdr}}, .depth = &frame.targets.depth, .depth_use = Attachments::Depth::test};
-  const vulkan::BoundLookUp lookup = runner.lookup(frame.inputs, Passes::separate, frame.view);
+  const vulkan::BoundLookUp walked = culled ? lookup(frame) : runner.lookup(frame.inputs, Passes::separate, frame.view);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
-  append(uses, lookup.buffer_uses(GRAPHICS_SHADERS));
+  append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS)});
   append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
@@ -259,7 +276,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
                          .frame = &frame.data,
                          .draws = far_to_near,
                          .pipeline = &transparent_,
-                         .more = with_decals_and_shadows(lookup.resources, frame)});
+                         .more = with_decals_and_shadows(walked.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "render/culler_pass.h"
 #include "render/decal_pass.h"
 #include "render/geometry.h"
 #include "render/lighting_pipelines.h"
@@ -23,6 +24,7 @@ struct LightingFrame {
   vulkan::PlanInputs inputs;               ///< what is culled: `data` and `targets.depth`, or more views and samples
   std::uint32_t view = 0;                  ///< which of them `data` is
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
+  std::span<const View> views;             ///< all that are culled
   glm::vec3 eye{0.0F};
   ShadowBound shadows{};        ///< what look-ups of shadows bind
   bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none
@@ -46,6 +48,10 @@ class Lighting {
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   [[nodiscard]] bool fused() const;
+  /// Copies what the frame counted to a buffer of so many bytes, for `counts`.
+  [[nodiscard]] std::uint64_t count_bytes() const { return vulkan::count_bytes(runner_.plan()); }
+  void record_counts(vulkan::Recorder& recorder, const vulkan::Buffer& to);
+  [[nodiscard]] vulkan::FrameCounts counts(const vulkan::Buffer& read) const;
   /// The options that `vulkan::Culler` would grow to after a frame that needed so much (of the plan's capacities).
   /// Nothing if everything fitted, or nothing can grow.
   [[nodiscard]] std::optional<Options> grown(std::span<const std::uint32_t> needed) const;
@@ -58,6 +64,7 @@ class Lighting {
 
  private:
   using Passes = vulkan::PlanRunner::Passes;
+  [[nodiscard]] vulkan::BoundLookUp lookup(const LightingFrame& frame) const;
   void shade_forward(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame);
@@ -67,6 +74,7 @@ class Lighting {
   LightingInfo info_;
   DeviceTraits traits_;
   vulkan::PlanRunner runner_;
+  std::optional<CullerPass> culler_;                    ///< records instead, for such a host
   std::optional<vulkan::PlanRunner> any_depth_runner_;  ///< for transparent surfaces, if the method needs another
   vulkan::Pipeline shade_;
   vulkan::Pipeline volumes_;

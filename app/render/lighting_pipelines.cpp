@@ -95,9 +95,15 @@ std::span<const std::string_view> path_names() {
   return NAMES;
 }
 
+std::span<const std::string_view> host_names() {
+  static constexpr std::array<std::string_view, 4> NAMES{"plan", "culler", "larger-plan", "changing-size"};
+  return NAMES;
+}
+
 Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
-  return {.width = info.width,
-          .height = info.height,
+  const std::uint32_t sides = info.host == Host::larger_plan || info.host == Host::changing_size ? 2 : 1;
+  return {.width = info.width * sides,
+          .height = info.height * sides,
           .views = info.depth.views,
           .light_capacity = info.light_capacity,
           .options = info.options,
@@ -121,7 +127,8 @@ vulkan::Constant shown_view_constant(const Plan& plan) { return {CONSTANT_SEVERA
 
 bool is_fused(const LightingInfo& info, const Plan& plan) {
   // Decals must be in the G-buffer before it is lit, and need the cells for that: the cull comes first.
-  return info.path == ShadingPath::tiled_deferred && plan.fused.has_value() && !info.decals;
+  return info.path == ShadingPath::tiled_deferred && plan.fused.has_value() && !info.decals &&
+         info.host != Host::culler;
 }
 
 glm::uvec2 shade_group(const LightingInfo& info, const Plan& plan) {

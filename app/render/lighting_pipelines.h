@@ -33,6 +33,16 @@ struct Rows {
   std::uint32_t count = 0;
 };
 
+/// Who records the cull, and of what size its buffers are: hosts differ in that.
+enum class Host : std::uint8_t {
+  plan,           ///< a plan runner, made for the frame's size
+  culler,         ///< a Culler, made for it
+  larger_plan,    ///< a plan runner for frames twice as wide and high
+  changing_size,  ///< likewise, and no frame has the size of the one before
+};
+/// "plan", "culler", "larger-plan", "changing-size", in the order of Host.
+[[nodiscard]] std::span<const std::string_view> host_names();
+
 struct LightingInfo {
   const Method* method = nullptr;
   Options options;
@@ -41,7 +51,8 @@ struct LightingInfo {
   std::uint32_t light_capacity = 0;  ///< decals included
   ShadingPath path = ShadingPath::deferred;
   Brdf brdf = Brdf::ggx;
-  HostDepth depth;                      ///< of the frames
+  HostDepth depth;  ///< of the frames
+  Host host = Host::plan;
   bool transparency = false;            ///< the scene has blended surfaces
   bool captured = false;                ///< the scene is a captured frame
   bool decals = false;                  ///< the frames have decals

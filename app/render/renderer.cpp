@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstring>
 #include <ranges>
+#include <utility>
 
 #include "gpu/check.h"
 #include "render/antialias.h"
@@ -56,10 +57,8 @@ std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
   return values;
 }
 
-/// Of a plan that counts.
-void add_counts(Rendered& rendered, const Plan& plan, const vulkan::Buffer& counts) {
-  if (plan.counters == NO_RESOURCE) return;
-  vulkan::FrameCounts counted = vulkan::read_counts(plan, counts.mapped());
+void add_counts(Rendered& rendered, const Lighting& lighting, const vulkan::Buffer& counts) {
+  vulkan::FrameCounts counted = lighting.counts(counts);
   rendered.counters = counted.counters;
   rendered.needed = std::move(counted.needed);
 }
@@ -167,6 +166,7 @@ LightingFrame Renderer::lighting_frame() const {
           .inputs = plan_inputs(),
           .view = shown_.view,
           .kept = kept_ ? &*kept_ : nullptr,
+          .views = all_pictures_ ? std::span<const View>(views_) : std::span<const View>(&shown_view_, 1),
           .eye = glm::vec3(glm::dmat4(shown_view_.world_from_view())[3]),
           .shadows = shadow_bound()};
 }
@@ -195,8 +195,7 @@ Rendered Renderer::relight(Lighting& lighting) { return render_frames(lighting, 
 Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
   const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
-  const Plan& plan = lighting.runner().plan();
-  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
+  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", lighting.count_bytes());
   FrameTimes times(frames);
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
@@ -208,7 +207,7 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
       timestamps_.finish(commands);
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
-      lighting.runner().record_counts(recorder, counts);
+      lighting.record_counts(recorder, counts);
     });
     if (i >= warm_up) times.add(timestamps_.read(), lighting);
   }
@@ -216,13 +215,12 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   tracker_.forget(counts.handle());
   Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
   times.fill(rendered, lighting);
-  add_counts(rendered, plan, counts);
+  add_counts(rendered, lighting, counts);
   return rendered;
 }
 
 Rendered Renderer::draw(Lighting& lighting, const std::function<void(vulkan::Recorder&)>& more) {
-  const Plan& plan = lighting.runner().plan();
-  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
+  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", lighting.count_bytes());
   FrameTimes times;
   submit(&lighting, [&](VkCommandBuffer commands) {
     timestamps_.reset(commands);
@@ -231,13 +229,13 @@ Rendered Renderer::draw(Lighting& lighting, const std::function<void(vulkan::Rec
     timestamps_.finish(commands);
     vulkan::Recorder untimed(context_.device(), commands, tracker_);
     more(untimed);
-    lighting.runner().record_counts(untimed, counts);
+    lighting.record_counts(untimed, counts);
   });
   tracker_.forget(counts.handle());
   times.add(timestamps_.read(), lighting);
   Rendered rendered;
   times.fill(rendered, lighting);
-  add_counts(rendered, plan, counts);
+  add_counts(rendered, lighting, counts);
   return rendered;
 }
 
@@ -249,18 +247,30 @@ void Renderer::also(const std::function<void(vulkan::Recorder&)>& record) {
 }
 
 vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
-  const Plan& plan = lighting.runner().plan();
-  if (plan.counters == NO_RESOURCE) return {};
+  if (lighting.runner().plan().counters == NO_RESOURCE) return {};
   need_surfaces();
-  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", vulkan::count_bytes(plan));
+  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", lighting.count_bytes());
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
     lighting.record_cull(recorder, lighting_frame());
-    lighting.runner().record_counts(recorder, counts);
+    lighting.record_counts(recorder, counts);
   });
   forget(counts);
-  return vulkan::read_counts(plan, counts.mapped());
+  return lighting.counts(counts);
+}
+
+void Renderer::cull_as(Lighting& lighting, const View& other) {
+  assert(!all_pictures_ && "of one view, with one sample a pixel");
+  const View shown = std::exchange(shown_view_, other);
+  data_.set_view(other);
+  submit(&lighting, [&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    record_upload(recorder);
+    lighting.record_cull(recorder, lighting_frame());
+  });
+  shown_view_ = shown;
+  data_.set_view(shown);
 }
 
 void Renderer::wake(Lighting& lighting) {
@@ -371,6 +381,7 @@ vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
 }
 
 void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
+  if (depth_.several()) need_surfaces();  // of the picture that is shown; the targets may have another's
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const glm::uvec2 group_px = group_of(pass);
   const std::uint32_t rows = is_fused(pass) || pass.rows.count == 0 ? targets_->height : pass.rows.count;

@@ -109,6 +109,10 @@ class Renderer {
   /// is needed of the plan's capacities; nothing of a plan that does not count.
   [[nodiscard]] vulkan::FrameCounts cull(Lighting& lighting);
 
+  /// Culls the depth that is there as if it were of another view, of one size or smaller, and shades nothing: what the
+  /// frame before one's own may have been.
+  void cull_as(Lighting& lighting, const View& other);
+
   /// A GPU that waits for the host lowers its clocks, and what is timed then says nothing. Renders untimed frames for
   /// about as long as it waited; nothing after a wait of less than 5 ms, and of a software device.
   void wake(Lighting& lighting);

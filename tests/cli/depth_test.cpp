@@ -72,15 +72,38 @@ TEST_F(DepthTest, BothEyesShareThePicture) {
   EXPECT_EQ(rows.at(0).at("missed"), 0);
 }
 
+// Clusters are looked up at each picture's own depth.
 TEST_F(DepthTest, IsMeasured) {
+  write("hosts.json", R"({"version": 1, "name": "hosts", "series": [
+    {"name": "samples", "methods": ["clustered"], "scenes": ["posts"], "sizes": ["38x24"], "lights": [70],
+     "depth": "standard", "depth_samples": 4, "frames": 1, "warm_up": 0},
+    {"name": "eyes", "methods": ["clustered"], "scenes": ["posts"], "sizes": ["38x24"], "lights": [70],
+     "stereo": 0.5, "frames": 1, "warm_up": 0},
+    {"name": "hosts", "methods": [{"name": "clustered", "host": "culler"}, {"name": "clustered", "host": "larger-plan"},
+                                  {"name": "clustered", "host": "changing-size"}],
+     "scenes": ["posts"], "sizes": ["38x24"], "lights": [70], "frames": 1, "warm_up": 0}]})");
+  static_cast<void>(output_of({"bench", "hosts.json", "--out", "folder"}));
+  const auto results = nlohmann::json::parse(read("folder/results.json")).at("results");
+  ASSERT_EQ(results.size(), 5);
+  for (const auto& result : results) {
+    SCOPED_TRACE(result.at("key"));
+    EXPECT_EQ(result.at("verdict"), "exact");
+    EXPECT_GT(result.at("times").at("cull").at("median"), 0.0);
+  }
+  EXPECT_EQ(results.at(0).at("parameters").at("depth"), "standard");
+  EXPECT_EQ(results.at(0).at("parameters").at("depth_samples"), 4);
+  EXPECT_NE(results.at(0).at("key").get<std::string>().find(" depth=standard depth_samples=4 "), std::string::npos);
+  EXPECT_EQ(results.at(1).at("parameters").at("stereo"), 0.5);
+  EXPECT_EQ(results.at(2).at("parameters").at("host"), "culler");
+  EXPECT_NE(results.at(4).at("key").get<std::string>().find(" host=changing-size "), std::string::npos);
+}
+
+TEST_F(DepthTest, IsMeasuredOnAScene) {
   static_cast<void>(output_of(with({"bench", "plane", "--method", "tiled", "--depth", "standard", "--depth-samples",
                                     "4", "--frames", "1", "--warm-up", "0", "--out", "folder"},
                                    SMALL)));
   const auto result = nlohmann::json::parse(read("folder/results.json")).at("results").at(0);
-  EXPECT_EQ(result.at("verdict"), "exact");
-  EXPECT_EQ(result.at("parameters").at("depth"), "standard");
   EXPECT_EQ(result.at("parameters").at("depth_samples"), 4);
-  EXPECT_NE(result.at("key").get<std::string>().find(" depth=standard depth_samples=4 "), std::string::npos);
 }
 
 TEST_F(DepthTest, WhatDoesNotGoTogetherIsRefused) {
