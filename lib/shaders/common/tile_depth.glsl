@@ -21,13 +21,13 @@ uint tile_samples(DepthImage depth_image) { return TILE_PX * TILE_PX * samples_o
 
 // The pixel of the tile's i-th sample.
 uvec2 tile_pixel(DepthImage depth_image, uvec2 tile, uint i) {
-  const uint pixel = i / samples_of(depth_image);
+  const uint pixel = i >> uint(findMSB(samples_of(depth_image)));  // which are a power of two
   return tile * TILE_PX + uvec2(pixel % TILE_PX, pixel / TILE_PX);
 }
 
 // The key of the tile's i-th sample; that of sky beyond the picture.
 uint tile_sample_key(Frame frame, DepthImage depth_image, uvec2 tile, uint i) {
-  return depth_key_at(frame, depth_image, tile_pixel(depth_image, tile, i), i % samples_of(depth_image));
+  return depth_key_at(frame, depth_image, tile_pixel(depth_image, tile, i), i & (samples_of(depth_image) - 1u));
 }
 
 // For all threads of the group together.

@@ -40,9 +40,9 @@ uvec2 reduce_tree(uint least, uint greatest) {
 uint own_samples() { return 4u * samples_of(depth_image); }
 
 uint read_key(uint i) {
-  const uint pixel = i / samples_of(depth_image);
+  const uint pixel = i >> uint(findMSB(samples_of(depth_image)));  // which are a power of two
   return depth_key_at(frame, depth_image, gl_GlobalInvocationID.xy * 2u + uvec2(pixel & 1u, pixel >> 1),
-                      i % samples_of(depth_image));
+                      i & (samples_of(depth_image) - 1u));
 }
 
 #ifdef MULTISAMPLED
