@@ -58,7 +58,10 @@ TEST_P(ShadowCut, ChangesNoPictureThroughAnyMethod) {
       Lighting whole = lighting("none");
       Lighting cut = lighting("radial");
       const HdrImage expected = renderer.render(whole).image;
-      EXPECT_EQ(max_abs_difference(renderer.render(cut).image, expected), 0.0F);
+      // Lists without an order are added up in another one each time.
+      const Plan& plan = cut.runner().plan();
+      const float tolerance = plan.ordered ? 0.0F : picture_tolerance(plan, expected);
+      EXPECT_LE(max_abs_difference(renderer.render(cut).image, expected), tolerance);
       EXPECT_LE(walked(renderer, cut), walked(renderer, whole));
     }
   }

@@ -45,7 +45,8 @@ WorldPlace lookup_place(vec3 position, uint level) {
   if (level != WORLD_EVERYTHING) {
     const vec3 at = position * bricks_a_metre(level);
     brick = floor(at);
-    place.lies = max(abs(brick.x), max(abs(brick.y), abs(brick.z))) < WORLD_FARTHEST;
+    // Each by itself: the maximum of what is no number and a number may be either.
+    place.lies = abs(brick.x) < WORLD_FARTHEST && abs(brick.y) < WORLD_FARTHEST && abs(brick.z) < WORLD_FARTHEST;
     const vec3 inside = floor(at * 4.0) - brick * 4.0;  // whole numbers: at - brick alone could round up to 1
     place.cell = uint(inside.x) + 4u * (uint(inside.y) + 4u * uint(inside.z));
   }
