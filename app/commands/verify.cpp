@@ -61,14 +61,25 @@ void progress(std::string_view text) {
   if (shows_progress()) print_error("\r\033[K{}", text);
 }
 
+/// A look-up by position knows a pixel's centre, not its samples.
+bool asks_for_centres(const VerifyOptions& o, const Method& method) {
+  return o.request.depth_samples > 1 && method.any_point;
+}
+
 std::vector<std::string> wanted_methods(const VerifyOptions& o) {
   check_once("--method", o.methods);
   std::vector<std::string> wanted = o.methods;
   if (wanted.empty())
-    for (const Method& method : methods()) wanted.emplace_back(method.name);
+    for (const Method& method : methods())
+      if (!asks_for_centres(o, method)) wanted.emplace_back(method.name);
   if (wanted.size() != 1 && !o.request.options.empty())
     throw Error("--option: belongs to one method; name it with --method");
-  for (const std::string& method : wanted) check_request(o.request, method);
+  for (const std::string& method : wanted) {
+    check_request(o.request, method);
+    if (!is_auto(method) && asks_for_centres(o, parse_method(method)))
+      throw Error(fmt::format("--depth-samples {}: {} looks lights up at pixels' centres, expected 1",
+                              o.request.depth_samples, method));
+  }
   return wanted;
 }
 

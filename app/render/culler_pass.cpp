@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/culler_pass.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -13,7 +15,7 @@ namespace {
 
 std::vector<std::string> words_of(const Options& options) {
   std::vector<std::string> words;
-  for (const auto& [key, value] : options.all()) words.push_back(key + "=" + value);
+  for (const auto& [key, value] : options.all()) words.push_back(fmt::format("{}={}", key, value));
   return words;
 }
 

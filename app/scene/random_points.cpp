@@ -61,7 +61,7 @@ PointSource::PointSource(const Scene& scene, OpenAir air, const glm::vec3& eye)
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (std::uint32_t at = 0; at + 2 < mesh.index_count; at += 3) {
-      std::array<glm::vec3, 3> corners;
+      std::array<glm::vec3, 3> corners{};
       for (std::uint32_t i = 0; i < 3; ++i) {
         const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + at + i] + mesh.vertex_offset];
         corners[i] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0F));

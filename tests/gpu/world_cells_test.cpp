@@ -175,9 +175,9 @@ TEST_F(WorldCells, TakeAllLightsInOneCell) {
 }
 
 TEST_F(WorldCells, WalkEveryLightWhereRoomIsLacking) {
-  Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F),
-              .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
-              .settings = {"mean_bricks=1"}};
+  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F),
+                    .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
+                    .settings = {"mean_bricks=1"}};
   const Answered answered = ask(asked);
   EXPECT_GT(answered.counters.overflowed_cells, 0);
   EXPECT_GT(answered.counters.entries_needed, LIGHTS);
