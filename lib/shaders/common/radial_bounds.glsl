@@ -15,7 +15,7 @@ bool radial_cells_are_lit(uint light, RadialCells cells) {
   for (uint y = cells.first.y; y <= cells.last.y; ++y)
     for (uint x = cells.first.x; x <= cells.last.x; ++x) {
       const uint i = RADIAL_SIDE * y + x;
-      const uint reach = radial_bounds[light].bytes[i / 4u] >> (8u * (i % 4u)) & 255u;
+      const uint reach = radial_bounds[light].bytes[i / 16u][i / 4u % 4u] >> (8u * (i % 4u)) & 255u;
       if (reach == RADIAL_ANY || least <= float(reach)) return true;
     }
   return false;

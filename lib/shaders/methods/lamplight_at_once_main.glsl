@@ -26,9 +26,7 @@ layout(set = 0, binding = 8) uniform DepthImage depth_image;
 #endif
 
 shared uint s_lights[PIECE];
-// A bit for each light that may reach the cell. One word more: spirv-opt makes one type of an array of PIECE_WORDS and
-// that of RadialBound, which has a buffer's layout, and shared memory has none.
-shared uint s_words[PIECE_WORDS + 1u];
+shared uint s_words[PIECE_WORDS];  // a bit for each light that may reach the cell
 #include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_tile_depths.glsl"

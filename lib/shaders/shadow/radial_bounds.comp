@@ -92,5 +92,5 @@ void main() {
   if (thread >= CELLS / 4u) return;
   uint word = 0u;
   for (uint i = 0u; i < 4u; ++i) word |= s_bytes[thread * 4u + i] << (8u * i);
-  bounds[light].bytes[thread] = word;
+  bounds[light].bytes[thread / 4u][thread % 4u] = word;
 }

@@ -26,7 +26,8 @@ struct RadialBound {
   float scale;    // spots: bytes from the square's middle for 1 aside at depth 1
   vec3 axis_z;
   float unit_m;    // of a byte
-  uint bytes[16];  // byte (x, y) is number 8 y + x, four a word, the first lowest
+  // No array of words: spirv-opt would make one type of it and of shared memory of as many, which has no layout.
+  uvec4 bytes[4];  // byte (x, y) is number 8 y + x, four a word, the first lowest
 };
 
 // A light whose bound is to be made: its index, and whether its map shows all that it reaches now (shadow_shows_all).
