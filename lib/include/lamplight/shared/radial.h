@@ -25,7 +25,7 @@ struct RadialBound {
   vec3 axis_x;    // spots: as of the map
   float scale;    // spots: bytes from the square's middle for 1 aside at depth 1
   vec3 axis_z;
-  float unit_m;    // of a byte
+  float unit_m;  // of a byte
   // No array of words: spirv-opt would make one type of it and of shared memory of as many, which has no layout.
   uvec4 bytes[4];  // byte (x, y) is number 8 y + x, four a word, the first lowest
 };
