@@ -18,6 +18,7 @@
 #include "render/antialias.h"
 #include "render/gpu_verifier.h"
 #include "system/print.h"
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
@@ -57,29 +58,14 @@ void collect_misses(Candidate& candidate) {
     candidate.misses.insert(candidate.misses.end(), found->misses().begin(), found->misses().end());
 }
 
-void progress(std::string_view text) {
-  if (shows_progress()) print_error("\r\033[K{}", text);
-}
-
-/// A look-up by position knows a pixel's centre, not its samples.
-bool asks_for_centres(const VerifyOptions& o, const Method& method) {
-  return o.request.depth_samples > 1 && method.any_point;
-}
-
 std::vector<std::string> wanted_methods(const VerifyOptions& o) {
   check_once("--method", o.methods);
   std::vector<std::string> wanted = o.methods;
   if (wanted.empty())
-    for (const Method& method : methods())
-      if (!asks_for_centres(o, method)) wanted.emplace_back(method.name);
+    for (const Method& method : methods()) wanted.emplace_back(method.name);
   if (wanted.size() != 1 && !o.request.options.empty())
     throw Error("--option: belongs to one method; name it with --method");
-  for (const std::string& method : wanted) {
-    check_request(o.request, method);
-    if (!is_auto(method) && asks_for_centres(o, parse_method(method)))
-      throw Error(fmt::format("--depth-samples {}: {} looks lights up at pixels' centres, expected 1",
-                              o.request.depth_samples, method));
-  }
+  for (const std::string& method : wanted) check_request(o.request, method);
   return wanted;
 }
 
@@ -100,8 +86,8 @@ void visit_band(Session& session, const Truth& all, std::vector<Candidate>& cand
     const bool cut = is_cut(session, candidate.lighting);
     if (cut && !lit) lit = lit_truth(session.renderer(), session.shaders(), all);
     const Truth& truth = cut ? *lit : all;
-    progress(fmt::format("verify rows {} .. {}: {}", truth.first_row, truth.first_row + truth.rows,
-                         candidate.lighting.info().method->name));
+    show_progress(fmt::format("verify rows {} .. {}: {}", truth.first_row, truth.first_row + truth.rows,
+                              candidate.lighting.info().method->name));
     const FramePicture of = session.renderer().shown();
     candidate.separate.add(truth, session.renderer().visit(candidate.lighting, truth), of);
     if (candidate.lighting.runner().plan().fused)
@@ -124,10 +110,10 @@ void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>
 
 void find_by_gpu(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
   using Passes = vulkan::PlanRunner::Passes;
-  progress("verify: every light at every pixel");
+  show_progress("verify: every light at every pixel");
   GpuVerifier verifier(session.renderer(), setup.lights);
   for (Candidate& candidate : candidates) {
-    progress(fmt::format("verify: {}", candidate.lighting.info().method->name));
+    show_progress(fmt::format("verify: {}", candidate.lighting.info().method->name));
     std::vector<PixelMisses>& misses = candidate.misses;
     candidate.findings = verifier.check(candidate.lighting, Passes::separate, &misses);
     if (candidate.lighting.runner().plan().fused)
@@ -140,7 +126,7 @@ void visit_decals(Session& session, const Truth& truth, std::vector<Candidate>& 
   using Passes = vulkan::PlanRunner::Passes;
   constexpr Renderer::Kind DECALS = Renderer::Kind::decals;
   for (Candidate& candidate : candidates) {
-    progress(fmt::format("verify decals: {}", candidate.lighting.info().method->name));
+    show_progress(fmt::format("verify decals: {}", candidate.lighting.info().method->name));
     const FramePicture of = session.renderer().shown();
     candidate.decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::separate, DECALS), of);
     if (candidate.lighting.runner().plan().fused)
@@ -175,7 +161,7 @@ std::uint32_t changed_runs(Session& session, Candidate& candidate, std::uint32_t
   const std::vector<Visit> first = visit_all(session, candidate.lighting);
   std::uint32_t changed = 0;
   for (std::uint32_t run = 1; run < runs; ++run) {
-    progress(fmt::format("verify run {} of {}: {}", run + 1, runs, candidate.lighting.info().method->name));
+    show_progress(fmt::format("verify run {} of {}: {}", run + 1, runs, candidate.lighting.info().method->name));
     if (!same_lists(visit_all(session, candidate.lighting), first)) ++changed;
   }
   return changed;
@@ -199,7 +185,7 @@ float picture_difference(Session& session, const Setup& setup, Candidate& candid
 Stats make_row(const VerifyOptions& o, Session& session, const Setup& setup, Candidate& candidate,
                const std::optional<HdrImage>& reference) {
   if (o.runs > 1) candidate.findings.changed_runs = changed_runs(session, candidate, o.runs);
-  progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
+  show_progress(fmt::format("verify picture: {}", candidate.lighting.info().method->name));
   session.renderer().wake(candidate.lighting);
   Rendered rendered = render_views(session.renderer(), candidate.lighting, setup.lights, setup.decals, {});
   const Plan& plan = candidate.lighting.runner().plan();
@@ -315,7 +301,7 @@ Exit verify(const VerifyOptions& o) {
   const Verifier verifier = verifier_of(o, setup, session.context());
   std::vector<Stats> refused;
   std::vector<Candidate> candidates = make_candidates(o, session, setup, wanted, refused);
-  progress("verify picture: brute force");
+  show_progress("verify picture: brute force");
   std::optional<HdrImage> reference;
   HdrImage first;  // where there is no reference
   const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
@@ -342,7 +328,7 @@ Exit verify(const VerifyOptions& o) {
     if (rows.back().shadows) rows.back().shadows->truth = shadows;
   }
   rows.insert(rows.end(), refused.begin(), refused.end());
-  progress("");
+  show_progress("");
   write_misses(o, candidates, reference ? *reference : first);
   print_rows(o, session, setup, rows);
   if (!o.out.empty() && !o.json) print_out("picture: {}\n", o.out);

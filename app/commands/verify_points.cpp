@@ -10,11 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/command_line.h"
+#include "commands/verify_rows.h"
 #include "files/read_json.h"
 #include "gpu/check.h"
 #include "render/point_check.h"
 #include "scene/random_points.h"
 #include "system/print.h"
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
@@ -31,10 +33,6 @@ struct PointRow {
   std::uint64_t bytes = 0;
   std::vector<std::string> notes;
 };
-
-void progress_of_points(std::string_view text) {
-  if (shows_progress()) print_error("\r\033[K{}", text);
-}
 
 std::vector<const Method*> methods_at_points(const Request& request, const PointsRequest& of) {
   check_once("--method", of.methods);
@@ -92,8 +90,7 @@ void print_rows(const Request& request, const Context& context, const Setup& set
   for (const PointRow& row : rows) {
     const PointFindings& f = row.findings;
     print_out("{:<16} {:<22} {:>8} {:>8} {:>12} {:>12} {:>7.2f} {:>8}  {}\n", row.method, row.kind, row.points,
-              f.missed, f.evaluations, f.useful, f.waste(), f.list_max,
-              f.verdict() == Verdict::failed ? "FAILED" : std::string(name_of(f.verdict())));
+              f.missed, f.evaluations, f.useful, f.waste(), f.list_max, table_words(f.verdict()));
     if (const std::string reason = f.reason(); !reason.empty()) print_out("  {}\n", reason);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -138,7 +135,7 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
                                          .traits = context.device().traits}));
     PointWalks walks(context, shaders, std::move(plan), setup.view, setup.lights);
     for (const PointKind kind : POINT_KINDS) {
-      progress_of_points(fmt::format("verify points: {}, {}", method->name, name_of(kind)));
+      show_progress(fmt::format("verify points: {}, {}", method->name, name_of(kind)));
       const std::vector<glm::vec3> points = source.draw(kind, of.points, request.seed);
       PointRow row{.method = std::string(method->name), .kind = std::string(name_of(kind)), .points = points.size()};
       row.findings = check_kind(walks, setup, points);
@@ -148,7 +145,7 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
       rows.push_back(std::move(row));
     }
   }
-  progress_of_points("");
+  show_progress("");
   Verdict worst = Verdict::ok;
   for (const PointRow& row : rows) worst = std::max(worst, row.findings.verdict());
   if (of.json) {

@@ -20,10 +20,6 @@ std::string number_or_dash(const char* format, const std::optional<Number>& numb
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
 
-std::string verdict_words(Verdict verdict) {
-  return verdict == Verdict::failed ? "FAILED" : std::string(name_of(verdict));
-}
-
 void print_decals(const Stats& s) {
   const Findings& f = *s.decal_findings;
   print_out("  decals: {} missed, {} walked for {} that hold their pixel, {} on a boundary\n", f.missed, f.evaluations,
@@ -36,7 +32,7 @@ void print_numbers(const Stats& s) {
   print_out("{:<24} {:>8} {:>14} {:>9.2f} {:>9} {:>9.1f} {:>9} {:>10} {:>11} {:>10.3f}  {}\n", s.method, f.missed,
             f.evaluations, f.waste(), number_or_dash("{:.2f}", f.excess()), f.list_mean(), f.list_max,
             s.rendered.counters.overflowed_cells, number_or_dash("{:.3g}", s.image_max_abs_diff), s.rendered.cull_ms,
-            verdict_words(s.judgement->verdict));
+            table_words(s.judgement->verdict));
 }
 
 /// What does not fit into the columns.
@@ -51,12 +47,16 @@ void print_more(const Stats& s) {
 
 }  // namespace
 
+std::string table_words(Verdict verdict) {
+  return verdict == Verdict::failed ? "FAILED" : std::string(name_of(verdict));
+}
+
 void print_table(std::span<const Stats> rows) {
   print_out("{:<24} {:>8} {:>14} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>10}  {}\n", "method", "missed", "evaluations",
             "waste", "excess", "mean", "longest", "overflowed", "difference", "cull ms", "");
   for (const Stats& s : rows) {
     if (!s.findings) {
-      print_out("{:<24} {}: {}\n", s.method, verdict_words(s.judgement->verdict), s.judgement->reason);
+      print_out("{:<24} {}: {}\n", s.method, table_words(s.judgement->verdict), s.judgement->reason);
       continue;
     }
     print_numbers(s);

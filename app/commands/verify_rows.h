@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "commands/stats.h"
 
@@ -10,6 +11,8 @@ namespace lamp::app {
 
 /// Every row has a judgement; one without findings is of a method that cannot run here. `inf` is explained below.
 void print_table(std::span<const Stats> rows);
+/// In such a table: "ok", "FAILED".
+[[nodiscard]] std::string table_words(Verdict verdict);
 /// An array of Stats objects.
 void print_json(std::span<const Stats> rows);
 

@@ -23,6 +23,10 @@ void Progress::clear() const {
   if (drawn_ != start_) print_error("\r\033[K");
 }
 
+void show_progress(std::string_view text) {
+  if (shows_progress()) print_error("\r\033[K{}", text);
+}
+
 std::string about(double seconds) {
   if (seconds < 90.0) return fmt::format("about {:.0f} s", seconds);
   if (seconds < 5400.0) return fmt::format("about {:.0f} min", seconds / 60.0);

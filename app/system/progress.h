@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace lamp::app {
 
@@ -21,6 +22,10 @@ class Progress {
   Clock::time_point start_;
   Clock::time_point drawn_;
 };
+
+/// A line of progress without an end in sight, in place of the last one; empty: takes it away. Nothing where none is
+/// shown.
+void show_progress(std::string_view text);
 
 /// "about 40 s", "about 3 min", "about 2 h".
 [[nodiscard]] std::string about(double seconds);

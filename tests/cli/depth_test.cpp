@@ -110,8 +110,6 @@ TEST_F(DepthTest, WhatDoesNotGoTogetherIsRefused) {
   expect_error(BAD_INPUT, {"verify", "--depth", "standart"}, {"--depth 'standart'", "nearest are standard, "});
   expect_error(BAD_INPUT, {"verify", "--depth-samples", "3"}, {"--depth-samples 3", "expected 1, 2, 4 or 8"});
   expect_error(BAD_INPUT, {"verify", "plane", "--depth-samples", "4", "--verifier", "gpu"}, {"--verifier gpu"});
-  expect_error(BAD_INPUT, {"verify", "plane", "--depth-samples", "4", "--method", "world-cells"},
-               {"world-cells", "centres"});
   expect_error(BAD_INPUT, {"render", "plane", "--depth-samples", "4", "--samples", "2"},
                {"--samples: got 2", "--depth-samples 4"});
   expect_error(BAD_INPUT, {"bench", "quick", "--depth-samples", "4"}, {"--depth-samples: belongs to a scene"});

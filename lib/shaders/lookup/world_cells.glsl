@@ -14,6 +14,14 @@ LOOKUP_VIEW_WORDS(2, LOOKUP_ENTRIES_VIEW);
 LOOKUP_VIEW_WORDS(3, LOOKUP_BITS_VIEW);
 LOOKUP_VIEW_WORDS(4, LOOKUP_TOTALS_VIEW);
 
+// The view that a pixel's position is of, where a shader draws samples through views of their own.
+#ifndef LOOKUP_POSITION_FRAME
+#define LOOKUP_POSITION_FRAME(view) lookup_frames[view]
+#endif
+vec3 lookup_position(uint view, uvec2 pixel, float z_view) {
+  return world_position(LOOKUP_POSITION_FRAME(view), vec2(pixel) + 0.5, z_view);
+}
+
 void lookup_prepare() {}
 
 LAMP_CONST LOOKUP_STREAMS = WORLD_LEVELS + 1u;
@@ -30,46 +38,12 @@ struct Walk {
   bool all;
 };
 
-// A position's place at a level.
-struct WorldPlace {
-  bool lies;  // in a brick; positions farther out than any light have none
-  uint bucket;
-  uint cell;  // of the brick
-};
-
-WorldPlace lookup_place(vec3 position, uint level) {
-  WorldPlace place;
-  place.lies = true;
-  place.cell = 0u;
-  vec3 brick = position * 0.0;
-  if (level != WORLD_EVERYTHING) {
-    const vec3 at = position * bricks_a_metre(level);
-    brick = floor(at);
-    // Each by itself: the maximum of what is no number and a number may be either.
-    place.lies = abs(brick.x) < WORLD_FARTHEST && abs(brick.y) < WORLD_FARTHEST && abs(brick.z) < WORLD_FARTHEST;
-    const vec3 inside = floor(at * 4.0) - brick * 4.0;  // whole numbers: at - brick alone could round up to 1
-    place.cell = uint(inside.x) + 4u * (uint(inside.y) + 4u * uint(inside.z));
-  }
-  place.bucket = 0u;
-  if (place.lies) place.bucket = bucket_of(level, brick, LOOKUP_BUCKETS);
-  return place;
-}
+#include "lookup/parts/world_place.glsl"
 
 uint lookup_levels(uint view) { return lookup_totals[view * LOOKUP_TOTALS_VIEW + WORLD_TOTALS_LEVELS]; }
 
 WorldBucket lookup_bucket(uint view, uint bucket) {
   return lookup_buckets[view * (LOOKUP_BUCKETS_VIEW / 2u) + bucket];
-}
-
-// The bits of a cell in a block of `width` entries whose words begin at `first`.
-uint lookup_field(uint first, uint cell, uint width) {
-  const uint at = cell * width;
-  const uint word = first + at / 32u;
-  const uint shift = at % 32u;
-  uint field = lookup_bits[word] >> shift;
-  if (shift + width > 32u) field |= lookup_bits[word + 1u] << (32u - shift);
-  if (width < 32u) field &= (1u << width) - 1u;
-  return field;
 }
 
 uint lookup_block(Walk walk, WorldBucket bucket, uint cell, uint block) {
@@ -158,13 +132,12 @@ bool world_walk_next(inout Walk walk, out uint light) {
 uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uint levels = lookup_levels(view);
   if (levels == 0u) return 0u;
-  const vec3 position = world_position(lookup_frames[view], vec2(pixel) + 0.5, z_view);
-  const WorldPlace place = lookup_place(position, LAMP_FIRST_BIT(levels));
+  const WorldPlace place = lookup_place(lookup_position(view, pixel, z_view), LAMP_FIRST_BIT(levels));
   return place.bucket * BRICK_CELLS + place.cell;
 }
 
 Walk walk_begin(uint view, uvec2 pixel, float z_view) {
-  return world_walk_begin(view, world_position(lookup_frames[view], vec2(pixel) + 0.5, z_view));
+  return world_walk_begin(view, lookup_position(view, pixel, z_view));
 }
 bool walk_next(inout Walk walk, out uint light) { return world_walk_next(walk, light); }
 #include "lookup/parts/of_view.glsl"

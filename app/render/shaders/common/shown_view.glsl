@@ -6,5 +6,6 @@
 
 layout(constant_id = 18) const bool SEVERAL_VIEWS = false;  // else nothing asks which
 #define LOOKUP_VIEW (SEVERAL_VIEWS ? frame.view_index : 0u)
+#define LOOKUP_POSITION_FRAME(view) frame  // of the sample that is drawn
 
 #endif

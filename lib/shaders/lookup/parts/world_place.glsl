@@ -1,0 +1,38 @@
+// Where a position's lights are listed: the bucket of its brick at a level, the cell in it, the bits of that cell.
+// Needs: LOOKUP_BUCKETS, `lookup_bits`; common/world_cells.glsl.
+// SPDX-License-Identifier: Apache-2.0
+// A position's place at a level.
+struct WorldPlace {
+  bool lies;  // in a brick; positions farther out than any light have none
+  uint bucket;
+  uint cell;  // of the brick
+};
+
+WorldPlace lookup_place(vec3 position, uint level) {
+  WorldPlace place;
+  place.lies = true;
+  place.cell = 0u;
+  vec3 brick = position * 0.0;
+  if (level != WORLD_EVERYTHING) {
+    const vec3 at = position * bricks_a_metre(level);
+    brick = floor(at);
+    // Each by itself: the maximum of what is no number and a number may be either.
+    place.lies = abs(brick.x) < WORLD_FARTHEST && abs(brick.y) < WORLD_FARTHEST && abs(brick.z) < WORLD_FARTHEST;
+    const vec3 inside = floor(at * 4.0) - brick * 4.0;  // whole numbers: at - brick alone could round up to 1
+    place.cell = uint(inside.x) + 4u * (uint(inside.y) + 4u * uint(inside.z));
+  }
+  place.bucket = 0u;
+  if (place.lies) place.bucket = bucket_of(level, brick, LOOKUP_BUCKETS);
+  return place;
+}
+
+// The bits of a cell in a block of `width` entries whose words begin at `first`.
+uint lookup_field(uint first, uint cell, uint width) {
+  const uint at = cell * width;
+  const uint word = first + at / 32u;
+  const uint shift = at % 32u;
+  uint field = lookup_bits[word] >> shift;
+  if (shift + width > 32u) field |= lookup_bits[word + 1u] << (32u - shift);
+  if (width < 32u) field &= (1u << width) - 1u;
+  return field;
+}
