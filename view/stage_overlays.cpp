@@ -1,8 +1,8 @@
 // What overlays need besides the walks of one method: the other method's, the pictures of both, the shadow atlas.
 // SPDX-License-Identifier: Apache-2.0
-#include <cstring>
 
 #include "gpu/check.h"
+#include "gpu/transfer.h"
 #include "render/judgement.h"
 #include "render/pass_uses.h"
 #include "view/shadow_overlay.h"
@@ -20,19 +20,14 @@ std::vector<Visit> Stage::visits_of_other(const Overlaying& o) {
 Overlaid Stage::shadow_overlay(const ViewState& state) {
   const Shadows& shadows = *renderer_->shadows();
   const std::uint32_t side = shadows.settings().atlas_size;
-  const std::size_t bytes = std::size_t{side} * side * sizeof(float);
-  const vulkan::Buffer buffer =
-      take(vulkan::Buffer::create(context_.device(), {.name = "shadow atlas read-back",
-                                                      .bytes = bytes,
-                                                      .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                      .memory = vulkan::MemoryUse::readback}));
+  const std::size_t count = std::size_t{side} * side;
+  const vulkan::Buffer buffer = readback_buffer(context_.device(), "shadow atlas read-back", count * sizeof(float));
   renderer_->also([&](vulkan::Recorder& recorder) {
     record_copy(recorder, shadows.atlas(), buffer);
     recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
   });
   renderer_->forget(buffer);
-  std::vector<float> texels(bytes / sizeof(float));
-  std::memcpy(texels.data(), buffer.mapped().data(), bytes);
+  const std::vector<float> texels = first_values<float>(buffer, count);
   return make_shadow_overlay(state.palette, {.texels = texels,
                                              .side = side,
                                              .maps = shadows.maps(),

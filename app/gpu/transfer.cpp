@@ -56,6 +56,14 @@ void halve(VkCommandBuffer commands, const GpuImage& image, std::uint32_t level)
 
 }  // namespace
 
+vulkan::Buffer readback_buffer(const vulkan::Device& device, const std::string& name, std::uint64_t bytes) {
+  return take(
+      vulkan::Buffer::create(device, {.name = name,
+                                      .bytes = std::max<std::uint64_t>(bytes, 16),
+                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                      .memory = vulkan::MemoryUse::readback}));
+}
+
 vulkan::Buffer upload_buffer(Context& context, const std::string& name, std::span<const std::byte> bytes,
                              VkBufferUsageFlags usage) {
   vulkan::Buffer buffer =

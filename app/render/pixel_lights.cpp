@@ -15,14 +15,6 @@ namespace {
 constexpr std::uint32_t LIGHT_GROUP = 64;          // threads of light_shares.comp and explain.comp
 constexpr std::uint32_t CONSTANT_REFLECTION = 10;  // common/brdf.glsl
 
-vulkan::Buffer read_back(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
-  return take(
-      vulkan::Buffer::create(device, {.name = name,
-                                      .bytes = std::max<std::uint64_t>(bytes, 16),
-                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                      .memory = vulkan::MemoryUse::readback}));
-}
-
 /// A dispatch of one thread a light: frame at binding 0, the lights' ids at 2, all lights at 3, answers at 8.
 struct LightPass {
   const char* shader = nullptr;
@@ -38,7 +30,7 @@ std::vector<Answer> for_lights(Renderer& renderer, const ShaderLibrary& shaders,
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const vulkan::Buffer ids =
       upload_buffer(renderer.context(), "lights of a pixel", std::as_bytes(lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer answers = read_back(renderer.device(), pass.shader, pass.answers * sizeof(Answer));
+  const vulkan::Buffer answers = readback_buffer(renderer.device(), pass.shader, pass.answers * sizeof(Answer));
   const vulkan::Resource written = vulkan::Resource::storage(answers.handle());
   std::vector<vulkan::Bound>& bound = pass.bound;
   bound.push_back({0, renderer.data().frame_constants()});
@@ -73,7 +65,7 @@ std::vector<Answer> for_lights(Renderer& renderer, const ShaderLibrary& shaders,
 std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel) {
   const EntityRange lights = renderer.entities().lights;
   const std::uint32_t words = (lights.count() + 31) / 32;
-  const vulkan::Buffer marks = read_back(renderer.device(), "marks of a pixel", words * sizeof(std::uint32_t));
+  const vulkan::Buffer marks = readback_buffer(renderer.device(), "marks of a pixel", words * sizeof(std::uint32_t));
   renderer.run({.shader = "visit_marks",
                 .lighting = &lighting,
                 .storage = {{2, vulkan::Resource::storage(marks.handle()),

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <limits>
 
 namespace lamp::app {
 namespace {
@@ -43,10 +42,7 @@ void PointFindings::add(const PointFindings& more, std::size_t first) {
   unfollowed += more.unfollowed;
 }
 
-double PointFindings::waste() const {
-  if (useful != 0) return static_cast<double>(evaluations) / static_cast<double>(useful);
-  return evaluations == 0 ? 1.0 : std::numeric_limits<double>::infinity();
-}
+double PointFindings::waste() const { return waste_of(evaluations, useful); }
 
 Verdict PointFindings::verdict() const {
   if (missed != 0 || unordered != 0 || nowhere != 0) return Verdict::failed;

@@ -22,20 +22,6 @@ constexpr std::uint32_t WORD_BINDING = 1;
 constexpr std::uint32_t ENDED_BINDING = 2;
 constexpr std::uint32_t LIST_BINDING = 3;
 
-vulkan::Buffer host_words(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
-  return take(
-      vulkan::Buffer::create(device, {.name = name,
-                                      .bytes = std::max<std::uint64_t>(bytes, 16),
-                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                      .memory = vulkan::MemoryUse::readback}));
-}
-
-std::vector<std::uint32_t> first_words(const vulkan::Buffer& buffer, std::size_t count) {
-  std::vector<std::uint32_t> words(count);
-  if (count != 0) std::memcpy(words.data(), buffer.mapped().data(), count * sizeof(std::uint32_t));
-  return words;
-}
-
 }  // namespace
 
 PointWalks::PointWalks(Context& context, const ShaderLibrary& shaders, Plan plan, const View& view,
@@ -50,8 +36,8 @@ PointWalks::PointWalks(Context& context, const ShaderLibrary& shaders, Plan plan
                             .push_constant_bytes = 12};
   for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
   pipeline_ = take(vulkan::Pipeline::compute(context.device(), info, shaders.spirv(POINT_SHADER)));
-  words_ = host_words(context.device(), "counts of points", POINTS_AT_ONCE * sizeof(std::uint32_t));
-  ended_ = host_words(context.device(), "ended points", POINTS_AT_ONCE * sizeof(std::uint32_t));
+  words_ = readback_buffer(context.device(), "counts of points", POINTS_AT_ONCE * sizeof(std::uint32_t));
+  ended_ = readback_buffer(context.device(), "ended points", POINTS_AT_ONCE * sizeof(std::uint32_t));
 }
 
 vulkan::PlanInputs PointWalks::inputs() const {
@@ -70,7 +56,7 @@ PointLights PointWalks::walk(std::span<const glm::vec3> points) {
 }
 
 void PointWalks::cull() {
-  const vulkan::Buffer counts = host_words(context_.device(), "counts", vulkan::count_bytes(plan()));
+  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts", vulkan::count_bytes(plan()));
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
@@ -88,10 +74,10 @@ void PointWalks::walk_part(std::span<const glm::vec3> points, PointLights& to) {
   const vulkan::Buffer positions =
       upload_buffer(context_, "points", std::as_bytes(points), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   {
-    const vulkan::Buffer none = host_words(context_.device(), "no lists", 0);
+    const vulkan::Buffer none = readback_buffer(context_.device(), "no lists", 0);
     dispatch(positions, none, count, /*writes=*/false);
   }
-  std::vector<std::uint32_t> firsts = first_words(words_, count);
+  std::vector<std::uint32_t> firsts = first_values<std::uint32_t>(words_, count);
   std::uint32_t sum = 0;
   for (std::uint32_t& first : firsts) {
     const std::uint32_t length = first;
@@ -100,11 +86,11 @@ void PointWalks::walk_part(std::span<const glm::vec3> points, PointLights& to) {
     to.offsets.push_back(to.offsets.back() + length);
   }
   if (count != 0) std::memcpy(words_.mapped().data(), firsts.data(), count * sizeof(std::uint32_t));
-  const vulkan::Buffer lists = host_words(context_.device(), "lists of points", std::uint64_t{sum} * 4);
+  const vulkan::Buffer lists = readback_buffer(context_.device(), "lists of points", std::uint64_t{sum} * 4);
   dispatch(positions, lists, count, /*writes=*/true);
-  const std::vector<std::uint32_t> lights = first_words(lists, sum);
+  const std::vector<std::uint32_t> lights = first_values<std::uint32_t>(lists, sum);
   to.lights.insert(to.lights.end(), lights.begin(), lights.end());
-  const std::vector<std::uint32_t> ended = first_words(ended_, count);
+  const std::vector<std::uint32_t> ended = first_values<std::uint32_t>(ended_, count);
   to.ended.insert(to.ended.end(), ended.begin(), ended.end());
 }
 

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <ranges>
 #include <utility>
 
 #include "gpu/check.h"
+#include "gpu/transfer.h"
 #include "render/antialias.h"
 #include "render/gbuffer_texels.h"
 
@@ -26,35 +26,9 @@ std::unique_ptr<Targets> make_targets(const vulkan::Device& device, std::uint32_
   return std::make_unique<Targets>(device, width, height);
 }
 
-vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
-  return take(
-      vulkan::Buffer::create(device, {.name = name,
-                                      .bytes = bytes,
-                                      .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      .memory = vulkan::MemoryUse::readback}));
-}
-
-bool is_fused(const PixelPass& pass) {
-  return pass.lighting != nullptr && pass.which == vulkan::PlanRunner::Passes::fused;
-}
-
-/// A fused look-up's group is its tile.
-glm::uvec2 group_of(const PixelPass& pass) {
-  if (!is_fused(pass)) return glm::uvec2(16);
-  const FusedLookUp& fused = *pass.lighting->runner().plan().fused;
-  return {fused.group_width, fused.group_height};
-}
-
 void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) {
   record_copy(recorder, image, buffer);
   recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
-}
-
-template <class T>
-std::vector<T> copy_out(const vulkan::Buffer& buffer, std::size_t count) {
-  std::vector<T> values(count);
-  if (count != 0) std::memcpy(values.data(), buffer.mapped().data(), count * sizeof(T));
-  return values;
 }
 
 void add_counts(Rendered& rendered, const Lighting& lighting, const vulkan::Buffer& counts) {
@@ -194,8 +168,8 @@ Rendered Renderer::relight(Lighting& lighting) { return render_frames(lighting, 
 
 Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
-  const vulkan::Buffer picture = readback(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
-  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", lighting.count_bytes());
+  const vulkan::Buffer picture = readback_buffer(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
+  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts read-back", lighting.count_bytes());
   FrameTimes times(frames);
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
@@ -213,14 +187,14 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   }
   tracker_.forget(picture.handle());
   tracker_.forget(counts.handle());
-  Rendered rendered{.image = {targets_->width, targets_->height, copy_out<glm::vec4>(picture, pixels)}};
+  Rendered rendered{.image = {targets_->width, targets_->height, first_values<glm::vec4>(picture, pixels)}};
   times.fill(rendered, lighting);
   add_counts(rendered, lighting, counts);
   return rendered;
 }
 
 Rendered Renderer::draw(Lighting& lighting, const std::function<void(vulkan::Recorder&)>& more) {
-  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", lighting.count_bytes());
+  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts read-back", lighting.count_bytes());
   FrameTimes times;
   submit(&lighting, [&](VkCommandBuffer commands) {
     timestamps_.reset(commands);
@@ -249,7 +223,7 @@ void Renderer::also(const std::function<void(vulkan::Recorder&)>& record) {
 vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   if (lighting.runner().plan().counters == NO_RESOURCE) return {};
   need_surfaces();
-  const vulkan::Buffer counts = readback(context_.device(), "counts read-back", lighting.count_bytes());
+  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts read-back", lighting.count_bytes());
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
@@ -310,13 +284,13 @@ void Renderer::warm_up(Lighting& lighting) {
 template <class Texel>
 std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
-  const vulkan::Buffer buffer = readback(context_.device(), "texel read-back", pixels * sizeof(Texel));
+  const vulkan::Buffer buffer = readback_buffer(context_.device(), "texel read-back", pixels * sizeof(Texel));
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_readback(recorder, image, buffer);
   });
   tracker_.forget(buffer.handle());
-  return copy_out<Texel>(buffer, pixels);
+  return first_values<Texel>(buffer, pixels);
 }
 
 std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
@@ -358,68 +332,6 @@ CapturedFrame Renderer::capture(Lighting* decals) {
                               .base_color = read_texels<glm::u8vec4>(targets_->base_color),
                               .surface = read_texels<glm::uvec2>(targets_->surface),
                               .emission = read_texels<glm::u16vec4>(targets_->emission)});
-}
-
-vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
-  vulkan::PipelineInfo info{.name = std::string(pass.shader),
-                            .push_constant_bytes = static_cast<std::uint32_t>(pass.push.size() * sizeof(pass.push[0]))};
-  info.bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
-  for (const PixelPass::Storage& storage : pass.storage)
-    info.bindings.push_back({storage.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  if (pass.lighting == nullptr)
-    return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv(pass.shader)));
-  const Plan& plan = pass.lighting->runner().plan();
-  const LookUp& lookup = is_fused(pass) ? plan.fused->lookup : plan.lookup;
-  info.constants = vulkan::lookup_constants(lookup);
-  info.constants.push_back(shown_view_constant(plan));
-  const glm::uvec2 group_px = group_of(pass);
-  info.constants.push_back({0, group_px.x});
-  info.constants.push_back({1, group_px.y});
-  for (const vulkan::DescriptorBinding& binding : vulkan::lookup_bindings(lookup)) info.bindings.push_back(binding);
-  return take(vulkan::Pipeline::compute(context_.device(), info,
-                                        shaders_.spirv(fmt::format("{}@{}", pass.shader, lookup.name))));
-}
-
-void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
-  if (depth_.several()) need_surfaces();  // of the picture that is shown; the targets may have another's
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const glm::uvec2 group_px = group_of(pass);
-  const std::uint32_t rows = is_fused(pass) || pass.rows.count == 0 ? targets_->height : pass.rows.count;
-  const vulkan::PlanInputs inputs = plan_inputs();
-
-  submit(pass.lighting, [&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    if (pass.prepares) record_upload(recorder);
-    if (pass.prepares && pass.lighting != nullptr)
-      static_cast<void>(take(pass.lighting->runner().record(recorder, inputs, pass.which)));
-    for (const PixelPass::Storage& storage : pass.storage) {
-      if (!storage.zeroed) continue;
-      recorder.barrier({{.resource = storage.resource,
-                         .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                         .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
-      vkCmdFillBuffer(commands, storage.resource.buffer, 0, VK_WHOLE_SIZE, 0);
-    }
-    std::vector<vulkan::Bound> bound{{0, data_.frame()}, {1, targets_->depth.sampled()}};
-    std::vector<vulkan::Use> uses{reads(data_.frame(), COMPUTE), reads(targets_->depth.sampled(), COMPUTE)};
-    for (const PixelPass::Storage& storage : pass.storage) {
-      bound.push_back({storage.binding, storage.resource});
-      uses.push_back({.resource = storage.resource, .stages = COMPUTE, .access = storage.access});
-    }
-    if (pass.lighting != nullptr) {
-      const vulkan::BoundLookUp lookup = pass.lighting->runner().lookup(inputs, pass.which, shown_.view);
-      bound.insert(bound.end(), lookup.resources.begin(), lookup.resources.end());
-      uses.insert(uses.end(), lookup.uses.begin(), lookup.uses.end());
-    }
-    recorder.begin_pass(pass.shader, uses);
-    recorder.bind(pipeline, bound);
-    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0,
-                       static_cast<std::uint32_t>(pass.push.size() * sizeof(pass.push[0])), pass.push.data());
-    vkCmdDispatch(commands, (targets_->width + group_px.x - 1) / group_px.x, (rows + group_px.y - 1) / group_px.y, 1);
-    recorder.end_pass();
-    for (const PixelPass::Storage& storage : pass.storage)
-      if ((storage.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) != 0)
-        recorder.barrier({host_reads(storage.resource)});
-  });
 }
 
 }  // namespace lamp::app

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "gpu/check.h"
 #include "gpu/transfer.h"
@@ -59,11 +58,7 @@ std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shade
   const Targets& targets = renderer.targets();
   const vulkan::Buffer asked = upload_buffer(renderer.context(), "pairs of pixel and light", bytes_of(pairs),
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer answers =
-      take(vulkan::Buffer::create(renderer.device(), {.name = "shadow answers",
-                                                      .bytes = pairs.size() * sizeof(LookedUp),
-                                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                                      .memory = vulkan::MemoryUse::readback}));
+  const vulkan::Buffer answers = readback_buffer(renderer.device(), "shadow answers", pairs.size() * sizeof(LookedUp));
   const vulkan::Resource written = vulkan::Resource::storage(answers.handle());
   std::vector<vulkan::Bound> bound{{0, renderer.data().frame_constants()},
                                    {1, targets.depth.sampled()},
@@ -94,9 +89,7 @@ std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shade
   });
   renderer.forget(asked);
   renderer.forget(answers);
-  std::vector<LookedUp> found(pairs.size());
-  std::memcpy(found.data(), answers.mapped().data(), found.size() * sizeof(LookedUp));
-  return found;
+  return first_values<LookedUp>(answers, pairs.size());
 }
 
 enum class Answer : std::uint8_t { arrives, stopped, unclear };

@@ -20,11 +20,6 @@ constexpr std::uint64_t BAND_PIXELS = 1U << 19;
 // one whose lists take less than a sixteenth.
 constexpr std::uint64_t BAND_LIGHTS = 1U << 28;
 
-double ratio(std::uint64_t above, std::uint64_t below) {
-  if (below != 0) return static_cast<double>(above) / static_cast<double>(below);
-  return above == 0 ? 1.0 : std::numeric_limits<double>::infinity();
-}
-
 void sort_unique(std::vector<std::uint64_t>& keys) {
   std::ranges::sort(keys);
   keys.erase(std::ranges::unique(keys).begin(), keys.end());
@@ -32,9 +27,14 @@ void sort_unique(std::vector<std::uint64_t>& keys) {
 
 }  // namespace
 
-double Findings::waste() const { return ratio(evaluations, useful); }
+double waste_of(std::uint64_t evaluations, std::uint64_t useful) {
+  if (useful != 0) return static_cast<double>(evaluations) / static_cast<double>(useful);
+  return evaluations == 0 ? 1.0 : std::numeric_limits<double>::infinity();
+}
+
+double Findings::waste() const { return waste_of(evaluations, useful); }
 std::optional<double> Findings::excess() const {
-  return truth_sum ? std::optional(ratio(list_sum, *truth_sum)) : std::nullopt;
+  return truth_sum ? std::optional(waste_of(list_sum, *truth_sum)) : std::nullopt;
 }
 double Findings::list_mean() const {
   return cells_seen == 0 ? 0.0 : static_cast<double>(list_sum) / static_cast<double>(cells_seen);

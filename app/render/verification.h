@@ -35,6 +35,9 @@ struct PixelMisses {
   friend bool operator==(const PixelMisses&, const PixelMisses&) = default;
 };
 
+/// Lights walked for each that is of use; 1 when there is nothing to do and nothing done.
+[[nodiscard]] double waste_of(std::uint64_t evaluations, std::uint64_t useful);
+
 /// What a method's look-up was found to hold. Sums over the pixels that are not sky and whose walk came to its end.
 struct Findings {
   std::uint64_t missed = 0;                ///< pairs of pixel and light that the truth has and the look-up has not

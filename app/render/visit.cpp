@@ -42,14 +42,6 @@ EntityRange visited_ids(const EntityRanges& entities, Renderer::Kind kind) {
   return entities.boxes.count() == 0 ? EntityRange{0, ~0U} : entities.lights;
 }
 
-vulkan::Buffer readback(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
-  return take(
-      vulkan::Buffer::create(device, {.name = name,
-                                      .bytes = std::max<std::uint64_t>(bytes, 4),
-                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                      .memory = vulkan::MemoryUse::readback}));
-}
-
 /// One look-up and one truth.
 class Visitor {
  public:
@@ -92,7 +84,7 @@ class Visitor {
     constexpr VkBufferUsageFlags STORAGE = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const vulkan::Buffer offset_buffer = upload_buffer(context, "truth offsets", bytes_of(offsets), STORAGE);
     const vulkan::Buffer light_buffer = upload_buffer(context, "truth lights", std::as_bytes(lights), STORAGE);
-    const vulkan::Buffer found = readback(context.device(), "met", (part.end - part.first) * sizeof(gpu::Met));
+    const vulkan::Buffer found = readback_buffer(context.device(), "met", (part.end - part.first) * sizeof(gpu::Met));
     renderer_.run({.shader = "visit",
                    .lighting = &lighting_,
                    .which = which_,
@@ -120,7 +112,7 @@ class Visitor {
     const std::size_t words = (marked_.count() + 31) / 32;  // of a pixel
     const std::uint64_t room = std::min(MARK_BYTES, max_bytes()) / sizeof(std::uint32_t);
     const std::size_t most = std::clamp<std::size_t>(room / std::max<std::size_t>(words, 1), 1, met_.size());
-    const vulkan::Buffer marks = readback(renderer_.device(), "marks", most * words * sizeof(std::uint32_t));
+    const vulkan::Buffer marks = readback_buffer(renderer_.device(), "marks", most * words * sizeof(std::uint32_t));
     PixelPass pass{.shader = "visit_marks",
                    .lighting = &lighting_,
                    .which = which_,
