@@ -39,6 +39,29 @@ def lamp_json(lamp, *words):
     return json.loads(done.stdout)
 
 
+def results_of(name, suites):
+    """A results.json of `lamp bench`, of one of these suites."""
+    try:
+        data = json.loads(pathlib.Path(name).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        fail(f"{name}: {error}")
+    if not isinstance(data, dict) or data.get("format") != "lamplight-results":
+        fail(f"{name}: is no results file; expected a results.json of lamp bench")
+    suite = data["suite"]["name"]
+    if suite not in suites:
+        fail(f"{name}: holds the suite {suite}; expected one of {', '.join(suites)}")
+    return data
+
+
+def print_table(head, rows, texts=None):
+    """Columns from `texts` on are numbers, on the right; none: all are texts."""
+    texts = len(head) if texts is None else texts
+    print("| " + " | ".join(head) + " |")
+    print("|" + "---|" * texts + "--:|" * (len(head) - texts))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+
+
 def around(page, text, name):
     """A page's text up to a part, the part, and the text behind it."""
     begin, end = f"<!-- {name}: begin; written by tools/{TOOL} -->\n", f"<!-- {name}: end -->\n"
