@@ -129,22 +129,25 @@ class ComputeQueue : public GpuTest, public ::testing::WithParamInterface<const 
   Queue graphics_, compute_;
 };
 
-/// From the graphics queue to one that computes; recorded on both. The same barrier moves the layout, once.
-void hand_over_depth(VkCommandBuffer commands, VkImage image, const Queue& from, const Queue& to) {
-  const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                      .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                      .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT,
-                                      .oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                      .newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                      .srcQueueFamilyIndex = from.family,
-                                      .dstQueueFamilyIndex = to.family,
-                                      .image = image,
-                                      .subresourceRange = ALL_DEPTH};
+void image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
   const VkDependencyInfo info{
       .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
   vkCmdPipelineBarrier2(commands, &info);
+}
+
+/// From the graphics queue to one that computes; recorded on both. The same barrier moves the layout, once.
+void hand_over_depth(VkCommandBuffer commands, VkImage image, const Queue& from, const Queue& to) {
+  image_barrier(commands, {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                           .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                           .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                           .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                           .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT,
+                           .oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           .newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                           .srcQueueFamilyIndex = from.family,
+                           .dstQueueFamilyIndex = to.family,
+                           .image = image,
+                           .subresourceRange = ALL_DEPTH});
 }
 
 /// The look-up's buffers, as docs/integrating.md has it; nothing for queues of one family.
@@ -168,17 +171,14 @@ void hand_over(VkCommandBuffer commands, const vulkan::BoundLookUp& lookup, cons
 }
 
 void clear_depth(VkCommandBuffer commands, VkImage image) {
-  const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                      .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .image = image,
-                                      .subresourceRange = ALL_DEPTH};
-  const VkDependencyInfo info{
-      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-  vkCmdPipelineBarrier2(commands, &info);
+  image_barrier(commands, {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                           .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                           .dstAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                           .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                           .image = image,
+                           .subresourceRange = ALL_DEPTH});
   const VkClearDepthStencilValue value{DEPTH, 0};
   vkCmdClearDepthStencilImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &ALL_DEPTH);
 }

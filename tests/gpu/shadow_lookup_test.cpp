@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "gpu/dispatch.h"
+#include "gpu/random_cases.h"
 #include "gpu/shaders/shadow_case.h"
 #include "lamplight/light.h"
 #include "lamplight/shadow_atlas.h"
@@ -17,23 +17,6 @@ using shared::ShadowMap;
 
 constexpr std::uint32_t ATLAS = 512;
 constexpr std::uint32_t CASES = 64 * 256;
-
-class Random {
- public:
-  float in(float low, float high) { return std::uniform_real_distribution(low, high)(engine_); }
-  glm::vec3 direction() {
-    glm::vec3 v;
-    do v = {in(-1, 1), in(-1, 1), in(-1, 1)};
-    while (glm::dot(v, v) > 1.0F || glm::dot(v, v) < 0.01F);
-    return glm::normalize(v);
-  }
-  std::uint32_t below(std::uint32_t count) {
-    return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(engine_);
-  }
-
- private:
-  std::mt19937 engine_{3};
-};
 
 /// Maps of every kind, in squares that lie anywhere, and a light without one.
 std::vector<ShadowMap> some_maps(ShadowFilter filter) {
@@ -216,7 +199,7 @@ class Reference {
 class ShadowLookUp : public GpuTest, public ::testing::WithParamInterface<ShadowFilter> {};
 
 TEST_P(ShadowLookUp, IsThatOfTheCpuInBothLanguages) {
-  Random random;
+  Random random(3);
   const std::vector<ShadowMap> maps = some_maps(GetParam());
   const std::vector<ShadowCase> cases = some_cases(maps, random);
   const std::vector<float> depths = some_depths(random);

@@ -2,9 +2,9 @@
 // seeds; and bounds cut what lies in shadow.
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <random>
 
 #include "gpu/dispatch.h"
+#include "gpu/random_cases.h"
 #include "gpu/shaders/shadow_case.h"
 #include "lamplight/light.h"
 #include "lamplight/shadow_atlas.h"
@@ -18,23 +18,6 @@ using shared::ShadowMap;
 
 constexpr std::uint32_t ATLAS = 512;
 constexpr std::uint32_t CASES = 64 * 2048;
-
-class Random {
- public:
-  float in(float low, float high) { return std::uniform_real_distribution(low, high)(engine_); }
-  glm::vec3 direction() {
-    glm::vec3 v;
-    do v = {in(-1, 1), in(-1, 1), in(-1, 1)};
-    while (glm::dot(v, v) > 1.0F || glm::dot(v, v) < 0.01F);
-    return glm::normalize(v);
-  }
-  std::uint32_t below(std::uint32_t count) {
-    return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(engine_);
-  }
-
- private:
-  std::mt19937 engine_{5};
-};
 
 constexpr Light POINT{.position = {1.0F, 2.0F, -3.0F}, .range = 8.0F};
 constexpr Light SPOT{.type = LightType::spot,
@@ -101,7 +84,7 @@ std::vector<ShadowCase> some_cases(const Lit& lit, Random& random) {
 class ShadowRadialBounds : public GpuTest, public ::testing::WithParamInterface<ShadowFilter> {};
 
 TEST_P(ShadowRadialBounds, HoldEverythingThatIsLit) {
-  Random random;
+  Random random(5);
   const Lit lit = some_lights(GetParam());
   const auto count = static_cast<std::uint32_t>(lit.lights.size());
   const std::vector<ShadowCase> cases = some_cases(lit, random);
