@@ -92,13 +92,11 @@ void Stage::need_lights(const ViewState& state) {
     lights->made = std::move(lights_->made);
     lights->decals = std::move(lights_->decals);
   } else {
-    lights->made = pack(scene.lights);
     const bool generates = request.lights != 0 && (!scene.captured || request.lights_given);
     if (generates && !scene_->air) scene_->air = find_open_air(scene);
-    if (generates) {
-      const std::vector<shared::Light> generated = pack(requested_lights(request, scene, *scene_->air));
-      lights->made.insert(lights->made.end(), generated.begin(), generated.end());
-    }
+    std::vector<Light> generated;
+    if (generates) generated = requested_lights(request, scene, *scene_->air);
+    lights->made = packed_lights(scene, generated);
     lights->decals = requested_decals(request, scene);
   }
   lights_ = std::move(lights);

@@ -102,16 +102,17 @@ BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t numb
   const std::uint32_t frame = scene_frame(group, number, path_frames);
   const std::uint32_t count = group.flight ? lights_at(*group.flight, number, group.frames) : group.lights;
   if (!scene.air && count != 0) scene.air = find_open_air(scene.scene);
-  BenchFrame made{.number = number, .views = views_at(scene.scene, group, frame), .lights = pack(scene.scene.lights)};
-  if (count == 0) return made;
-  const std::vector<shared::Light> generated = pack(place_lights(*scene.air, {.count = count,
-                                                                              .spots = request.spots,
-                                                                              .min_range = min_range,
-                                                                              .max_range = max_range,
-                                                                              .seed = group.seed,
-                                                                              .frame = frame,
-                                                                              .frames = path_frames}));
-  made.lights.insert(made.lights.end(), generated.begin(), generated.end());
+  BenchFrame made{.number = number, .views = views_at(scene.scene, group, frame)};
+  std::vector<Light> generated;
+  if (count != 0)
+    generated = place_lights(*scene.air, {.count = count,
+                                          .spots = request.spots,
+                                          .min_range = min_range,
+                                          .max_range = max_range,
+                                          .seed = group.seed,
+                                          .frame = frame,
+                                          .frames = path_frames});
+  made.lights = packed_lights(scene.scene, generated);
   return made;
 }
 

@@ -115,6 +115,13 @@ std::vector<Light> requested_lights(const Request& request, const Scene& scene, 
   return place_lights(air, light_placement(request, scene));
 }
 
+std::vector<shared::Light> packed_lights(const Scene& scene, std::span<const Light> generated) {
+  std::vector<shared::Light> lights = pack(scene.lights);
+  const std::vector<shared::Light> packed = pack(generated);
+  lights.insert(lights.end(), packed.begin(), packed.end());
+  return lights;
+}
+
 std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene) {
   if (request.decals == 0) return {};
   // It holds no surfaces to lie on but those that its pixels show, with the decals that were there.
@@ -270,9 +277,7 @@ Setup make_setup(const Request& request) {
   setup.views = requested_views(request, setup.scene);
   setup.view = setup.views.front();
   setup.generated = place_lights(setup.scene, light_placement(request, setup.scene));
-  setup.lights = pack(setup.scene.lights);
-  const std::vector<shared::Light> packed = pack(setup.generated);
-  setup.lights.insert(setup.lights.end(), packed.begin(), packed.end());
+  setup.lights = packed_lights(setup.scene, setup.generated);
   setup.lights_note = fmt::format("{} generated{} + {} of the scene", setup.generated.size(),
                                   range_note(setup.generated), setup.scene.lights.size());
   setup.decals = requested_decals(request, setup.scene);

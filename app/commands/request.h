@@ -113,6 +113,8 @@ struct Setup {
 [[nodiscard]] std::vector<View> requested_views(const Request& request, const Scene& scene);
 /// The generated lights. `air`: the scene's.
 [[nodiscard]] std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air);
+/// The scene's, then the generated ones, as the GPU has them.
+[[nodiscard]] std::vector<shared::Light> packed_lights(const Scene& scene, std::span<const Light> generated);
 /// The decals. Throws Error for a capture, and for boxes that none can be.
 [[nodiscard]] std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene);
 /// The scene's lights and the generated ones are few enough, and as lights must be.
