@@ -1,0 +1,242 @@
+// Triangles are halved along the longest side of their box, again and again; each half takes on the lights whose
+// spheres touch its box. So neighbours come one after the other, and their lists share a group.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/triangle_lists.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+#include "list_groups.h"
+#include "patches.h"
+#include "still_light.h"
+
+namespace lamp {
+namespace {
+
+using world::Bounds;
+using world::StillLight;
+
+constexpr std::size_t FEW_TRIANGLES = 16;  // that are not halved
+constexpr double FURTHEST_M = 1e15;        // of anything from the origin, as scenes have it
+constexpr float LARGEST_PATCH = 1024.0F;   // over a light's range: then nothing is cut
+constexpr std::uint32_t MOST_MERGED = 1U << 30;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_near(double coordinate) { return std::abs(coordinate) <= FURTHEST_M; }  // false for a NaN
+
+std::optional<Error> fault_of(const StillTriangle& triangle, std::size_t number) {
+  const std::string name = "triangle " + std::to_string(number);
+  for (const DVec3& corner : triangle.corners)
+    if (!is_near(corner.x) || !is_near(corner.y) || !is_near(corner.z))
+      return Error(name, "corners must be finite and at most 1e15 m from the origin");
+  if (!std::ranges::all_of(triangle.normals, finite)) return Error(name, "normals must be finite");
+  if (!(triangle.normal_tilt >= 0.0F)) return Error(name, "normal_tilt must be >= 0 radians");
+  return std::nullopt;
+}
+
+std::optional<Error> fault_of(const shared::Light& light, std::size_t number) {
+  const std::string name = "light " + std::to_string(number);
+  if (!finite(light.position)) return Error(name, "position must be finite");
+  if (!(light.range >= 0.0F)) return Error(name, "range must be >= 0 m");
+  if (light.type != shared::LIGHT_SPOT) return std::nullopt;
+  const glm::dvec3 direction(light.direction);
+  if (!finite(light.direction) || direction == glm::dvec3(0.0))
+    return Error(name, "direction must be finite and not 0");
+  if (!(light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F))
+    return Error(name, "outer_angle must lie in 0 .. pi/2 radians");
+  return std::nullopt;
+}
+
+std::optional<Error> fault_of(const TriangleListsInfo& info) {
+  if (!(info.slack_m >= 0.0F) || std::isinf(info.slack_m)) return Error("slack_m", "must be >= 0 m and finite");
+  if (!(info.patch > 0.0F)) return Error("patch", "must be > 0");
+  if (info.budget_bytes == 0) return Error("budget_bytes", "must be > 0");
+  if (info.triangles.size() >= shared::TRIANGLE_UNLIT) return Error("triangles", "must be fewer than 2^31 - 1");
+  for (std::size_t i = 0; i < info.triangles.size(); ++i)
+    if (auto fault = fault_of(info.triangles[i], i)) return fault;
+  for (std::size_t i = 0; i < info.lights.size(); ++i)
+    if (auto fault = fault_of(info.lights[i], i)) return fault;
+  return std::nullopt;
+}
+
+Bounds box_of(const StillTriangle& triangle) {
+  const glm::dvec3 a(triangle.corners[0]);
+  const glm::dvec3 b(triangle.corners[1]);
+  const glm::dvec3 c(triangle.corners[2]);
+  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+}
+
+/// How closely lists are to fit.
+struct Fineness {
+  float patch = 0.0F;
+  std::uint32_t merged = 1;
+};
+
+/// One way to make all lists.
+class Build {
+ public:
+  Build(const TriangleListsInfo& info, std::span<const StillLight> lights, const Fineness& fineness)
+      : info_(info), lights_(lights), merged_(fineness.merged) {
+    how_ = {.lights = lights,
+            .hides = info.hides ? &info.hides : nullptr,
+            .slack = info.slack_m,
+            .patch = fineness.patch,
+            .found = [this](std::size_t word, std::vector<std::uint32_t> list) { found(word, std::move(list)); }};
+    made_.stats.patch = fineness.patch;
+    made_.stats.merged = fineness.merged;
+    made_.triangles = static_cast<std::uint32_t>(info.triangles.size());
+    made_.lights = static_cast<std::uint32_t>(lights.size());
+    made_.words.assign(std::max<std::size_t>(1, info.triangles.size()), shared::TRIANGLE_UNLIT);
+  }
+
+  /// False: more than words can name.
+  [[nodiscard]] bool run() {
+    std::vector<std::uint32_t> triangles(info_.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), 0U);
+    std::vector<std::uint32_t> all(lights_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    if (!triangles.empty()) halve(triangles, all);
+    flush();
+    if (!groups_.finish() || made_.words.size() >= shared::TRIANGLE_PATCHED) return false;
+    groups_.store(made_.words);
+    made_.stats.groups = groups_.groups();
+    made_.stats.lists = groups_.lists();
+    return true;
+  }
+
+  [[nodiscard]] TriangleLists take() { return std::move(made_); }
+
+ private:
+  [[nodiscard]] double slack_of(const Bounds& box) const {
+    const glm::dvec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
+    return info_.slack_m + 1e-5 * std::max({far.x, far.y, far.z});  // more than a patch's own
+  }
+
+  void halve(std::span<std::uint32_t> triangles, const std::vector<std::uint32_t>& lights) {
+    Bounds box = box_of(info_.triangles[triangles.front()]);
+    Bounds middles{middle_of(triangles.front()), middle_of(triangles.front())};
+    for (const std::uint32_t triangle : triangles) {
+      const Bounds other = box_of(info_.triangles[triangle]);
+      box = {glm::min(box.min, other.min), glm::max(box.max, other.max)};
+      middles = {glm::min(middles.min, middle_of(triangle)), glm::max(middles.max, middle_of(triangle))};
+    }
+    std::vector<std::uint32_t> near;
+    for (const std::uint32_t light : lights)
+      if (may_touch(lights_[light], box, slack_of(box))) near.push_back(light);
+    if (near.empty()) {
+      made_.stats.patches += triangles.size();
+      return;
+    }
+    if (triangles.size() <= FEW_TRIANGLES) return list(triangles, near);
+    const glm::dvec3 size = middles.max - middles.min;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto half = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
+    std::ranges::nth_element(triangles, half, [&](std::uint32_t a, std::uint32_t b) {
+      const double of_a = middle_of(a)[axis];
+      const double of_b = middle_of(b)[axis];
+      return of_a != of_b ? of_a < of_b : a < b;
+    });
+    halve({triangles.begin(), half}, near);
+    halve({half, triangles.end()}, near);
+  }
+
+  [[nodiscard]] glm::dvec3 middle_of(std::uint32_t triangle) const {
+    const Bounds box = box_of(info_.triangles[triangle]);
+    return 0.5 * (box.min + box.max);
+  }
+
+  void list(std::span<std::uint32_t> triangles, std::span<const std::uint32_t> near) {
+    std::ranges::sort(triangles);
+    world::PatchTables tables{made_.words, made_.stats};
+    for (const std::uint32_t triangle : triangles)
+      make_patches(how_, info_.triangles[triangle], near, triangle, tables);
+  }
+
+  void found(std::size_t word, std::vector<std::uint32_t> list) {
+    if (merged_ == 1) return groups_.add(word, std::move(list));
+    std::vector<std::uint32_t> together;
+    std::ranges::set_union(waiting_list_, list, std::back_inserter(together));
+    waiting_list_ = std::move(together);
+    waiting_.push_back(word);
+    if (waiting_.size() == merged_) flush();
+  }
+
+  void flush() {
+    for (const std::size_t word : waiting_) groups_.add(word, waiting_list_);
+    waiting_.clear();
+    waiting_list_.clear();
+  }
+
+  const TriangleListsInfo& info_;
+  std::span<const StillLight> lights_;
+  std::uint32_t merged_;
+  world::Patching how_;
+  world::ListGroups groups_;
+  TriangleLists made_;
+  std::vector<std::size_t> waiting_;  ///< words of neighbours whose lists are merged
+  std::vector<std::uint32_t> waiting_list_;
+};
+
+/// What takes less memory; nothing if nothing does.
+std::optional<Fineness> coarser(const Fineness& fineness) {
+  if (fineness.patch < LARGEST_PATCH) return Fineness{.patch = 2.0F * fineness.patch};
+  if (fineness.merged < MOST_MERGED) return Fineness{.patch = fineness.patch, .merged = 4 * fineness.merged};
+  return std::nullopt;
+}
+
+void note(TriangleLists& lists, const TriangleListsInfo& info) {
+  std::ostringstream text;
+  if (lists.bytes() > info.budget_bytes) {
+    text << "the coarsest lists take " << lists.bytes() << " bytes, more than the " << info.budget_bytes
+         << " bytes they were to fit";
+  } else if (lists.stats.merged > 1) {
+    text << "triangles are not cut, and " << lists.stats.merged << " neighbours share a list, so that lists fit "
+         << info.budget_bytes << " bytes";
+  } else if (lists.stats.patch != info.patch) {
+    text << "patches are " << lists.stats.patch << " ranges long instead of " << info.patch << ", so that lists fit "
+         << info.budget_bytes << " bytes";
+  }
+  if (!text.str().empty()) lists.notes.push_back(text.str());
+}
+
+}  // namespace
+
+Result<TriangleLists> make_triangle_lists(const TriangleListsInfo& info) {
+  if (auto fault = fault_of(info)) return *std::move(fault);
+  std::vector<StillLight> lights;
+  lights.reserve(info.lights.size());
+  for (const shared::Light& light : info.lights) lights.push_back(world::still_light(light));
+  Fineness fineness{.patch = info.patch};
+  while (true) {
+    Build build(info, lights, fineness);
+    const bool fits_words = build.run();
+    TriangleLists made = build.take();
+    const std::optional<Fineness> next = coarser(fineness);
+    if (fits_words && (made.bytes() <= info.budget_bytes || !next)) {
+      note(made, info);
+      return made;
+    }
+    if (!next) return Error("triangles", "with their lights they take more than the words of a list can name");
+    fineness = *next;
+  }
+}
+
+std::vector<std::uint32_t> lights_at(const TriangleLists& lists, std::uint32_t triangle, const Vec3& position) {
+  assert(triangle < lists.triangles && "there are no more triangles");
+  std::vector<std::uint32_t> lights;
+  const std::uint32_t name = world::list_name(lists.words, lists.words[triangle], position);
+  if (name != shared::TRIANGLE_UNLIT) world::read_list(lists.words, name, lights);
+  return lights;
+}
+
+float raster_slack(float z_view, float pixel_m, std::uint32_t subpixel_bits) {
+  // A vertex moves by half a step of the grid along each axis, and with it by as much at its own depth; depths of what
+  // is drawn are means of the vertices'. Four times that: depth itself is rounded when it is interpolated.
+  return 4.0F * std::sqrt(0.5F) * std::ldexp(pixel_m * z_view, -static_cast<int>(subpixel_bits));
+}
+
+}  // namespace lamp

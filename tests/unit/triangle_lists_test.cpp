@@ -1,0 +1,293 @@
+// Lists of lights for triangles: random lights and triangles against the oracle's definition, known answers, bad input.
+// SPDX-License-Identifier: Apache-2.0
+#include "lamplight/triangle_lists.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "lamplight/light.h"
+#include "oracle/reference.h"
+
+namespace {
+
+using lamp::Light;
+using lamp::LightType;
+using lamp::StillTriangle;
+using lamp::TriangleLists;
+using lamp::TriangleListsInfo;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double in(double low, double high) { return std::uniform_real_distribution(low, high)(engine_); }
+  glm::dvec3 vector(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+std::vector<lamp::shared::Light> random_lights(Random& random, int count, double half, double range) {
+  std::vector<Light> lights;
+  for (int i = 0; i < count; ++i) {
+    Light light;
+    light.position = lamp::Vec3(glm::vec3(random.vector(half)));
+    light.range = static_cast<float>(random.in(0.3, 1.0) * range);
+    light.type = i % 2 == 0 ? LightType::point : LightType::spot;
+    light.direction = lamp::Vec3(glm::vec3(random.vector(1.0) + glm::dvec3(0.0, 1e-3, 0.0)));
+    light.outer_angle = i % 8 == 1 ? std::numbers::pi_v<float> / 2.0F : static_cast<float>(random.in(0.05, 1.5));
+    lights.push_back(light);
+  }
+  return lamp::pack(lights);
+}
+
+StillTriangle triangle_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return {.corners = {lamp::DVec3(a), lamp::DVec3(b), lamp::DVec3(c)}};
+}
+
+glm::dvec3 point_on(Random& random, const StillTriangle& t) {
+  double u = random.in(0.0, 1.0);
+  double v = random.in(0.0, 1.0);
+  if (u + v > 1.0) {
+    u = 1.0 - u;
+    v = 1.0 - v;
+  }
+  const glm::dvec3 a(t.corners[0]);
+  return a + u * (glm::dvec3(t.corners[1]) - a) + v * (glm::dvec3(t.corners[2]) - a);
+}
+
+TriangleLists made(const TriangleListsInfo& info) {
+  auto lists = lamp::make_triangle_lists(info);
+  EXPECT_TRUE(lists.ok()) << lists.error().text();
+  return lists.ok() ? std::move(lists.value()) : TriangleLists{};
+}
+
+/// Lights that surely reach positions on and near triangles are listed there; lists ascend. The mean length of lists.
+double expect_complete(const TriangleListsInfo& info, const TriangleLists& lists, Random& random, int points) {
+  double walked = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const auto t = static_cast<std::uint32_t>(random.in(0.0, static_cast<double>(info.triangles.size()) - 1e-9));
+    glm::dvec3 near = random.vector(1.0);
+    near *= 0.99 * info.slack_m / std::max(1e-9, glm::length(near));
+    const glm::vec3 position(point_on(random, info.triangles[t]) + near);
+    const std::vector<std::uint32_t> found = lights_at(lists, t, lamp::Vec3(position));
+    EXPECT_TRUE(std::ranges::is_sorted(found, std::less_equal{}));
+    walked += static_cast<double>(found.size());
+    for (std::uint32_t light = 0; light < info.lights.size(); ++light) {
+      if (lamp::reach(info.lights[light], glm::dvec3(position)) != lamp::Reach::inside) continue;
+      EXPECT_TRUE(std::ranges::binary_search(found, light)) << "light " << light << " at triangle " << t;
+    }
+  }
+  return walked / points;
+}
+
+std::vector<StillTriangle> random_triangles(Random& random) {
+  std::vector<StillTriangle> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 a = random.vector(10.0);
+    const double size = i % 10 == 0 ? 12.0 : 0.8;
+    glm::dvec3 flat(1.0);
+    if (i % 3 == 0) flat[i / 3 % 3] = 0.0;  // in a plane of the axes
+    triangles.push_back(triangle_of(a, a + flat * random.vector(size), a + flat * random.vector(size)));
+  }
+  return triangles;
+}
+
+TEST(TriangleLists, MissNothing) {
+  Random random(5);
+  const std::vector<lamp::shared::Light> lights = random_lights(random, 400, 11.0, 3.0);
+  const std::vector<StillTriangle> triangles = random_triangles(random);
+  for (const float slack : {0.0F, 0.02F})
+    for (const float patch : {0.1F, 0.5F, 1000.0F}) {
+      const TriangleListsInfo info{.triangles = triangles, .lights = lights, .slack_m = slack, .patch = patch};
+      expect_complete(info, made(info), random, 4000);
+    }
+}
+
+TEST(TriangleLists, PatchesWasteLess) {
+  Random random(6);
+  const std::vector<lamp::shared::Light> lights = random_lights(random, 600, 11.0, 2.0);
+  const std::vector<StillTriangle> triangles{triangle_of({-10, 0, -10}, {10, 0.5, -10}, {-10, 0, 10})};
+  double before = 1e9;
+  for (const float patch : {1000.0F, 1.0F, 0.25F, 0.06F}) {
+    const TriangleListsInfo info{.triangles = triangles, .lights = lights, .slack_m = 1e-3F, .patch = patch};
+    const double mean = expect_complete(info, made(info), random, 2000);
+    EXPECT_LT(mean, before);
+    before = mean;
+  }
+  EXPECT_LT(before, 8.0);
+}
+
+/// A cone is told from its sphere, and from the sphere around it.
+TEST(TriangleLists, ConesAreExact) {
+  Light spot{
+      .type = LightType::spot, .position = {0, 1, 0}, .range = 10.0F, .direction = {1, 0, 0}, .outer_angle = 0.5F};
+  const auto touches = [&](const StillTriangle& t) {
+    const std::vector<lamp::shared::Light> lights{lamp::pack(spot)};
+    const std::vector<StillTriangle> triangles{t};
+    return !lights_at(made({.triangles = triangles, .lights = lights}), 0, {0, 0, 0}).empty();
+  };
+  const double meets = 1.0 / std::tan(0.5);  // where the cone meets y = 0
+  EXPECT_FALSE(touches(triangle_of({0, 0, -9}, {meets - 0.01, 0, 0}, {0, 0, 9})));
+  EXPECT_TRUE(touches(triangle_of({0, 0, -9}, {meets + 0.01, 0, 0}, {0, 0, 9})));
+  EXPECT_TRUE(touches(triangle_of({-50, 0, -50}, {50, 0, -50}, {0, 0, 90})));  // around all of the section
+  EXPECT_FALSE(touches(triangle_of({-1, 0, -1}, {-1, 2, 0}, {-1, 0, 1})));     // behind it
+  EXPECT_FALSE(touches(triangle_of({10.01, 0, -1}, {10.01, 2, 0}, {10.01, 0, 1})));
+  EXPECT_TRUE(touches(triangle_of({9.99, 0, -1}, {9.99, 2, 0}, {9.99, 0, 1})));
+  spot.outer_angle = 0.0F;
+  EXPECT_FALSE(touches(triangle_of({1, 0, -1}, {1, 2, 0}, {1, 0, 1})));
+}
+
+TEST(TriangleLists, LightsBehindShadeNothing) {
+  const auto listed = [](const lamp::Vec3& at, float tilt, const std::array<lamp::Vec3, 3>& normals) {
+    StillTriangle floor = triangle_of({0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+    floor.normals = normals;
+    floor.normal_tilt = tilt;
+    const std::vector<StillTriangle> triangles{floor};
+    const std::vector<lamp::shared::Light> lights{lamp::pack(Light{.position = at, .range = 20.0F})};
+    return !lights_at(made({.triangles = triangles, .lights = lights}), 0, {1, 0, 1}).empty();
+  };
+  constexpr std::array<lamp::Vec3, 3> UP{lamp::Vec3{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
+  EXPECT_TRUE(listed({1, 1, 1}, 0.0F, UP));
+  EXPECT_FALSE(listed({1, -1, 1}, 0.0F, UP));
+  EXPECT_TRUE(listed({1, -1, 1}, lamp::ANY_NORMAL, UP));
+  EXPECT_TRUE(listed({1, -1, 1}, 0.5F, UP));    // a normal that leans towards it may see it
+  EXPECT_FALSE(listed({1, -10, 1}, 0.1F, UP));  // and one that leans less may not
+  EXPECT_TRUE(listed({9, -0.1F, 1}, 0.0F, {lamp::Vec3{0, 1, 0}, {0, 1, 0}, {1, 1, 0}}));  // rounded towards it
+  EXPECT_TRUE(listed({1, -1, 1}, 0.0F, {}));                                              // no normals: not known
+}
+
+/// Of a plane that is cut and of small triangles that share lists.
+TEST(TriangleLists, NeighboursShare) {
+  Random random(7);
+  const std::vector<lamp::shared::Light> lights = random_lights(random, 400, 10.0, 4.0);
+  std::vector<StillTriangle> triangles;
+  for (int x = 0; x < 200; ++x)
+    for (int z = 0; z < 200; ++z) {
+      const glm::dvec3 at(0.1 * x - 10.0, 0.0, 0.1 * z - 10.0);
+      triangles.push_back(triangle_of(at, at + glm::dvec3(0, 0, 0.1), at + glm::dvec3(0.1, 0, 0)));
+    }
+  const TriangleListsInfo info{.triangles = triangles, .lights = lights, .slack_m = 1e-4F};
+  const TriangleLists lists = made(info);
+  EXPECT_EQ(lists.stats.patches, triangles.size());
+  EXPECT_LT(lists.stats.lists, lists.stats.patches / 2);
+  EXPECT_LT(lists.bytes(), 16 * triangles.size());
+  EXPECT_GT(lists.stats.listed, 2 * triangles.size());
+  EXPECT_TRUE(lists.notes.empty());
+  EXPECT_EQ(lists.words, made(info).words);
+  expect_complete(info, lists, random, 2000);
+}
+
+TEST(TriangleLists, BudgetsCoarsenAndSaySo) {
+  Random random(8);
+  const std::vector<lamp::shared::Light> lights = random_lights(random, 300, 10.0, 2.0);
+  std::vector<StillTriangle> triangles = random_triangles(random);
+  TriangleListsInfo info{.triangles = triangles, .lights = lights};
+  const std::uint64_t fine = made(info).bytes();
+  for (const std::uint64_t budget : {fine / 2, fine / 3, fine / 4}) {
+    info.budget_bytes = budget;
+    const TriangleLists lists = made(info);
+    EXPECT_LE(lists.bytes(), budget);
+    ASSERT_EQ(lists.notes.size(), 1U);
+    EXPECT_NE(lists.notes[0].find(std::to_string(budget)), std::string::npos);
+    expect_complete(info, lists, random, 1000);
+  }
+  info.budget_bytes = 100;
+  const TriangleLists lists = made(info);
+  ASSERT_EQ(lists.notes.size(), 1U);
+  EXPECT_NE(lists.notes[0].find("more than the 100 bytes"), std::string::npos) << lists.notes[0];
+  expect_complete(info, lists, random, 1000);
+}
+
+/// What is hidden is asked for with points around all positions, and is not listed.
+TEST(TriangleLists, HiddenLightsAreLeftOut) {
+  const std::vector<StillTriangle> triangles{triangle_of({0, 0, 0}, {0, 0, 8}, {8, 0, 0})};
+  Random random(9);
+  const std::vector<lamp::shared::Light> lights = random_lights(random, 100, 8.0, 6.0);
+  TriangleListsInfo info{.triangles = triangles, .lights = lights, .slack_m = 0.01F};
+  // A wall at x = 2, without end: lights on this side do not see the other.
+  info.hides = [&](std::uint32_t light, std::span<const lamp::DVec3> hull) {
+    if (lights[light].position.x > 2.0F) return false;
+    return std::ranges::all_of(hull, [](const lamp::DVec3& at) { return at.x > 2.0; });
+  };
+  const TriangleLists lists = made(info);
+  EXPECT_GT(lists.stats.hidden, 0U);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 position(point_on(random, triangles[0]));
+    const std::vector<std::uint32_t> found = lights_at(lists, 0, lamp::Vec3(position));
+    for (std::uint32_t light = 0; light < lights.size(); ++light) {
+      const bool sees = lights[light].position.x > 2.0F || position.x <= 2.0F;
+      if (!sees || lamp::reach(lights[light], glm::dvec3(position)) != lamp::Reach::inside) continue;
+      EXPECT_TRUE(std::ranges::binary_search(found, light));
+    }
+  }
+}
+
+TEST(TriangleLists, OddInputIsDefined) {
+  const std::vector<lamp::shared::Light> none;
+  const std::vector<StillTriangle> no_triangles;
+  EXPECT_EQ(made({.triangles = no_triangles, .lights = none}).bytes(), 8U);
+
+  Random random(10);
+  std::vector<lamp::shared::Light> lights = random_lights(random, 64, 5.0, 2.0);
+  lights[0].range = 0.0F;
+  lights[2].range = std::numeric_limits<float>::infinity();
+  lights[3].range = std::numeric_limits<float>::infinity();  // a spot
+  EXPECT_EQ(made({.triangles = no_triangles, .lights = lights}).bytes(), 8U);
+
+  const glm::dvec3 a(1.0, 2.0, 3.0);
+  const std::vector<StillTriangle> triangles{
+      triangle_of(a, a, a),                                            // a point
+      triangle_of({-5, 0, 0}, {0, 0, 0}, {5, 0, 0}),                   // a line
+      triangle_of({-1e15, 0, -1e15}, {1e15, 0, -1e15}, {0, 0, 1e15}),  // enormous
+      triangle_of({-1e4, -1e4, 1}, {1e4, -1e4, 1}, {0, 1e4, 1}),       // large
+      triangle_of({0, 0, 0}, {1e-20, 0, 0}, {0, 1e-20, 0})};           // tiny
+  const TriangleListsInfo info{.triangles = triangles, .lights = lights};
+  const TriangleLists lists = made(info);
+  for (int i = 0; i < 2000; ++i)
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      glm::dvec3 at = point_on(random, triangles[t]);
+      if (t == 2 || t == 3) at = {random.in(-7, 7), t == 3 ? random.in(-7, 7) : 0.0, t == 3 ? 1.0 : random.in(-7, 7)};
+      const glm::vec3 position(at);
+      const std::vector<std::uint32_t> found = lights_at(lists, t, lamp::Vec3(position));
+      for (std::uint32_t light = 0; light < lights.size(); ++light) {
+        if (lamp::reach(lights[light], glm::dvec3(position)) != lamp::Reach::inside) continue;
+        ASSERT_TRUE(std::ranges::binary_search(found, light)) << "light " << light << " at triangle " << t;
+      }
+      EXPECT_FALSE(std::ranges::binary_search(found, 0U)) << "reaches nothing";
+    }
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_GE(lights_at(lists, 3, {nan, nan, nan}).size(), 1U);  // some patch's
+}
+
+TEST(TriangleLists, WrongInputIsNamed) {
+  Random random(11);
+  std::vector<lamp::shared::Light> lights = random_lights(random, 4, 5.0, 2.0);
+  std::vector<StillTriangle> triangles{triangle_of({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
+  const auto text = [&](TriangleListsInfo info) {
+    info.triangles = triangles;
+    info.lights = lights;
+    const auto lists = lamp::make_triangle_lists(info);
+    return lists.ok() ? std::string() : lists.error().text();
+  };
+  EXPECT_EQ(text({.slack_m = -1.0F}), "slack_m: must be >= 0 m and finite");
+  EXPECT_EQ(text({.patch = 0.0F}), "patch: must be > 0");
+  EXPECT_EQ(text({.budget_bytes = 0}), "budget_bytes: must be > 0");
+  lights[3].range = -1.0F;
+  EXPECT_EQ(text({}), "light 3: range must be >= 0 m");
+  lights[3].range = 1.0F;
+  lights[1].direction = {0, 0, 0};
+  EXPECT_EQ(text({}), "light 1: direction must be finite and not 0");
+  triangles[0].corners[1].x = 2e15;
+  EXPECT_EQ(text({}), "triangle 0: corners must be finite and at most 1e15 m from the origin");
+}
+
+TEST(TriangleLists, SlackOfARaster) {
+  EXPECT_FLOAT_EQ(lamp::raster_slack(100.0F, 0.001F, 8), 4.0F * std::sqrt(0.5F) * 0.1F / 256.0F);
+}
+
+}  // namespace
