@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,9 @@ class LAMPLIGHT_API StillOccluders {
 
   [[nodiscard]] std::size_t polygons() const;
   [[nodiscard]] std::size_t left_out() const;  ///< triangles that hide nothing
+
+  /// Points spread evenly over the polygons' part of a box, at most as many.
+  [[nodiscard]] std::vector<DVec3> points_on(const DVec3& min, const DVec3& max, std::size_t count) const;
 
  private:
   friend class OcclusionMap;
@@ -68,6 +72,9 @@ class LAMPLIGHT_API OcclusionMap {
   /// Of a box along the axes.
   [[nodiscard]] bool hides(const DVec3& min, const DVec3& max) const;
 
+  /// Of a box along the axes: false wherever `hides` may be true of a part of it, so that parts need not be asked.
+  [[nodiscard]] bool surely_sees(const DVec3& min, const DVec3& max) const;
+
   /// Whether any direction is stopped at all.
   [[nodiscard]] bool hides_anything() const { return hides_anything_; }
   [[nodiscard]] std::uint32_t resolution() const { return resolution_; }
@@ -80,7 +87,9 @@ class LAMPLIGHT_API OcclusionMap {
   struct Part;
   void draw(const StillOccluders::State& occluders, std::uint32_t polygon);
   [[nodiscard]] bool hides(const Hull& hull) const;
+  [[nodiscard]] std::optional<Part> part_in(const Hull& hull, std::uint32_t face) const;
   [[nodiscard]] bool face_hides(const Hull& hull, std::uint32_t face) const;
+  [[nodiscard]] bool face_surely_sees(const Hull& hull, std::uint32_t face) const;
 
   std::uint32_t resolution_;
   DVec3 position_{};

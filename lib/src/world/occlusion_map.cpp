@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lamplight/shared/light.h"
 #include "still_occluders.h"
@@ -267,15 +268,22 @@ struct OcclusionMap::Part {
   }
 };
 
-bool OcclusionMap::face_hides(const Hull& hull, std::uint32_t number) const {
+std::optional<OcclusionMap::Part> OcclusionMap::part_in(const Hull& hull, std::uint32_t number) const {
   const Face face(number);
   const glm::dvec3 a = face.turned(hull.min);
   const glm::dvec3 b = face.turned(hull.max);
   Part part{.min = glm::min(a, b), .max = glm::max(a, b), .plane = face.turned(hull.plane), .half = 1.0 / resolution_};
-  if (part.max.z <= 0.0) return true;  // not seen in this face
+  if (part.max.z <= 0.0) return std::nullopt;
   part.u = over(part.min.x, part.max.x, part.min.z, part.max.z);
   part.v = over(part.min.y, part.max.y, part.min.z, part.max.z);
-  if (part.u.low > part.u.high || part.v.low > part.v.high) return true;
+  if (part.u.low > part.u.high || part.v.low > part.v.high) return std::nullopt;
+  return part;
+}
+
+bool OcclusionMap::face_hides(const Hull& hull, std::uint32_t number) const {
+  const std::optional<Part> found = part_in(hull, number);
+  if (!found) return true;  // not seen in this face
+  const Part& part = *found;
   std::uint32_t behind = ~0U;  // the plane that the hull was last found to lie behind
   for (std::uint32_t y = part.texel(part.v.low - EDGE_ROOM); y <= part.texel(part.v.high + EDGE_ROOM); ++y) {
     for (std::uint32_t x = part.texel(part.u.low - EDGE_ROOM); x <= part.texel(part.u.high + EDGE_ROOM); ++x) {
@@ -288,6 +296,27 @@ bool OcclusionMap::face_hides(const Hull& hull, std::uint32_t number) const {
       if (!hull.is_behind(glm::dvec3(seen_[planes_[texel]]))) return false;
       behind = planes_[texel];
     }
+  }
+  return true;
+}
+
+bool OcclusionMap::surely_sees(const DVec3& min, const DVec3& max) const {
+  if (!hides_anything_) return true;
+  const glm::dvec3 eye(position_);
+  const Hull hull{.min = glm::dvec3(min) - eye, .max = glm::dvec3(max) - eye, .room = 0.0};
+  for (std::uint32_t face = 0; face < FACES; ++face)
+    if (!face_surely_sees(hull, face)) return false;
+  return true;
+}
+
+/// No texel's distance is less than the farthest that the box is seen at in the face.
+bool OcclusionMap::face_surely_sees(const Hull& hull, std::uint32_t number) const {
+  const std::optional<Part> part = part_in(hull, number);
+  if (!part) return true;
+  for (std::uint32_t y = part->texel(part->v.low - EDGE_ROOM); y <= part->texel(part->v.high + EDGE_ROOM); ++y) {
+    const float* const row = &nearness_[(std::size_t{number} * resolution_ + y) * resolution_];
+    for (std::uint32_t x = part->texel(part->u.low - EDGE_ROOM); x <= part->texel(part->u.high + EDGE_ROOM); ++x)
+      if (double{row[x]} * part->max.z > 1.0) return false;
   }
   return true;
 }

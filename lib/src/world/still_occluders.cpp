@@ -3,6 +3,8 @@
 #include "still_occluders.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -66,5 +68,40 @@ StillOccluders::~StillOccluders() = default;
 
 std::size_t StillOccluders::polygons() const { return state_->polygons.size(); }
 std::size_t StillOccluders::left_out() const { return state_->left_out; }
+
+std::vector<DVec3> StillOccluders::points_on(const DVec3& min, const DVec3& max, std::size_t count) const {
+  std::vector<double> areas;  // of the fans' triangles, summed up
+  std::vector<std::array<glm::dvec3, 3>> triangles;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < state_->polygons.size(); ++i) {
+    const State::Box& box = state_->boxes[i];
+    const glm::dvec3 gap = glm::max(box.min - glm::dvec3(max), glm::dvec3(min) - box.max);
+    if (std::max({gap.x, gap.y, gap.z}) > 0.0) continue;
+    const std::vector<glm::dvec3>& corners = state_->polygons[i].corners;
+    for (std::size_t c = 2; c < corners.size(); ++c) {
+      sum += 0.5 * glm::length(glm::cross(corners[c - 1] - corners[0], corners[c] - corners[0]));
+      areas.push_back(sum);
+      triangles.push_back({corners[0], corners[c - 1], corners[c]});
+    }
+  }
+  std::vector<DVec3> points;
+  for (std::size_t i = 0; i < count && sum > 0.0 && std::isfinite(sum); ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const auto at = std::ranges::lower_bound(areas, share * sum);
+    if (at == areas.end()) break;
+    // Two low-discrepancy numbers, folded into the triangle: Roberts, The Unreasonable Effectiveness of Quasirandom
+    // Sequences (2018).
+    const auto number = static_cast<double>(i);
+    double u = number * 0.7548776662466927 - std::floor(number * 0.7548776662466927);
+    double v = number * 0.5698402909980532 - std::floor(number * 0.5698402909980532);
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    const auto& [a, b, c] = triangles[static_cast<std::size_t>(at - areas.begin())];
+    points.emplace_back(a + u * (b - a) + v * (c - a));
+  }
+  return points;
+}
 
 }  // namespace lamp

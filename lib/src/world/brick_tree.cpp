@@ -1,0 +1,222 @@
+// Makes the tree from the root down, its nodes' own lists from the leaves up.
+// SPDX-License-Identifier: Apache-2.0
+#include "brick_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace lamp::world {
+namespace {
+
+std::uint32_t cell_bit(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + 4U * (y + 4U * z); }
+
+/// The cells of a brick's child: each of 8 cells is 2 x 2 x 2 of the child's.
+std::uint64_t cells_of_child(std::uint64_t cells, std::uint32_t child) {
+  if (cells == ALL_CELLS) return ALL_CELLS;
+  const std::uint32_t first = cell_bit(2U * (child & 1U), 2U * (child >> 1U & 1U), 2U * (child >> 2U));
+  std::uint64_t found = 0;
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    const std::uint32_t x = c & 1U;
+    const std::uint32_t y = c >> 1U & 1U;
+    const std::uint32_t z = c >> 2U;
+    constexpr std::uint64_t TWO_CUBED = 0x330033ULL;
+    if ((cells >> (first + cell_bit(x, y, z)) & 1U) != 0) found |= TWO_CUBED << cell_bit(2 * x, 2 * y, 2 * z);
+  }
+  return found;
+}
+
+/// The cells of a brick that hold some of its child's.
+std::uint64_t cells_of_parent(std::uint64_t cells, std::uint32_t child) {
+  cells |= cells >> 1U;
+  cells |= cells >> 4U;
+  cells |= cells >> 16U;
+  const std::uint32_t first = cell_bit(2U * (child & 1U), 2U * (child >> 1U & 1U), 2U * (child >> 2U));
+  std::uint64_t found = 0;
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    const std::uint32_t x = c & 1U;
+    const std::uint32_t y = c >> 1U & 1U;
+    const std::uint32_t z = c >> 2U;
+    if ((cells >> cell_bit(2 * x, 2 * y, 2 * z) & 1U) != 0) found |= 1ULL << (first + cell_bit(x, y, z));
+  }
+  return found;
+}
+
+class Making {
+ public:
+  Making(std::span<const LitBrick> bricks, std::uint32_t levels, std::span<const std::uint64_t> surfaces)
+      : bricks_(bricks), levels_(levels), surfaces_(surfaces) {}
+
+  BrickTree run() {
+    tree_.nodes.emplace_back();
+    node(0, 0, 0, {}, bricks_);
+    return std::move(tree_);
+  }
+
+ private:
+  using Entries = std::vector<Entry>;
+
+  /// `place`: of its low corner. `from_above`: lights of coarser bricks. `own`: bricks in it.
+  void node(std::uint32_t number, std::uint32_t level, std::uint64_t place, const Entries& from_above,
+            std::span<const LitBrick> own) {
+    Entries entries = from_above;
+    const auto deeper = std::ranges::find_if(own, [&](const LitBrick& b) { return b.level != level; });
+    for (auto brick = own.begin(); brick != deeper; ++brick)
+      entries.push_back({.light = brick->light, .cells = brick->cells});
+    std::ranges::inplace_merge(entries, entries.begin() + static_cast<std::ptrdiff_t>(from_above.size()), {},
+                               &Entry::light);
+    const std::span<const LitBrick> rest(deeper, own.end());
+    std::uint32_t children = 0;
+    if (!rest.empty()) {
+      children = static_cast<std::uint32_t>(tree_.nodes.size());
+      tree_.nodes.resize(tree_.nodes.size() + 8);
+      split(children, level, place, entries, rest);
+      entries = merged(children);
+    }
+    finish(number, level, place, children, entries);
+  }
+
+  void split(std::uint32_t children, std::uint32_t level, std::uint64_t place, const Entries& entries,
+             std::span<const LitBrick> rest) {
+    const std::uint64_t size = 1ULL << 3 * (levels_ - level - 1);  // finest bricks of a child
+    for (std::uint32_t child = 0; child < 8; ++child) {
+      Entries of_child;
+      for (const Entry& entry : entries)
+        if (const std::uint64_t cells = cells_of_child(entry.cells, child); cells != 0)
+          of_child.push_back({.light = entry.light, .cells = cells});
+      const std::uint64_t begin = place + child * size;
+      const auto end = std::ranges::lower_bound(rest, begin + size, {}, &LitBrick::place);
+      node(children + child, level + 1, begin, of_child, {rest.begin(), end});
+      rest = {end, rest.end()};
+    }
+  }
+
+  [[nodiscard]] Entries merged(std::uint32_t children) const {
+    Entries all;
+    for (std::uint32_t child = 0; child < 8; ++child)
+      for (const Entry& entry : tree_.of(tree_.nodes[children + child]))
+        all.push_back({.light = entry.light, .cells = cells_of_parent(entry.cells, child)});
+    std::ranges::stable_sort(all, {}, &Entry::light);
+    Entries entries;
+    for (const Entry& entry : all)
+      if (!entries.empty() && entries.back().light == entry.light)
+        entries.back().cells |= entry.cells;
+      else
+        entries.push_back(entry);
+    return entries;
+  }
+
+  void finish(std::uint32_t number, std::uint32_t level, std::uint64_t place, std::uint32_t children,
+              const Entries& entries) {
+    BrickNode& node = tree_.nodes[number];
+    node.first = tree_.entries.size();
+    node.count = static_cast<std::uint32_t>(entries.size());
+    node.children = children;
+    node.weight = std::ldexp(1.0, -3 * static_cast<int>(level));
+    if (!surfaces_.empty()) {
+      const std::uint64_t end = place + (1ULL << 3 * (levels_ - level));
+      const auto on_surfaces = std::ranges::lower_bound(surfaces_, end) - std::ranges::lower_bound(surfaces_, place);
+      node.weight += static_cast<double>(on_surfaces) / static_cast<double>(surfaces_.size());
+    }
+    std::uint64_t lights = 0;
+    for (const Entry& entry : entries) lights += static_cast<std::uint64_t>(std::popcount(entry.cells));
+    node.walked = node.weight * static_cast<double>(lights) / 64.0;
+    node.words = leaf_words(entries.size(), is_plain(entries));
+    tree_.entries.insert(tree_.entries.end(), entries.begin(), entries.end());
+  }
+
+  std::span<const LitBrick> bricks_;
+  std::uint32_t levels_;
+  std::span<const std::uint64_t> surfaces_;
+  BrickTree tree_;
+};
+
+/// Prunes with a price for a word.
+class Pruning {
+ public:
+  Pruning(const BrickTree& tree, double price)
+      : tree_(tree), price_(price), pruned_{std::vector<bool>(tree.nodes.size())} {}
+
+  Pruned run() {
+    static_cast<void>(cost(0));
+    mark(0);
+    return std::move(pruned_);
+  }
+
+ private:
+  double cost(std::uint32_t number) {
+    const BrickNode& node = tree_.nodes[number];
+    const double as_leaf = node.walked + price_ * static_cast<double>(node.words);
+    if (node.children == 0) {
+      pruned_.leaves[number] = true;
+      return as_leaf;
+    }
+    double as_inner = price_ * 8.0;
+    for (std::uint32_t child = 0; child < 8; ++child) as_inner += cost(node.children + child);
+    pruned_.leaves[number] = as_leaf <= as_inner * (1.0 + 1e-12);
+    return std::min(as_leaf, as_inner);
+  }
+
+  void mark(std::uint32_t number) {
+    const BrickNode& node = tree_.nodes[number];
+    if (pruned_.leaves[number]) {
+      pruned_.words += node.words;
+      pruned_.walked += node.walked;
+      forget_below(number);
+      return;
+    }
+    pruned_.words += 8;
+    for (std::uint32_t child = 0; child < 8; ++child) mark(node.children + child);
+  }
+
+  void forget_below(std::uint32_t number) {
+    const BrickNode& node = tree_.nodes[number];
+    for (std::uint32_t child = 0; node.children != 0 && child < 8; ++child) {
+      pruned_.leaves[node.children + child] = false;
+      forget_below(node.children + child);
+    }
+  }
+
+  const BrickTree& tree_;
+  double price_;
+  Pruned pruned_;
+};
+
+}  // namespace
+
+std::uint64_t leaf_words(std::uint64_t lights, bool plain) {
+  if (lights == 0) return 0;  // all such leaves share one
+  return 1 + lights * (plain ? 1 : 3);
+}
+
+bool is_plain(std::span<const Entry> entries) {
+  return std::ranges::all_of(entries, [](const Entry& entry) { return entry.cells == ALL_CELLS; });
+}
+
+BrickTree make_tree(std::span<const LitBrick> bricks, std::uint32_t levels, std::span<const std::uint64_t> surfaces) {
+  return Making(bricks, levels, surfaces).run();
+}
+
+Pruned prune(const BrickTree& tree, std::uint64_t words) {
+  // Leaves that agree merge, and those that nearly do: 64 MiB of them are worth a sixtieth of a light at a point.
+  constexpr double LEAST_PRICE = 1e-9;
+  Pruned best = Pruning(tree, LEAST_PRICE).run();
+  if (best.words <= words) return best;
+  double low = std::log(LEAST_PRICE);
+  double high = std::log(1e6);
+  best = Pruning(tree, std::exp(high)).run();
+  for (int i = 0; i < 40 && high - low > 1e-3; ++i) {
+    const double middle = 0.5 * (low + high);
+    Pruned pruned = Pruning(tree, std::exp(middle)).run();
+    if (pruned.words <= words) {
+      high = middle;
+      best = std::move(pruned);
+    } else {
+      low = middle;
+    }
+  }
+  return best;
+}
+
+}  // namespace lamp::world

@@ -1,0 +1,105 @@
+// Chooses cells by the lights alone.
+// SPDX-License-Identifier: Apache-2.0
+#include "tree_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace lamp::world {
+namespace {
+
+constexpr double MOST_CELLS_ACROSS = 1U << 20;  // of the root, and from the origin to it: exact in 32-bit arithmetic
+constexpr std::uint32_t MOST_LEVELS = 18;       // 4 * 2^18 cells
+constexpr double FAR_REACHING = 4.0;            // times how far lights lie apart, and a usual range
+constexpr double SHIFT = 0.381966;              // of a cell: walls at whole numbers are no faces of cells
+constexpr double BUDGETS = 4.0;                 // times the budget is what is made and then pruned
+constexpr double ENTRY_BYTES = 12.0;
+constexpr double LEAST_DETAIL = 1.0 / 64.0;
+
+bool reaches_something(const shared::Light& light) { return light.range > 0.0F; }
+bool is_infinite(const shared::Light& light) { return light.range >= shared::INFINITE_RADIUS; }
+
+struct Bounds {
+  glm::dvec3 min{std::numeric_limits<double>::infinity()};
+  glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+  void add(const glm::dvec3& p, double radius) {
+    min = glm::min(min, p - radius);
+    max = glm::max(max, p + radius);
+  }
+  [[nodiscard]] double longest() const {
+    const glm::dvec3 size = max - min;
+    return std::max({size.x, size.y, size.z, 0.0});
+  }
+};
+
+/// m; lights that reach farther have no part in where the root lies.
+double usual_reach(std::span<const shared::Light> lights) {
+  Bounds positions;
+  std::vector<float> ranges;
+  for (const shared::Light& light : lights)
+    if (reaches_something(light) && !is_infinite(light)) {
+      positions.add(glm::dvec3(glm::vec3(light.position)), 0.0);
+      ranges.push_back(light.range);
+    }
+  if (ranges.empty()) return 0.0;
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::ranges::nth_element(ranges, middle);
+  return FAR_REACHING * std::max(positions.longest(), double{*middle});
+}
+
+double power_of_two_below(double value) { return std::ldexp(1.0, static_cast<int>(std::floor(std::log2(value)))); }
+
+/// Bricks whose side is `ratio` of a sphere's radius that it reaches, on average (Steiner's formula).
+double mean_bricks(double ratio) {
+  const double pi = std::numbers::pi;
+  return 1 + 6 / ratio + 3 * pi / (ratio * ratio) + 4 * pi / 3 / (ratio * ratio * ratio);
+}
+
+}  // namespace
+
+TreeGrid grid_of(const WorldTreeInfo& info) {
+  const double reach = usual_reach(info.lights);
+  Bounds bounds;
+  double least = std::numeric_limits<double>::infinity();
+  for (const shared::Light& light : info.lights) {
+    if (!reaches_something(light) || double{light.range} > reach) continue;
+    bounds.add(glm::dvec3(glm::vec3(light.position)), light.range * (1.0 + 1e-3));
+    least = std::min(least, double{light.range});
+  }
+  if (!(least < std::numeric_limits<double>::infinity())) return {};
+  const double farthest = std::max({glm::length(bounds.min), glm::length(bounds.max), bounds.longest()});
+  TreeGrid grid;
+  grid.cell_m =
+      std::max(power_of_two_below(least / info.detail), 2.0 * power_of_two_below(farthest / MOST_CELLS_ACROSS));
+  grid.cell_m = std::clamp(grid.cell_m, 0x1p-60, 0x1p60);
+  // Exact as floats: eighths of a cell.
+  grid.low = (glm::floor(bounds.min / grid.cell_m) * 8.0 - std::round(SHIFT * 8.0) - 8.0) / 8.0;
+  const double across = bounds.longest() / grid.cell_m + 4.0;
+  while (grid.levels < MOST_LEVELS && std::ldexp(4.0, static_cast<int>(grid.levels)) < across) ++grid.levels;
+  return grid;
+}
+
+BrickLevels::BrickLevels(const WorldTreeInfo& info, const TreeGrid& grid) : grid_(grid), detail_(info.detail) {
+  const auto bytes = [&] {
+    double sum = 0.0;
+    for (const shared::Light& light : info.lights)
+      if (reaches_something(light)) {
+        const double range = std::min(double{light.range}, grid_.side_m());
+        sum += ENTRY_BYTES * mean_bricks(grid_.brick_m(of(light)) / range);
+      }
+    return sum;
+  };
+  while (detail_ > LEAST_DETAIL && bytes() > BUDGETS * static_cast<double>(info.budget)) detail_ *= 0.7071;
+}
+
+std::uint32_t BrickLevels::of(const shared::Light& light) const {
+  const double range = std::min(double{light.range}, grid_.side_m());
+  const double halvings = std::ceil(
+      std::log2(4.0 * grid_.cell_m * std::ldexp(1.0, static_cast<int>(grid_.levels)) * detail_ / (4.0 * range)));
+  return static_cast<std::uint32_t>(std::clamp(halvings, 0.0, static_cast<double>(grid_.levels)));
+}
+
+}  // namespace lamp::world
