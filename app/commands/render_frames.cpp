@@ -54,7 +54,7 @@ void FlightFrames::go_to(std::uint32_t frame) {
   setup_.views = requested_views(state_.request, setup_.scene);
   setup_.view = setup_.views.front();
   setup_.generated = requested_lights(state_.request, setup_.scene, *air_);
-  setup_.lights = packed_lights(setup_.scene, setup_.generated);
+  setup_.lights = packed_lights(state_.request, setup_.scene, setup_.generated);
   apply_edits(state_, setup_.lights);
 }
 

@@ -15,6 +15,7 @@
 #include "scene/capture.h"
 #include "scene/flight.h"
 #include "scene/gltf.h"
+#include "scene/number_triangles.h"
 #include "scene/place_decals.h"
 #include "scene/place_lights.h"
 
@@ -70,6 +71,7 @@ PlaceLights light_placement(const Request& request, const Scene& scene) {
   const int frame = request.light_frame >= 0 ? request.light_frame : std::max(0, request.frame);
   return {.count = scene.captured && !request.lights_given ? 0 : request.lights,
           .spots = request.spots,
+          .still = request.still,
           .min_range = min_range,
           .max_range = max_range,
           .seed = request.seed,
@@ -250,6 +252,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_brdf(request.brdf));
   static_cast<void>(parse_depth(request.depth, request.depth_samples));
   static_cast<void>(requested_shadows(request));
+  check_still(request);
 }
 
 Scene load_scene(const std::string& name) {
@@ -274,10 +277,12 @@ Setup make_setup(const Request& request) {
   Setup setup;
   setup.scene = load_scene(request.scene);
   check_scene_lights(request, setup.scene);
+  if (request.still_lists != "off") number_triangles(setup.scene);
   setup.views = requested_views(request, setup.scene);
   setup.view = setup.views.front();
   setup.generated = place_lights(setup.scene, light_placement(request, setup.scene));
-  setup.lights = packed_lights(setup.scene, setup.generated);
+  setup.lights = packed_lights(request, setup.scene, setup.generated);
+  setup.still = still_lights(request, setup.scene, setup.generated);
   setup.lights_note = fmt::format("{} generated{} + {} of the scene", setup.generated.size(),
                                   range_note(setup.generated), setup.scene.lights.size());
   setup.decals = requested_decals(request, setup.scene);
@@ -314,24 +319,37 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
                                          static_cast<std::uint32_t>(setup.lights.size()),
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
+  if (request.still_lists != "off") {
+    still_ = make_still(request, setup, context_->device().traits);
+    still_lists_ = std::make_unique<StillLists>(*context_, gpu::STILL_TRIANGLES, setup.still, still_->lists.words);
+    renderer_->light_still(still_lists_.get());
+  }
   if (shadows_) renderer_->cast_shadows(*shadows_);
   renderer_->set_frame(setup.views, setup.lights, setup.decals);
 }
 
+void Session::split_still(bool splits) {
+  renderer_->light_still(splits ? still_lists_.get() : nullptr);
+  renderer_->set_frame(setup_.views, setup_.lights, setup_.decals);
+}
+
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
+  const StillLists* still = renderer_->still();
+  const std::size_t listed = setup_.lights.size() - (still == nullptr ? 0 : still->lights());
   return make_lighting(*renderer_, shaders_,
                        {.method = &method,
                         .options = take(resolve_options(method, options)),
                         .width = setup_.view.width(),
                         .height = setup_.view.height(),
-                        .light_capacity = static_cast<std::uint32_t>(setup_.lights.size() + setup_.decals.size()),
+                        .light_capacity = static_cast<std::uint32_t>(listed + setup_.decals.size()),
                         .path = path,
                         .brdf = brdf_,
                         .depth = depth_,
                         .transparency = !gpu_scene_->blended().empty(),
                         .captured = setup_.scene.captured.has_value(),
                         .decals = !setup_.decals.empty(),
-                        .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt},
+                        .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt,
+                        .still = still == nullptr ? gpu::STILL_OFF : still->kind()},
                        grow_);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "error.h"
+#include "lamplight/triangle_lists.h"
 #include "render/renderer.h"
 #include "render/verification.h"
 #include "scene/free_camera.h"
@@ -38,6 +39,10 @@ struct Request {
   std::vector<std::string> options;
   std::string path = "deferred";
   std::string brdf = "ggx";
+  float still = 0.0F;                   ///< part of the generated lights that stand still; the scene's own do
+  std::string still_lists = "off";      ///< or what they are looked up in
+  std::uint32_t still_occlusion = 0;    ///< texels a side of what each looks around with; 0: walls hide nothing
+  float still_bytes = 16.0F;            ///< that their lists take, for each triangle
   std::string shadows = "off";          ///< filter
   std::string point_shadows = "faces";  ///< or octahedron
   std::string shadow_lights = "all";    ///< how many of the first lights
@@ -81,6 +86,8 @@ void add_grow_option(CLI::App& command, Request& request);
 void add_auto_options(CLI::App& command, Request& request);
 /// Adds `--shadows` and what goes with it.
 void add_shadow_options(CLI::App& command, Request& request);
+/// Adds `--still-lists` and what goes with it.
+void add_still_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
@@ -101,7 +108,8 @@ struct Setup {
   View view;                          ///< the first of these
   std::vector<View> views;            ///< of the frame, all of one size
   std::vector<Light> generated;       ///< besides the scene's own
-  std::vector<shared::Light> lights;  ///< the scene's, then the generated ones
+  std::vector<shared::Light> lights;  ///< the scene's, then the generated ones; with still ones, these last
+  std::uint32_t still = 0;            ///< how many lights stand still, the last ones
   std::vector<gpu::DecalData> decals;
   std::string decals_note;  ///< "44 of the scene + 20 generated"
   std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
@@ -115,6 +123,11 @@ struct Setup {
 [[nodiscard]] std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air);
 /// The scene's, then the generated ones, as the GPU has them.
 [[nodiscard]] std::vector<shared::Light> packed_lights(const Scene& scene, std::span<const Light> generated);
+/// The same in the order that the request asks for: those that stand still, the scene's among them, are the last.
+[[nodiscard]] std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene,
+                                                       std::span<const Light> generated);
+/// How many of them stand still; 0 where nobody asks for it.
+[[nodiscard]] std::uint32_t still_lights(const Request& request, const Scene& scene, std::span<const Light> generated);
 /// The decals. Throws Error for a capture, and for boxes that none can be.
 [[nodiscard]] std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene);
 /// The scene's lights and the generated ones are few enough, and as lights must be.
@@ -136,6 +149,10 @@ void check_scene_lights(const Request& request, const Scene& scene);
 /// What `--shadows`, `--point-shadows` and `--depth` take.
 [[nodiscard]] std::span<const std::string_view> shadow_names();
 [[nodiscard]] std::span<const std::string_view> point_shadow_names();
+/// What `--still-lists` takes.
+[[nodiscard]] std::span<const std::string_view> still_lists_names();
+/// Throws Error for `--still-lists` and what goes with it, as far as it is known before a scene is loaded.
+void check_still(const Request& request);
 [[nodiscard]] std::span<const std::string_view> depth_names();
 /// What `--brdf`, `--verifier` take.
 [[nodiscard]] std::span<const std::string_view> brdf_names();
@@ -167,6 +184,14 @@ struct MethodWord {
 /// A lighting of the renderer's frame; with `grow`, with as much room as that needs.
 [[nodiscard]] Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, LightingInfo info, bool grow);
 
+/// Lists of the lights that stand still, and what they were made of.
+struct StillSetup {
+  std::vector<StillTriangle> triangles;
+  TriangleLists lists;
+  double build_ms = 0.0;
+};
+[[nodiscard]] StillSetup make_still(const Request& request, const Setup& setup, const DeviceTraits& traits);
+
 /// Device, renderer and what they need, for one Setup.
 class Session {
  public:
@@ -177,6 +202,11 @@ class Session {
   [[nodiscard]] Lighting lighting(const Method& method, const std::vector<std::string>& options,
                                   ShadingPath path) const;
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
+  /// Null: all lights are the picture's.
+  [[nodiscard]] const StillSetup* still() const { return still_ ? &*still_ : nullptr; }
+  /// Whether the next frames look up still lights in their lists, which they do at first, or have all lights in the
+  /// picture's, for comparison. Shows the setup's frame anew; lightings are made for one of them.
+  void split_still(bool splits);
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
 
@@ -186,9 +216,11 @@ class Session {
   HostDepth depth_;
   std::optional<ShadowSettings> shadows_;
   bool grow_;
+  std::optional<StillSetup> still_;
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<GpuScene> gpu_scene_;
+  std::unique_ptr<StillLists> still_lists_;
   std::unique_ptr<Renderer> renderer_;
 };
 

@@ -26,6 +26,13 @@ void add_light_options(CLI::App& command, Request& r) {
       ->group("Lights")
       ->capture_default_str();
   command
+      .add_option("--still", r.still,
+                  "part of the generated lights that stand still in a flight, 0 to 1; lights of the scene do anyway")
+      ->check(number_between(0.0, 1.0))
+      ->type_name("PART")
+      ->group("Lights")
+      ->capture_default_str();
+  command
       .add_option("--range", r.range,
                   "range of the generated lights in metres, MIN:MAX or one number; inf: they have none and reach "
                   "everything; default: such that about 24 of them reach a point")
@@ -113,6 +120,7 @@ void add_picture_options(CLI::App& command, Request& r) {
   add_grow_option(command, r);
   add_auto_options(command, r);
   add_decal_option(command, r);
+  add_still_options(command, r);
   add_shadow_options(command, r);
 }
 

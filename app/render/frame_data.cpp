@@ -41,11 +41,13 @@ FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity,
 }
 
 void FrameData::set(std::span<const View> views, std::span<const shared::Light> lights,
-                    std::span<const gpu::DecalData> decals) {
+                    std::span<const gpu::DecalData> decals, std::uint32_t still) {
   assert((lights.size() + decals.size()) * sizeof(shared::Light) <= lights_.bytes() &&
          decals.size_bytes() <= decals_.bytes() && "make FrameData with a larger capacity");
   assert(views.size() == host_frames_.size() && "as many views as FrameData was made for");
-  host_lights_ = entity_records(lights, boxes_of(decals));
+  assert(still <= lights.size() && "as many lights as stand still");
+  const std::size_t moving = lights.size() - still;
+  host_lights_ = entity_records(lights.first(moving), boxes_of(decals));
   // Room for as many as there are: plans of any capacity from there on take it.
   const auto count = static_cast<std::uint32_t>(host_lights_.size());
   for (std::uint32_t i = 0; i < views.size(); ++i) {
@@ -53,6 +55,7 @@ void FrameData::set(std::span<const View> views, std::span<const shared::Light> 
     host_frames_[i].box_count = static_cast<std::uint32_t>(decals.size());
     host_frames_[i].view_index = i;
   }
+  host_lights_.insert(host_lights_.end(), lights.begin() + static_cast<std::ptrdiff_t>(moving), lights.end());
   changed_ = true;
   std::span<std::byte> to = staging_.mapped();
   const auto put = [&](const vulkan::Buffer& buffer, std::span<const std::byte> bytes) {
@@ -99,7 +102,7 @@ vulkan::PlanInputs FrameData::plan_inputs(std::span<const vulkan::Resource> dept
           .radial = no_radial_.handle(),
           .depth = depths.front(),
           .depths = depths,
-          .host_lights = host_lights_,
+          .host_lights = std::span(host_lights_).first(frame_of(0).light_count),
           .host_frame = host_frames_.data()};
 }
 

@@ -18,8 +18,9 @@ class FrameData {
             std::uint32_t views = 1);
 
   /// Host side; the copies are recorded by the next `record_upload`.
+  /// The last `still` lights are no entities of the picture: their records lie behind the decals'.
   void set(std::span<const View> views, std::span<const shared::Light> lights,
-           std::span<const gpu::DecalData> decals = {});
+           std::span<const gpu::DecalData> decals = {}, std::uint32_t still = 0);
   /// The same lights and decals, seen otherwise: by one view, in a place among a frame's.
   void set_view(const View& view, std::uint32_t index = 0);
   /// Nothing if it was recorded before, and nothing has been set since.
@@ -33,6 +34,8 @@ class FrameData {
   [[nodiscard]] vulkan::Resource lights() const { return vulkan::Resource::storage(lights_.handle()); }
   [[nodiscard]] vulkan::Resource spheres() const { return vulkan::Resource::storage(spheres_.handle()); }
   [[nodiscard]] vulkan::Resource decals() const { return vulkan::Resource::storage(decals_.handle()); }
+  /// All records of lights, in their order; a decal's lies where its number says, and is no light's.
+  [[nodiscard]] std::span<const shared::Light> records() const { return host_lights_; }
   /// The ids of lights and decals.
   [[nodiscard]] EntityRanges entities() const {
     return entity_ranges(frame_of(0).light_count - frame_of(0).box_count, frame_of(0).box_count);
@@ -44,7 +47,7 @@ class FrameData {
   [[nodiscard]] const shared::Frame& frame_of(std::uint32_t view) const { return host_frames_[view]; }
 
   vulkan::Buffer frame_;
-  vulkan::Buffer lights_;   ///< and a record for each decal
+  vulkan::Buffer lights_;   ///< and a record for each decal; then lights that stand still, in lists of their own
   vulkan::Buffer spheres_;  ///< of all these
   vulkan::Buffer decals_;
   vulkan::Buffer no_radial_;  ///< where no light casts a shadow: nothing is known of any
@@ -52,7 +55,7 @@ class FrameData {
       staging_;  ///< a shared::Frame of each view, then the lights with the decals' records, their spheres, the decals
   bool changed_ = true;  ///< since the last upload
   std::vector<shared::Frame> host_frames_;
-  std::vector<shared::Light> host_lights_;  ///< with the decals' records
+  std::vector<shared::Light> host_lights_;  ///< all records
 };
 
 }  // namespace lamp::app

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "gpu/check.h"
+#include "scene/still_surfaces.h"
 
 namespace lamp::app {
 namespace {
@@ -39,12 +40,13 @@ gpu::MaterialData material_data(const Material& m) {
           .emissive_texture = texture_data(m.emissive_texture)};
 }
 
-gpu::InstanceData instance_data(const Instance& instance) {
+gpu::InstanceData instance_data(const Instance& instance, std::uint32_t first_triangle) {
   const glm::mat3 normal = glm::transpose(glm::inverse(glm::mat3(instance.world_from_object)));
   return {.world_from_object = instance.world_from_object,
           .normal_x = normal[0],
           .normal_y = normal[1],
-          .normal_z = normal[2]};
+          .normal_z = normal[2],
+          .first_triangle = first_triangle};
 }
 
 std::array<const Texture*, 5> textures_of(const Material& m) {
@@ -173,9 +175,10 @@ void GpuScene::make_draws(Context& context) {
     return std::tuple(scene_->meshes[mesh].material, mesh, i);
   });
   std::vector<gpu::InstanceData> instances;
+  const std::vector<std::uint32_t> firsts = first_triangles(*scene_);
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const Instance& instance = scene_->instances[order[i]];
-    instances.push_back(instance_data(instance));
+    instances.push_back(instance_data(instance, firsts[order[i]] - scene_->meshes[instance.mesh].vertex_offset));
     if (scene_->materials[scene_->meshes[instance.mesh].material].alpha_mode == AlphaMode::blend) {
       blended_.push_back(
           {.mesh = instance.mesh, .first_instance = i, .instances = 1, .center = mesh_center(*scene_, instance)});

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "gpu/check.h"
+#include "render/still_lists.h"
 
 namespace lamp::app {
 namespace {
@@ -23,8 +24,9 @@ std::vector<vulkan::Bound> with_shadows(std::vector<vulkan::Bound> bound, const 
   return bound;
 }
 
-std::vector<vulkan::Bound> with_decals_and_shadows(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
+std::vector<vulkan::Bound> with_forward_inputs(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
   bound.push_back({BINDING_DECALS, frame.data.decals()});
+  bound.push_back({BINDING_STILL, frame.still});
   return with_shadows(std::move(bound), frame);
 }
 
@@ -167,7 +169,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
-                reads(frame.data.decals(), GRAPHICS_SHADERS)});
+                reads(frame.data.decals(), GRAPHICS_SHADERS), reads(frame.still, GRAPHICS_SHADERS)});
   append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
@@ -176,7 +178,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
                          .frame = &frame.data,
                          .draws = frame.scene.opaque(),
                          .pipeline = &shade_,
-                         .more = with_decals_and_shadows(walked.resources, frame)});
+                         .more = with_forward_inputs(walked.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }
@@ -267,7 +269,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
-                reads(frame.data.decals(), GRAPHICS_SHADERS)});
+                reads(frame.data.decals(), GRAPHICS_SHADERS), reads(frame.still, GRAPHICS_SHADERS)});
   append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
   recorder.begin_pass("transparent", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
@@ -276,7 +278,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
                          .frame = &frame.data,
                          .draws = far_to_near,
                          .pipeline = &transparent_,
-                         .more = with_decals_and_shadows(walked.resources, frame)});
+                         .more = with_forward_inputs(walked.resources, frame)});
   vkCmdEndRendering(recorder.commands());
   recorder.end_pass();
 }

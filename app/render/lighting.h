@@ -27,6 +27,7 @@ struct LightingFrame {
   std::span<const View> views;             ///< all that are culled
   glm::vec3 eye{0.0F};
   ShadowBound shadows{};        ///< what look-ups of shadows bind
+  vulkan::Resource still{};     ///< and those of lights that stand still
   bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none
 };
 

@@ -9,6 +9,7 @@
 #include "render/decal_pass.h"
 #include "render/mesh_pass.h"
 #include "render/shadows.h"
+#include "render/still_lists.h"
 
 namespace lamp::app {
 namespace {
@@ -44,8 +45,10 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
   append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
                               {CONSTANT_BOXES, info.decals ? 1U : 0U},
                               {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U},
-                              shown_view_constant(plan)});
+                              shown_view_constant(plan),
+                              {CONSTANT_STILL, info.still}});
   pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  pipeline.bindings.push_back({BINDING_STILL, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),

@@ -50,7 +50,9 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
       data_(context.device(), light_capacity, decal_capacity),
       geometry_(context.device(), shaders, depth),
       no_shadows_(context.device()),
+      no_still_(context),
       light_capacity_(light_capacity),
+      decal_capacity_(decal_capacity),
       timestamps_(take(vulkan::Timestamps::create(context.device(), MAX_PASSES * depth.views))) {
   if (depth.several()) {
     check_depth_samples(context.device(), depth.samples);
@@ -66,7 +68,8 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 
 void Renderer::cast_shadows(const ShadowSettings& settings) {
   assert(!shadows_ && "once");
-  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_);
+  // Where lights stand still, a decal's number is between those of two lights.
+  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : decal_capacity_));
 }
 
 void Renderer::set_frame(std::span<const View> views, std::span<const shared::Light> lights,
@@ -78,12 +81,22 @@ void Renderer::set_frame(std::span<const View> views, std::span<const shared::Li
   if (moves || all_pictures_) forget_surfaces();
   shown_ = {};
   shown_view_ = views_.front();
-  data_.set({&shown_view_, 1}, lights, decals);
-  if (shadows_) shadows_->schedule(views_, lights);
+  const std::uint32_t still = still_ == nullptr ? 0 : still_->lights();
+  data_.set({&shown_view_, 1}, lights, decals, still);
+  const std::vector<shared::Light> shadowed =
+      shadows_ && still != 0 ? shadowed_records() : std::vector<shared::Light>();
+  if (shadows_) shadows_->schedule(views_, still == 0 ? lights : shadowed);
   if (!all_pictures_) return;
-  all_pictures_->data.set(views_, lights, decals);
+  all_pictures_->data.set(views_, lights, decals, still);
   if (moves) draw_depths();
   show({});
+}
+
+std::vector<shared::Light> Renderer::shadowed_records() const {
+  std::vector<shared::Light> records(data_.records().begin(), data_.records().end());
+  const EntityRange boxes = data_.entities().boxes;
+  for (std::uint32_t i = boxes.first; i < boxes.end; ++i) records[i].range = 0.0F;  // no shadow
+  return records;
 }
 
 void Renderer::show(const FramePicture& shown) {
@@ -142,7 +155,8 @@ LightingFrame Renderer::lighting_frame() const {
           .kept = kept_ ? &*kept_ : nullptr,
           .views = all_pictures_ ? std::span<const View>(views_) : std::span<const View>(&shown_view_, 1),
           .eye = glm::vec3(glm::dmat4(shown_view_.world_from_view())[3]),
-          .shadows = shadow_bound()};
+          .shadows = shadow_bound(),
+          .still = (still_ == nullptr ? no_still_ : *still_).words()};
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {

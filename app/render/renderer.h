@@ -14,6 +14,7 @@
 #include "render/frame_times.h"
 #include "render/lighting.h"
 #include "render/sample_depth.h"
+#include "render/still_lists.h"
 #include "render/visit.h"
 
 namespace lamp::app {
@@ -68,6 +69,10 @@ class Renderer {
   void cast_shadows(const ShadowSettings& settings);
   /// Null: no light casts a shadow.
   [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
+  /// The last lights of the next frames stand still, as many as `lists` has, and are looked up in it by lightings that
+  /// were made for it. Null: none do. It must live on, and be told before `set_frame`.
+  void light_still(const StillLists* lists) { still_ = lists; }
+  [[nodiscard]] const StillLists* still() const { return still_; }
   /// What shading binds for them.
   [[nodiscard]] ShadowBound shadow_bound() const { return shadows_ ? shadows_->bound() : no_shadows_.bound(); }
 
@@ -176,6 +181,8 @@ class Renderer {
   void submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::PlanInputs plan_inputs() const;
+  /// Lights by their numbers in the buffer, where some stand still: nothing of decals.
+  [[nodiscard]] std::vector<shared::Light> shadowed_records() const;
   void record_upload(vulkan::Recorder& recorder);
   void forget_surfaces();
   void draw_depths();
@@ -203,7 +210,10 @@ class Renderer {
   std::optional<CapturedSurfaces> kept_;         ///< of shown_view_
   NoShadows no_shadows_;
   std::optional<Shadows> shadows_;
+  StillLists no_still_;
+  const StillLists* still_ = nullptr;
   std::uint32_t light_capacity_;
+  std::uint32_t decal_capacity_;
   vulkan::AccessTracker tracker_;
   vulkan::Timestamps timestamps_;
 };

@@ -85,6 +85,8 @@ void check(const PlaceLights& how) {
   if (!is_fraction) {
     throw Error(fmt::format("spots: the fraction must lie in 0 .. 1, got {}", how.spots));
   }
+  if (!(how.still >= 0.0F && how.still <= 1.0F))
+    throw Error(fmt::format("still: the fraction must lie in 0 .. 1, got {}", how.still));
   const bool automatic = how.min_range == 0.0F && how.max_range == 0.0F;
   const bool is_range = how.min_range > 0.0F && how.min_range <= how.max_range && std::isfinite(how.max_range);
   const bool none = without_range(how) && how.min_range > 0.0F;
@@ -143,7 +145,8 @@ Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& range
   Random random(seed_of(how.seed, i));
   Light light;
   light.range = draw_range(random, ranges);
-  light.position = draw_position(random, air, light.range, static_cast<double>(how.frame % how.frames) / how.frames);
+  const std::uint32_t frame = i < how.count - still_count(how) ? how.frame % how.frames : 0;
+  light.position = draw_position(random, air, light.range, static_cast<double>(frame) / how.frames);
   light.color = draw_color(random);
   light.direction = draw_direction(random);
   light.outer_angle = random.between(15.0F, 45.0F) * DEGREE;
@@ -158,6 +161,10 @@ Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& range
 }
 
 }  // namespace
+
+std::uint32_t still_count(const PlaceLights& how) {
+  return static_cast<std::uint32_t>(std::lround(double{how.still} * how.count));
+}
 
 std::vector<Light> place_lights(const OpenAir& air, const PlaceLights& how) {
   check(how);

@@ -13,6 +13,7 @@ namespace lamp::app {
 struct PlaceLights {
   std::uint32_t count = 0;
   float spots = 0.5F;      ///< fraction of the lights that are spots, 0 .. 1
+  float still = 0.0F;      ///< fraction of the lights that stand still, 0 .. 1: the last ones; where frame 0 has them
   float min_range = 0.0F;  ///< m, > 0; both 0: chosen so that a point of open air lies in about 24 lights' ranges
   float max_range = 0.0F;  ///< m, >= min_range, finite; both infinite: as with automatic ranges, but without them
   std::uint64_t seed = 1;
@@ -25,6 +26,9 @@ struct PlaceLights {
 /// the picture's brightness hardly depends on the count. All of a light's path lies in open air.
 /// Throws Error for a fraction, a range or a frame count outside the limits above.
 [[nodiscard]] std::vector<Light> place_lights(const Scene& scene, const PlaceLights& how);
+
+/// How many of them stand still.
+[[nodiscard]] std::uint32_t still_count(const PlaceLights& how);
 
 /// The same for air that is already known, which takes most of the time: for frame after frame of one scene.
 [[nodiscard]] std::vector<Light> place_lights(const OpenAir& air, const PlaceLights& how);

@@ -16,9 +16,11 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
 #include "lookup.glsl"
 #include "common/decals.glsl"
 #include "common/shade_cell.glsl"
+#include "common/shade_still.glsl"
 #include "common/surroundings.glsl"
 #include "common/eye.glsl"
 
+layout(location = 5) flat in uint in_triangle;
 layout(location = 0) out vec4 out_color;
 
 void main() {
@@ -36,5 +38,6 @@ void main() {
   const Reflector r = reflector(s);
   vec3 sum = shade_surroundings(s, r, emission);
   add_cell(sum, r, uvec2(gl_FragCoord.xy), z_view);
+  add_still(sum, r, in_triangle);
   out_color = vec4(sum, max(color.a, material.least_alpha));
 }

@@ -21,6 +21,7 @@ layout(location = 1) out vec4 out_tangent;
 layout(location = 2) out vec2 out_uv0;
 layout(location = 3) out vec2 out_uv1;
 layout(location = 4) out vec4 out_color;
+layout(location = 5) flat out uint out_triangle;  // of its first corner, where a scene's triangles are numbered
 invariant gl_Position;
 
 void main() {
@@ -32,4 +33,5 @@ void main() {
   out_uv0 = uv0;
   out_uv1 = uv1;
   out_color = color;
+  out_triangle = instance.first_triangle + uint(gl_VertexIndex);
 }

@@ -41,6 +41,7 @@ struct InstanceData {
   vec3 normal_x;  // columns of the normal matrix
   vec3 normal_y;
   vec3 normal_z;
+  uint first_triangle;  // its first triangle's number, less the mesh's vertex offset (number_triangles.h)
 };
 
 struct DirectionalData {

@@ -16,6 +16,7 @@
 
 #include "lamplight/error.h"
 #include "lamplight/export.h"
+#include "lamplight/occlusion.h"
 #include "lamplight/shared/light.h"
 #include "lamplight/shared/triangle_lists.h"
 #include "lamplight/vectors.h"
@@ -38,6 +39,12 @@ struct StillTriangle {
 /// Whether nothing of a light arrives in the convex hull of some points, because of what stands between. Must be
 /// proved: what is undecided is not hidden. The points enclose all positions that the list is for, slack included.
 using Hides = std::function<bool(std::uint32_t light, std::span<const DVec3> hull)>;
+
+/// What these occluders prove; `occluders` must live on. Each light looks around at a cube of `texels` a side of a
+/// face; that many maps are kept (24 bytes a texel at 6 faces: some 150 KB each at 32 texels), and lights look again
+/// where theirs was not.
+[[nodiscard]] LAMPLIGHT_API Hides hidden_by(const StillOccluders& occluders, std::span<const shared::Light> lights,
+                                            std::uint32_t texels = 32, std::size_t kept_maps = 1024);
 
 struct TriangleListsInfo {
   std::span<const StillTriangle> triangles{};

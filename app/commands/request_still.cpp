@@ -1,0 +1,133 @@
+// Lights that stand still: the options, their place among all lights, and their lists.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "commands/command_line.h"
+#include "commands/request.h"
+#include "gpu/check.h"
+#include "scene/place_lights.h"
+#include "scene/still_surfaces.h"
+#include "scene/still_triangles.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::string_view OFF = "off";
+constexpr std::array<std::string_view, 2> LISTS{OFF, "triangle-lists"};
+constexpr std::uint64_t LEAST_BYTES = 1U << 20;  // whatever few triangles a scene has
+
+bool asks(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
+
+std::uint32_t still_generated(const Request& request, std::span<const Light> generated) {
+  return still_count({.count = static_cast<std::uint32_t>(generated.size()), .still = request.still});
+}
+
+/// m: of the farthest point of the scene that any view from within it, or these views, may see.
+float farthest(const Scene& scene, std::span<const View> views) {
+  const Box box = bounds(scene);
+  float most = glm::length(box.max - box.min);
+  for (const View& view : views) {
+    const glm::vec3 eye(glm::dvec3(glm::dmat4(view.world_from_view())[3]));
+    most = std::max(most, glm::length(glm::max(glm::abs(box.min - eye), glm::abs(box.max - eye))));
+  }
+  return most;
+}
+
+float slack_of(const Scene& scene, std::span<const View> views, std::uint32_t subpixel_bits) {
+  const float most_z = farthest(scene, views);
+  float slack = 0.0F;
+  for (const View& view : views) {
+    const glm::dmat4 clip(view.clip_from_view());
+    const double pixel =
+        std::max(2.0 / (view.width() * std::abs(clip[0][0])), 2.0 / (view.height() * std::abs(clip[1][1])));
+    const bool perspective = clip[2][3] != 0.0;
+    slack = std::max(slack, raster_slack(perspective ? most_z : 1.0F, static_cast<float>(pixel), subpixel_bits));
+  }
+  return slack;
+}
+
+}  // namespace
+
+std::span<const std::string_view> still_lists_names() { return LISTS; }
+
+void check_still(const Request& request) {
+  if (std::ranges::find(LISTS, request.still_lists) == LISTS.end())
+    throw unknown_name("--still-lists", request.still_lists, LISTS);
+  if (request.still_lists != OFF && request.path != "forward")
+    throw Error(fmt::format("--still-lists {}: on path {} a pixel does not know its triangle, expected --path forward",
+                            request.still_lists, request.path));
+  if (request.still_lists == OFF && request.still_occlusion != 0)
+    throw Error(
+        fmt::format("--still-occlusion {}: there are no lists to leave lights out of, expected --still-lists "
+                    "triangle-lists",
+                    request.still_occlusion));
+}
+
+std::uint32_t still_lights(const Request& request, const Scene& scene, std::span<const Light> generated) {
+  if (!asks(request)) return 0;
+  return static_cast<std::uint32_t>(scene.lights.size()) + still_generated(request, generated);
+}
+
+std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene, std::span<const Light> generated) {
+  if (!asks(request)) return packed_lights(scene, generated);
+  std::vector<shared::Light> lights = pack(generated);
+  const std::vector<shared::Light> of_scene = pack(scene.lights);
+  lights.insert(lights.end(), of_scene.begin(), of_scene.end());
+  return lights;
+}
+
+StillSetup make_still(const Request& request, const Setup& setup, const DeviceTraits& traits) {
+  if (setup.scene.captured)
+    throw Error(fmt::format("--still-lists {}: the capture {} has no triangles, expected off", request.still_lists,
+                            request.scene));
+  const auto begin = std::chrono::steady_clock::now();
+  StillSetup made{.triangles = still_surfaces(setup.scene, !setup.decals.empty())};
+  const auto lights = std::span(setup.lights).last(setup.still);
+  TriangleListsInfo info{.triangles = made.triangles,
+                         .lights = lights,
+                         .slack_m = slack_of(setup.scene, setup.views, traits.sub_pixel_bits)};
+  if (request.still_bytes > 0.0F)
+    info.budget_bytes = std::max(LEAST_BYTES, static_cast<std::uint64_t>(double{request.still_bytes} *
+                                                                         static_cast<double>(made.triangles.size())));
+  std::optional<StillOccluders> occluders;
+  if (request.still_occlusion != 0) {
+    occluders.emplace(still_triangles(setup.scene));
+    info.hides = hidden_by(*occluders, lights, request.still_occlusion);
+  }
+  made.lists = take(make_triangle_lists(info));
+  made.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return made;
+}
+
+void add_still_options(CLI::App& command, Request& r) {
+  command
+      .add_option("--still-lists", r.still_lists,
+                  "lists made ahead for lights that stand still: off, or triangle-lists (with --path forward)")
+      ->type_name("NAME")
+      ->group("Lights")
+      ->capture_default_str();
+  command
+      .add_option("--still-occlusion", r.still_occlusion,
+                  "leave still lights out of lists where walls surely hide them: texels a side of the cube with which "
+                  "each looks around, such as 32; 0: walls hide nothing")
+      ->check(whole_number(0, 1024))
+      ->type_name("TEXELS")
+      ->group("Lights")
+      ->capture_default_str();
+  command
+      .add_option("--still-bytes", r.still_bytes,
+                  "bytes for each triangle that lists of still lights may take, or 1 MiB in all; 0: without limit")
+      ->check(number_between(0.0, 1e9))
+      ->type_name("BYTES")
+      ->group("Lights")
+      ->capture_default_str();
+}
+
+}  // namespace lamp::app

@@ -1,0 +1,20 @@
+// How lights that stand still are looked up.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_STILL_DATA_H
+#define LAMP_STILL_DATA_H
+
+#include "lamplight/shared/glsl.h"
+
+#ifdef __cplusplus
+namespace lamp::app::gpu {
+using namespace lamp::shared;
+#endif
+
+LAMP_CONST STILL_OFF = 0u;        // all lights are the picture's
+LAMP_CONST STILL_TRIANGLES = 1u;  // by a pixel's triangle and its position (triangle_lists.h)
+
+#ifdef __cplusplus
+}  // namespace lamp::app::gpu
+#endif
+
+#endif

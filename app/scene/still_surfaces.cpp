@@ -1,0 +1,75 @@
+// Collects triangles with their normals, as mesh.vert and material.glsl have them.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/still_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/number_triangles.h"
+
+namespace lamp::app {
+namespace {
+
+/// A vertex's tangent makes no skewed frame: material.glsl makes it normal to the interpolated normal.
+bool has_frames(const Scene& scene, const Mesh& mesh) {
+  for (std::uint32_t i = 0; i < mesh.index_count; ++i) {
+    const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + i] + mesh.vertex_offset];
+    if (std::abs(vertex.tangent.w) != 1.0F) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+float normal_tilt(const Scene& scene, const Material& material) {
+  if (material.double_sided) return ANY_NORMAL;
+  if (material.normal_texture.image < 0) return 0.0F;
+  const Image& image = scene.images[static_cast<std::size_t>(material.normal_texture.image)];
+  if (image.srgb) return ANY_NORMAL;
+  // Texels within a cone, and what filters mix of them lies in it too.
+  float steepest = 0.0F;
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+    const glm::vec3 read = glm::vec3(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]) / 127.5F - 1.0F;
+    steepest = std::max(steepest, std::atan2(std::abs(material.normal_scale) * glm::length(glm::vec2(read)), read.z));
+  }
+  constexpr float ROUNDED = 0.01F;  // of filters, whose weights have 8 bits
+  return steepest + ROUNDED < std::numbers::pi_v<float> / 2.0F ? steepest + ROUNDED : ANY_NORMAL;
+}
+
+std::vector<StillTriangle> still_surfaces(const Scene& scene, bool painted) {
+  std::vector<float> tilts;
+  for (const Mesh& mesh : scene.meshes) {
+    const Material& material = scene.materials[mesh.material];
+    const bool known = !painted && (material.normal_texture.image < 0 || has_frames(scene, mesh));
+    tilts.push_back(known ? normal_tilt(scene, material) : ANY_NORMAL);
+  }
+  std::vector<StillTriangle> triangles;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const glm::dmat4 world_from_object(instance.world_from_object);
+    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(instance.world_from_object)));
+    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
+      StillTriangle& triangle = triangles.emplace_back();
+      triangle.normal_tilt = tilts[instance.mesh];
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + 3 * t + i] + mesh.vertex_offset];
+        triangle.corners[i] = DVec3(glm::dvec3(world_from_object * glm::dvec4(glm::dvec3(vertex.position), 1.0)));
+        triangle.normals[i] = Vec3(normal_matrix * vertex.normal);
+      }
+    }
+  }
+  return triangles;
+}
+
+std::vector<std::uint32_t> first_triangles(const Scene& scene) {
+  std::vector<std::uint32_t> firsts;
+  std::uint32_t next = 0;
+  for (const Instance& instance : scene.instances) {
+    firsts.push_back(next);
+    next += triangle_count(scene.meshes[instance.mesh]);
+  }
+  return firsts;
+}
+
+}  // namespace lamp::app
