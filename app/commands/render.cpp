@@ -98,6 +98,9 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   line("times", fmt::format("cull {:.3f} ms{}shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
                             stats.views == 1 ? ", " : " for both eyes; of the left one: ", stats.rendered.shade_ms,
                             stats.rendered.frame_ms, passes));
+  if (stats.still) line("still", still_words(*stats.still));
+  if (stats.still)
+    for (const std::string& note : stats.still->notes) line("note", note);
   line("picture", o.out);
   for (const auto& [label, file] : {std::pair{"heat map", o.heatmap}, {"overlay", o.overlay}, {"stats", o.stats}})
     if (!file.empty()) line(label, file);

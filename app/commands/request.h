@@ -110,6 +110,12 @@ struct Setup {
   std::vector<Light> generated;       ///< besides the scene's own
   std::vector<shared::Light> lights;  ///< the scene's, then the generated ones; with still ones, these last
   std::uint32_t still = 0;            ///< how many lights stand still, the last ones
+  bool still_lists = false;           ///< these are in lists of their own
+  /// The lights that a picture's lists have.
+  [[nodiscard]] std::span<const shared::Light> listed() const {
+    return std::span(lights).first(lights.size() - (still_lists ? still : 0));
+  }
+  [[nodiscard]] std::span<const shared::Light> standing() const { return std::span(lights).last(still); }
   std::vector<gpu::DecalData> decals;
   std::string decals_note;  ///< "44 of the scene + 20 generated"
   std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
@@ -202,6 +208,7 @@ class Session {
   [[nodiscard]] Lighting lighting(const Method& method, const std::vector<std::string>& options,
                                   ShadingPath path) const;
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
+  [[nodiscard]] const GpuScene& gpu_scene() const { return *gpu_scene_; }
   /// Null: all lights are the picture's.
   [[nodiscard]] const StillSetup* still() const { return still_ ? &*still_ : nullptr; }
   /// Whether the next frames look up still lights in their lists, which they do at first, or have all lights in the

@@ -89,7 +89,7 @@ StillSetup make_still(const Request& request, const Setup& setup, const DeviceTr
                             request.scene));
   const auto begin = std::chrono::steady_clock::now();
   StillSetup made{.triangles = still_surfaces(setup.scene, !setup.decals.empty())};
-  const auto lights = std::span(setup.lights).last(setup.still);
+  const std::span<const shared::Light> lights = setup.standing();
   TriangleListsInfo info{.triangles = made.triangles,
                          .lights = lights,
                          .slack_m = slack_of(setup.scene, setup.views, traits.sub_pixel_bits)};

@@ -83,6 +83,7 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
                            lighting, std::move(rendered));
   stats.views = setup.views.size();
   stats.shadows = shadow_stats(session.renderer().shadows());
+  if (session.still() != nullptr) stats.still = still_stats(*session.still());
   return stats;
 }
 
@@ -159,6 +160,7 @@ nlohmann::json to_json(const Stats& s) {
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
   if (s.shadows) json["shadows"] = to_json(*s.shadows);
+  if (s.still) json["still"] = to_json(*s.still);
   if (s.judgement) json.update({{"verdict", name_of(s.judgement->verdict)}, {"reason", s.judgement->reason}});
   if (s.decal_findings)
     json.update({{"decals_missed", s.decal_findings->missed},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/request.h"
+#include "commands/still_stats.h"
 #include "render/judgement.h"
 #include "render/shadow_truth.h"
 
@@ -33,6 +34,7 @@ struct Stats {
   std::size_t decals = 0;
   std::uint32_t frames = 0;
   std::optional<ShadowStats> shadows;  ///< where lights cast them
+  std::optional<StillStats> still;     ///< where lights that stand still have lists of their own
   Rendered rendered;                   ///< its picture is not kept
   std::vector<std::pair<std::string, std::uint64_t>> bytes;
   std::uint64_t cells = 0;

@@ -15,6 +15,7 @@
 #include "commands/verify_points.h"
 #include "commands/verify_rows.h"
 #include "commands/verify_shadows.h"
+#include "commands/verify_still.h"
 #include "render/antialias.h"
 #include "render/gpu_verifier.h"
 #include "system/print.h"
@@ -98,7 +99,7 @@ void visit_band(Session& session, const Truth& all, std::vector<Candidate>& cand
 void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
   for_each_picture(session.renderer(), [&](std::span<const float> depth) {
     const View& view = session.renderer().view();
-    for_each_truth({.view = view, .depth = depth, .lights = setup.lights, .rows = view.height()},
+    for_each_truth({.view = view, .depth = depth, .lights = setup.listed(), .rows = view.height()},
                    [&](const Truth& truth) { visit_band(session, truth, candidates); });
   });
   for (Candidate& candidate : candidates) {
@@ -111,7 +112,7 @@ void find_by_oracle(Session& session, const Setup& setup, std::vector<Candidate>
 void find_by_gpu(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
   using Passes = vulkan::PlanRunner::Passes;
   show_progress("verify: every light at every pixel");
-  GpuVerifier verifier(session.renderer(), setup.lights);
+  GpuVerifier verifier(session.renderer(), setup.listed());
   for (Candidate& candidate : candidates) {
     show_progress(fmt::format("verify: {}", candidate.lighting.info().method->name));
     std::vector<PixelMisses>& misses = candidate.misses;
@@ -151,7 +152,7 @@ void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& c
                     .lights = {},
                     .rows = view.height(),
                     .boxes = boxes,
-                    .first_id = static_cast<std::uint32_t>(setup.lights.size())},
+                    .first_id = static_cast<std::uint32_t>(setup.listed().size())},
                    [&](const Truth& truth) { visit_decals(session, truth, candidates); });
   });
 }
@@ -207,25 +208,6 @@ Stats make_row(const VerifyOptions& o, Session& session, const Setup& setup, Can
   return row;
 }
 
-/// Of a method that this device has no way to run.
-Stats refused_row(const VerifyOptions& o, Session& session, const Setup& setup, const Method& method,
-                  const Error& error) {
-  const DeviceRow& device = session.context().row();
-  return {.device = device.name,
-          .driver = device.driver,
-          .scene = o.request.scene,
-          .method = std::string(method.name),
-          .path = o.request.path,
-          .width = setup.view.width(),
-          .height = setup.view.height(),
-          .views = setup.views.size(),
-          .lights = setup.lights.size(),
-          .decals = setup.decals.size(),
-          .ordered = method.ordered,
-          .approximate = method.approximate,
-          .judgement = Judgement{Verdict::unchecked, error.what()}};
-}
-
 /// Those that this device can run. Others get a row, or an error if they were named.
 std::vector<Candidate> make_candidates(const VerifyOptions& o, Session& session, const Setup& setup,
                                        std::span<const std::string> wanted, std::vector<Stats>& refused) {
@@ -236,7 +218,7 @@ std::vector<Candidate> make_candidates(const VerifyOptions& o, Session& session,
                               chosen.options, setup.view.width());
     } catch (const Error& error) {
       if (!o.methods.empty()) throw;
-      refused.push_back(refused_row(o, session, setup, *chosen.method, error));
+      refused.push_back(refused_row(o.request, session, setup, *chosen.method, error));
     }
   }
   if (candidates.empty()) throw Error(refused.front().judgement->reason);
@@ -264,10 +246,13 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
             setup.views.size() == 1 ? "" : fmt::format("{} views of ", setup.views.size()), setup.view.width(),
             setup.view.height(), setup.lights.size(), setup.lights_note);
   if (rows.front().verifier == Verifier::gpu) print_out("truth by the GPU verifier\n");
-  if (!rows.front().image_max_abs_diff) print_out("pictures not compared: too many lights for brute force\n");
+  if (!rows.front().image_max_abs_diff)
+    print_out("pictures not compared: {}\n", o.request.still_occlusion != 0 ? "lists leave out lights that walls hide"
+                                                                            : "too many lights for brute force");
   if (const std::uint64_t pairs = rows.front().findings->boundary_pairs; pairs != 0)
     print_out("{} pairs of pixel and light lie on a boundary (within 1e-5 of it): either answer is right\n", pairs);
   print_table(rows);
+  if (rows.front().still) print_still(*rows.front().still);
   if (const auto& shadows = rows.front().shadows) print_out("shadows: {}\n", shadow_words(*shadows));
   if (const auto& shadows = rows.front().shadows; shadows && shadows->truth)
     print_out("shadows: {}\nshadows: {}\n", truth_words(*shadows->truth), cut_words(*shadows->truth));
@@ -304,10 +289,14 @@ Exit verify(const VerifyOptions& o) {
   show_progress("verify picture: brute force");
   std::optional<HdrImage> reference;
   HdrImage first;  // where there is no reference
-  const bool possible = setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
+  // Lights shine through walls, but for those that lists leave out because walls hide them.
+  const bool same = o.request.still_occlusion == 0;
+  const bool possible = same && setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
   if (possible && (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context()))) {
+    session.split_still(false);
     Lighting brute = session.lighting(parse_method("all"), {}, path);
     reference = render_views(session.renderer(), brute, setup.lights, setup.decals, {}).image;
+    session.split_still(true);
   } else {
     first = session.renderer().render(candidates.front().lighting).image;  // and its depth
   }
@@ -320,12 +309,14 @@ Exit verify(const VerifyOptions& o) {
     find_by_oracle(session, setup, candidates);
   find_decals(session, setup, candidates);
   const std::optional<ShadowFindings> shadows = shadow_findings(session, setup);
+  const std::optional<StillStats> still = check_still_lists(o.request, session, setup);
 
   std::vector<Stats> rows;
   for (Candidate& candidate : candidates) {
     rows.push_back(make_row(o, session, setup, candidate, reference));
     rows.back().verifier = verifier;
     if (rows.back().shadows) rows.back().shadows->truth = shadows;
+    rows.back().still = still;
   }
   rows.insert(rows.end(), refused.begin(), refused.end());
   show_progress("");
@@ -335,6 +326,7 @@ Exit verify(const VerifyOptions& o) {
   Verdict worst = Verdict::ok;
   for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
   if (shadows && shadows->lost != 0) worst = Verdict::failed;
+  if (still) worst = std::max(worst, verdict_of(*still));
   return exit_of(worst);
 }
 
@@ -358,6 +350,7 @@ Run add_verify(CLI::App& app) {
       ->group("View")
       ->capture_default_str();
   add_decal_option(*command, o->request);
+  add_still_options(*command, o->request);
   add_shadow_options(*command, o->request);
   add_method_option(*command, o->methods, "method to check");
   add_option_option(*command, o->request);

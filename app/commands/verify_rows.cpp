@@ -47,6 +47,24 @@ void print_more(const Stats& s) {
 
 }  // namespace
 
+Stats refused_row(const Request& request, Session& session, const Setup& setup, const Method& method,
+                  const Error& error) {
+  const DeviceRow& device = session.context().row();
+  return {.device = device.name,
+          .driver = device.driver,
+          .scene = request.scene,
+          .method = std::string(method.name),
+          .path = request.path,
+          .width = setup.view.width(),
+          .height = setup.view.height(),
+          .views = setup.views.size(),
+          .lights = setup.lights.size(),
+          .decals = setup.decals.size(),
+          .ordered = method.ordered,
+          .approximate = method.approximate,
+          .judgement = Judgement{Verdict::unchecked, error.what()}};
+}
+
 std::string table_words(Verdict verdict) {
   return verdict == Verdict::failed ? "FAILED" : std::string(name_of(verdict));
 }

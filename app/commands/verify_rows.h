@@ -9,6 +9,10 @@
 
 namespace lamp::app {
 
+/// Of a method that this device has no way to run.
+[[nodiscard]] Stats refused_row(const Request& request, Session& session, const Setup& setup, const Method& method,
+                                const Error& error);
+
 /// Every row has a judgement; one without findings is of a method that cannot run here. `inf` is explained below.
 void print_table(std::span<const Stats> rows);
 /// In such a table: "ok", "FAILED".

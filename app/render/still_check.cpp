@@ -1,0 +1,211 @@
+// Draws triangles' numbers, walks lists on the device and on the host, and asks the oracle.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/still_check.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gpu/check.h"
+#include "gpu/transfer.h"
+#include "oracle/points.h"
+#include "render/mesh_pass.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t WALK_GROUP = 64;  // threads of still_walk
+// Of a ray's length: where it ends before its point, so that it does not meet the point's own surface. Half of what a
+// hidden point lies behind its occluder at least (OcclusionMap).
+constexpr double RAY_END = 1.0 - 0.5 * OcclusionMap::HIDDEN_BEYOND;
+
+std::vector<gpu::StillWalk> walk_on_gpu(const StillCheck& check, std::span<const gpu::StillPoint> points) {
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  const vulkan::Device& device = check.context.device();
+  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(
+      device,
+      {.name = "still walk", .bindings = {{0}, {1}, {BINDING_STILL}}, .push_constant_bytes = sizeof(std::uint32_t)},
+      check.shaders.spirv("still_walk")));
+  const vulkan::Buffer from =
+      upload_buffer(check.context, "still points", std::as_bytes(points), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const vulkan::Buffer to = readback_buffer(device, "still walks", points.size() * sizeof(gpu::StillWalk));
+  const vulkan::Resource read = vulkan::Resource::storage(from.handle());
+  const vulkan::Resource written = vulkan::Resource::storage(to.handle());
+  const auto count = static_cast<std::uint32_t>(points.size());
+  vulkan::AccessTracker tracker;
+  check.context.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(device, commands, tracker);
+    recorder.begin_pass("still walk",
+                        {reads(read, COMPUTE),
+                         reads(check.on_gpu.words(), COMPUTE),
+                         {.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}});
+    const std::vector<vulkan::Bound> bound{{0, read}, {1, written}, {BINDING_STILL, check.on_gpu.words()}};
+    recorder.bind(pipeline, bound);
+    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(count), &count);
+    vkCmdDispatch(commands, (count + WALK_GROUP - 1) / WALK_GROUP, 1, 1);
+    recorder.end_pass();
+    recorder.barrier({host_reads(written)});
+  });
+  return first_values<gpu::StillWalk>(to, points.size());
+}
+
+gpu::StillWalk walk_of(std::span<const std::uint32_t> list) {
+  gpu::StillWalk walk{.lights = static_cast<std::uint32_t>(list.size()), .hash = gpu::STILL_HASH_FIRST};
+  for (const std::uint32_t light : list) walk.hash = (walk.hash ^ light) * gpu::STILL_HASH_TIMES;
+  return walk;
+}
+
+/// The weights of the second and the third corner at a position, as if it lay in the triangle's plane.
+glm::dvec2 weights_at(const StillTriangle& triangle, const glm::dvec3& position) {
+  const glm::dvec3 a(triangle.corners[0]);
+  const glm::dvec3 u = glm::dvec3(triangle.corners[1]) - a;
+  const glm::dvec3 v = glm::dvec3(triangle.corners[2]) - a;
+  const glm::dvec3 p = position - a;
+  const double uv = glm::dot(u, v);
+  const double determinant = glm::dot(u, u) * glm::dot(v, v) - uv * uv;
+  if (!(determinant > 0.0)) return glm::dvec2(0.0);
+  return glm::dvec2(glm::dot(v, v) * glm::dot(u, p) - uv * glm::dot(v, p),
+                    glm::dot(u, u) * glm::dot(v, p) - uv * glm::dot(u, p)) /
+         determinant;
+}
+
+/// Whether a normal that shading may have at the position sees the light.
+bool may_face(const StillTriangle& triangle, const glm::dvec3& position, const glm::dvec3& light) {
+  if (triangle.normal_tilt >= 1.57F) return true;
+  const glm::dvec2 w = glm::clamp(weights_at(triangle, position), glm::dvec2(0.0), glm::dvec2(1.0));
+  const glm::dvec3 normal = glm::dvec3(triangle.normals[0]) * (1.0 - w.x - w.y) +
+                            glm::dvec3(triangle.normals[1]) * w.x + glm::dvec3(triangle.normals[2]) * w.y;
+  const glm::dvec3 to_light = light - position;
+  return glm::dot(to_light, normal) >
+         -std::sin(double{triangle.normal_tilt}) * glm::length(to_light) * glm::length(normal);
+}
+
+/// Of one point.
+struct Met {
+  std::vector<std::uint32_t> list;
+  std::uint64_t lighting = 0;
+  std::vector<std::uint32_t> missed;
+};
+
+Met meet(const StillCheck& check, const gpu::StillPoint& point, std::span<const std::uint32_t> reaching) {
+  Met met{.list = lights_at(check.lists, point.triangle, point.position)};
+  const glm::dvec3 position(point.position);
+  for (const std::uint32_t light : reaching) {
+    const glm::dvec3 from(check.lights[light].position);
+    if (!may_face(check.triangles[point.triangle], position, from)) continue;
+    if (check.occluders != nullptr && check.occluders->any_hit({.from = from, .to = position, .last = RAY_END}))
+      continue;
+    ++met.lighting;
+    if (!std::ranges::binary_search(met.list, light)) met.missed.push_back(light);
+  }
+  return met;
+}
+
+}  // namespace
+
+Verdict StillFindings::verdict() const {
+  return missed != 0 || unordered != 0 || differing != 0 ? Verdict::failed : Verdict::ok;
+}
+
+std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene& scene, const ShaderLibrary& shaders) {
+  const Targets& targets = renderer.targets();
+  const GpuImage ids(renderer.device(),
+                     {.name = "triangle numbers",
+                      .width = targets.width,
+                      .height = targets.height,
+                      .format = VK_FORMAT_R32_UINT,
+                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::graphics(
+      renderer.device(), {.name = "triangle numbers", .bindings = mesh_bindings()}, shaders.spirv("mesh"),
+      shaders.spirv("triangle_id"), mesh_state(renderer.depth().nearer(), {VK_FORMAT_R32_UINT})));
+  const std::size_t pixels = std::size_t{targets.width} * targets.height;
+  const vulkan::Buffer read = readback_buffer(renderer.device(), "triangle numbers", pixels * sizeof(std::uint32_t));
+  renderer.need_surfaces();  // and the frame
+  renderer.also([&](vulkan::Recorder& recorder) {
+    const Attachments attachments{
+        .colors = {{&ids, Load::clear}}, .depth = &targets.depth, .sky = renderer.depth().sky()};
+    std::vector<vulkan::Use> uses = attachment_uses(attachments);
+    uses.push_back(reads(renderer.data().frame(), GRAPHICS_SHADERS));
+    recorder.begin_pass("triangle numbers", uses);
+    begin_rendering(recorder.commands(), attachments, targets);
+    draw_meshes(
+        recorder,
+        {.scene = &scene, .frame = &renderer.data(), .draws = scene.opaque(), .pipeline = &pipeline, .more = {}});
+    vkCmdEndRendering(recorder.commands());
+    recorder.end_pass();
+    record_copy(recorder, ids, read);
+    recorder.barrier({host_reads(vulkan::Resource::storage(read.handle()))});
+  });
+  renderer.forget(read);
+  const std::vector<std::uint32_t> numbers = first_values<std::uint32_t>(read, pixels);
+  const std::vector<float> depth = renderer.read_depth();
+  std::vector<gpu::StillPoint> points;
+  for (std::uint32_t i = 0; i < pixels; ++i) {
+    if (numbers[i] == 0) continue;
+    const DVec3 position(renderer.view().world_position(i % targets.width, i / targets.width, depth[i]));
+    points.push_back({.position = Vec3(position), .triangle = numbers[i] - 1});
+  }
+  return points;
+}
+
+std::vector<gpu::StillPoint> random_points_on(std::span<const StillTriangle> triangles, std::size_t count,
+                                              std::uint64_t seed) {
+  std::vector<double> areas;
+  double sum = 0.0;
+  for (const StillTriangle& t : triangles) {
+    const glm::dvec3 a(t.corners[0]);
+    sum += glm::length(glm::cross(glm::dvec3(t.corners[1]) - a, glm::dvec3(t.corners[2]) - a));
+    areas.push_back(sum);
+  }
+  std::mt19937_64 engine(seed);
+  const auto unit = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+  std::vector<gpu::StillPoint> points;
+  for (std::size_t i = 0; i < count && sum > 0.0; ++i) {
+    // Every other point by area, the others of any triangle: small ones are triangles too.
+    const auto by_area = std::ranges::upper_bound(areas, unit() * sum) - areas.begin();
+    const auto any = static_cast<std::ptrdiff_t>(unit() * static_cast<double>(areas.size()));
+    const auto triangle =
+        static_cast<std::uint32_t>(std::min(i % 2 == 0 ? by_area : any, static_cast<std::ptrdiff_t>(areas.size()) - 1));
+    glm::dvec2 w(unit(), unit());
+    if (w.x + w.y > 1.0) w = 1.0 - w;
+    const StillTriangle& t = triangles[triangle];
+    const glm::dvec3 a(t.corners[0]);
+    const glm::dvec3 at = a + w.x * (glm::dvec3(t.corners[1]) - a) + w.y * (glm::dvec3(t.corners[2]) - a);
+    points.push_back({.position = Vec3(glm::vec3(at)), .triangle = triangle});
+  }
+  return points;
+}
+
+StillFindings check_still_points(const StillCheck& check, std::span<const gpu::StillPoint> points) {
+  StillFindings findings{.points = points.size()};
+  if (points.empty()) return findings;
+  std::vector<glm::vec3> positions;
+  for (const gpu::StillPoint& point : points) positions.emplace_back(point.position);
+  const PointTruth truth = truth_at(positions, check.lights);
+  findings.boundary_pairs = truth.boundary_pairs;
+  const std::vector<gpu::StillWalk> walks = walk_on_gpu(check, points);
+  std::vector<Met> met(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t i) { met[i] = meet(check, points[i], truth.of(i)); });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::vector<std::uint32_t>& list = met[i].list;
+    const gpu::StillWalk expected = walk_of(list);
+    findings.walked += list.size();
+    findings.reaching += truth.of(i).size();
+    findings.lighting += met[i].lighting;
+    findings.longest = std::max<std::uint64_t>(findings.longest, list.size());
+    findings.unordered += std::ranges::is_sorted(list, std::less_equal{}) ? 0 : 1;
+    findings.differing += walks[i].lights == expected.lights && walks[i].hash == expected.hash ? 0 : 1;
+    if (findings.missed == 0 && !met[i].missed.empty())
+      findings.first_miss =
+          fmt::format("point ({}, {}, {}) of triangle {}: light {}", points[i].position.x, points[i].position.y,
+                      points[i].position.z, points[i].triangle, met[i].missed.front());
+    findings.missed += met[i].missed.size();
+  }
+  return findings;
+}
+
+}  // namespace lamp::app
