@@ -41,8 +41,12 @@ std::string truth_words(const ShadowFindings& truth) {
 }
 
 std::string cut_words(const ShadowFindings& truth) {
-  return fmt::format("{} of {} pairs that maps leave dark are beyond the light's radial bound, and {} that they light",
-                     truth.cut, truth.dark, truth.lost);
+  std::string words =
+      fmt::format("{} of {} pairs that maps leave dark are beyond the light's radial bound, and {} that they light",
+                  truth.cut, truth.dark, truth.lost);
+  if (truth.has_meshes)
+    words += fmt::format("; {} and {} are outside the light's mesh", truth.outside, truth.lost_outside);
+  return words;
 }
 
 nlohmann::json to_json(const ShadowStats& shadows) {
@@ -71,6 +75,8 @@ nlohmann::json to_json(const ShadowStats& shadows) {
                      {"dark", truth->dark},
                      {"cut", truth->cut},
                      {"lost", truth->lost},
+                     {"outside", truth->outside},
+                     {"lost_outside", truth->lost_outside},
                      {"leaks", truth->all.leaks()},
                      {"false_shadows", truth->all.false_shadows()},
                      {"leaks_away", truth->away.leaks()},

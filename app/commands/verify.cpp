@@ -302,7 +302,8 @@ Exit verify(const VerifyOptions& o) {
   }
   const bool any_cut = std::ranges::any_of(candidates, [&](const Candidate& c) { return is_cut(session, c.lighting); });
   if (any_cut && verifier == Verifier::gpu)
-    throw Error("--verifier gpu: knows nothing of shadows, which option occlusion=radial asks for; use oracle");
+    throw Error(
+        "--verifier gpu: knows nothing of shadows, which options occlusion=radial and proxy=cut ask for; use oracle");
   if (verifier == Verifier::gpu)
     find_by_gpu(session, setup, candidates);
   else
@@ -325,7 +326,7 @@ Exit verify(const VerifyOptions& o) {
   if (!o.out.empty() && !o.json) print_out("picture: {}\n", o.out);
   Verdict worst = Verdict::ok;
   for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
-  if (shadows && shadows->lost != 0) worst = Verdict::failed;
+  if (shadows && shadows->lost + shadows->lost_outside != 0) worst = Verdict::failed;
   if (still) worst = std::max(worst, verdict_of(*still));
   return exit_of(worst);
 }

@@ -5,7 +5,8 @@
 namespace lamp::app {
 
 bool is_cut(Session& session, const Lighting& lighting) {
-  return session.renderer().shadows() != nullptr && lighting.runner().plan().binds(INPUT_RADIAL);
+  const Plan& plan = lighting.runner().plan();
+  return session.renderer().shadows() != nullptr && (plan.binds(INPUT_RADIAL) || plan.binds(INPUT_MESHES));
 }
 
 std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {

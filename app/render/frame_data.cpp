@@ -9,6 +9,7 @@
 
 #include "gpu/check.h"
 #include "lamplight/light.h"
+#include "lamplight/shared/light_mesh.h"
 #include "lamplight/shared/radial.h"
 #include "render/decal_pass.h"
 #include "render/pass_uses.h"
@@ -29,11 +30,12 @@ FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity,
   lights_ = take(vulkan::Buffer::create(device, {.name = "lights", .bytes = light_bytes, .usage = STORAGE}));
   spheres_ = take(vulkan::Buffer::create(device, {.name = "spheres", .bytes = sphere_bytes, .usage = STORAGE}));
   decals_ = take(vulkan::Buffer::create(device, {.name = "decals", .bytes = decal_bytes, .usage = STORAGE}));
-  no_radial_ = take(vulkan::Buffer::create(device, {.name = "no radial bounds",
-                                                    .bytes = sizeof(shared::RadialBound),
-                                                    .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                                    .memory = vulkan::MemoryUse::upload}));
-  std::ranges::fill(no_radial_.mapped(), std::byte{0});
+  nothing_known_ =
+      take(vulkan::Buffer::create(device, {.name = "nothing known of lights",
+                                           .bytes = std::max(sizeof(shared::RadialBound), sizeof(shared::LightMesh)),
+                                           .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                           .memory = vulkan::MemoryUse::upload}));
+  std::ranges::fill(nothing_known_.mapped(), std::byte{0});
   staging_ = take(vulkan::Buffer::create(device, {.name = "frame staging",
                                                   .bytes = frame_.bytes() + light_bytes + sphere_bytes + decal_bytes,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -99,7 +101,8 @@ vulkan::PlanInputs FrameData::plan_inputs(std::span<const vulkan::Resource> dept
   return {.frame = frame_.handle(),
           .lights = lights_.handle(),
           .spheres = spheres_.handle(),
-          .radial = no_radial_.handle(),
+          .radial = nothing_known_.handle(),
+          .meshes = nothing_known_.handle(),
           .depth = depths.front(),
           .depths = depths,
           .host_lights = std::span(host_lights_).first(frame_of(0).light_count),

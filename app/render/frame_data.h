@@ -50,7 +50,7 @@ class FrameData {
   vulkan::Buffer lights_;   ///< and a record for each decal; then lights that stand still, in lists of their own
   vulkan::Buffer spheres_;  ///< of all these
   vulkan::Buffer decals_;
-  vulkan::Buffer no_radial_;  ///< where no light casts a shadow: nothing is known of any
+  vulkan::Buffer nothing_known_;  ///< radial bounds and meshes where no light casts a shadow
   vulkan::Buffer
       staging_;  ///< a shared::Frame of each view, then the lights with the decals' records, their spheres, the decals
   bool changed_ = true;  ///< since the last upload

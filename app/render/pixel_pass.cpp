@@ -46,11 +46,11 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const glm::uvec2 group_px = group_of(pass);
   const std::uint32_t rows = is_fused(pass) || pass.rows.count == 0 ? targets_->height : pass.rows.count;
-  const vulkan::PlanInputs inputs = plan_inputs();
-
   submit(pass.lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     if (pass.prepares) record_upload(recorder);
+    if (pass.prepares && pass.lighting != nullptr) record_meshes(recorder, *pass.lighting);
+    const vulkan::PlanInputs inputs = plan_inputs();
     if (pass.prepares && pass.lighting != nullptr)
       static_cast<void>(take(pass.lighting->runner().record(recorder, inputs, pass.which)));
     for (const PixelPass::Storage& storage : pass.storage) {

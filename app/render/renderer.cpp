@@ -134,15 +134,25 @@ void Renderer::draw_depths() {
   }
 }
 
+vulkan::Resource Renderer::light_meshes() const { return vulkan::Resource::storage(plan_inputs().meshes); }
+
 vulkan::PlanInputs Renderer::plan_inputs() const {
   vulkan::PlanInputs inputs = (all_pictures_ ? all_pictures_->data : data_).plan_inputs(culled_depths_);
-  if (shadows_) inputs.radial = shadows_->radial_bounds().handle();
+  if (!shadows_) return inputs;
+  inputs.radial = shadows_->radial_bounds().handle();
+  if (const vulkan::Buffer* meshes = shadows_->meshes()) inputs.meshes = meshes->handle();
   return inputs;
 }
 
 void Renderer::record_upload(vulkan::Recorder& recorder) {
   data_.record_upload(recorder);
   if (all_pictures_) all_pictures_->data.record_upload(recorder);
+}
+
+void Renderer::record_meshes(vulkan::Recorder& recorder, const Lighting& lighting) {
+  if (!shadows_ || !lighting.runner().plan().binds(INPUT_MESHES)) return;
+  shadows_->need_meshes();
+  shadows_->record_meshes(recorder);
 }
 
 LightingFrame Renderer::lighting_frame() const {
@@ -167,6 +177,7 @@ void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuff
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
   record_upload(recorder);
   if (shadows_) shadows_->record(recorder);
+  record_meshes(recorder, lighting);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
   lighting.record(recorder, frame);
@@ -241,6 +252,7 @@ vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
+    record_meshes(recorder, lighting);
     lighting.record_cull(recorder, lighting_frame());
     lighting.record_counts(recorder, counts);
   });
@@ -255,6 +267,7 @@ void Renderer::cull_as(Lighting& lighting, const View& other) {
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
+    record_meshes(recorder, lighting);
     lighting.record_cull(recorder, lighting_frame());
   });
   shown_view_ = shown;

@@ -73,6 +73,8 @@ class Renderer {
   /// were made for it. Null: none do. It must live on, and be told before `set_frame`.
   void light_still(const StillLists* lists) { still_ = lists; }
   [[nodiscard]] const StillLists* still() const { return still_; }
+  /// Of each light, as far as a method asked for them.
+  [[nodiscard]] vulkan::Resource light_meshes() const;
   /// What shading binds for them.
   [[nodiscard]] ShadowBound shadow_bound() const { return shadows_ ? shadows_->bound() : no_shadows_.bound(); }
 
@@ -184,6 +186,8 @@ class Renderer {
   /// Lights by their numbers in the buffer, where some stand still: nothing of decals.
   [[nodiscard]] std::vector<shared::Light> shadowed_records() const;
   void record_upload(vulkan::Recorder& recorder);
+  /// Where the lighting's method reads them.
+  void record_meshes(vulkan::Recorder& recorder, const Lighting& lighting);
   void forget_surfaces();
   void draw_depths();
   template <class Texel>

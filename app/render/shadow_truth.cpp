@@ -49,7 +49,7 @@ struct LookedUp {
   float light = 0.0F;    ///< without shadows
   float share = 0.0F;    ///< of it, that the filter leaves
   float reached = 0.0F;  ///< 1: the radial bound lets it
-  float unused = 0.0F;
+  float held = 0.0F;     ///< 1: the light's mesh holds it, or there is none
 };
 
 std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shaders, const std::vector<Pair>& pairs) {
@@ -66,7 +66,8 @@ std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shade
                                    {3, renderer.data().lights()},
                                    {5, targets.base_color.sampled()},
                                    {6, targets.surface.sampled()},
-                                   {9, vulkan::Resource::storage(renderer.shadows()->radial_bounds().handle())}};
+                                   {9, vulkan::Resource::storage(renderer.shadows()->radial_bounds().handle())},
+                                   {10, renderer.light_meshes()}};
   for (const vulkan::Bound& b : renderer.shadow_bound()) bound.push_back(b);
   std::vector<vulkan::Use> uses;
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
@@ -182,7 +183,7 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
         thinned.add({.pixel = first + i, .light = truth.lights[k]});
   });
   const std::vector<Pair>& pairs = thinned.pairs();
-  ShadowFindings found{.thinned = thinned.stride()};
+  ShadowFindings found{.thinned = thinned.stride(), .has_meshes = renderer.shadows()->meshes() != nullptr};
   if (pairs.empty()) return found;
   const std::vector<LookedUp> looked_up = ask_look_up(renderer, shaders, pairs);
   const Occluders occluders = scene_occluders(scene);
@@ -200,6 +201,9 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
     found.dark += is_dark ? 1 : 0;
     found.cut += is_dark && is_cut ? 1 : 0;
     found.lost += !is_dark && is_cut ? 1 : 0;
+    const bool is_out = looked_up[i].held == 0.0F;
+    found.outside += is_dark && is_out ? 1 : 0;
+    found.lost_outside += !is_dark && is_out ? 1 : 0;
     if (answers[i].own == Answer::unclear) {
       ++found.unclear;
       continue;

@@ -31,12 +31,15 @@ struct ShadowLight {
 /// Of pairs of pixel and light whose light reaches the pixel and faces it.
 struct ShadowFindings {
   std::uint64_t pairs = 0;
-  std::uint64_t unclear = 0;    ///< of them, left out: other ends of the ray give another answer
-  std::uint64_t thinned = 1;    ///< one pair of so many was looked at
-  std::uint64_t in_shadow = 0;  ///< by rays
-  std::uint64_t dark = 0;       ///< to which the look-up leaves no light
-  std::uint64_t cut = 0;        ///< of these, beyond the light's radial bound
-  std::uint64_t lost = 0;       ///< beyond the bound although the look-up lights them: a fault
+  std::uint64_t unclear = 0;       ///< of them, left out: other ends of the ray give another answer
+  std::uint64_t thinned = 1;       ///< one pair of so many was looked at
+  std::uint64_t in_shadow = 0;     ///< by rays
+  std::uint64_t dark = 0;          ///< to which the look-up leaves no light
+  std::uint64_t cut = 0;           ///< of these, beyond the light's radial bound
+  std::uint64_t lost = 0;          ///< beyond the bound although the look-up lights them: a fault
+  bool has_meshes = false;         ///< a method was cut by them
+  std::uint64_t outside = 0;       ///< of the dark, outside the light's mesh
+  std::uint64_t lost_outside = 0;  ///< outside the mesh although the look-up lights them: a fault
   ShadowLight all;
   ShadowLight away;  ///< of the pairs away from edges
 };

@@ -73,10 +73,13 @@ vulkan::Use transfer_writes(const vulkan::Buffer& buffer) {
 Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowSettings& settings,
                  std::uint32_t light_capacity)
     : settings_(settings),
+      device_(context.device()),
+      shaders_(shaders),
       scene_(scene),
+      light_capacity_(light_capacity),
       casters_(shadow_casters(scene)),
       schedule_(make_atlas(context.device(), settings, std::min(light_capacity, settings.lights))),
-      radial_(context, shaders, settings.filter, light_capacity) {
+      radial_(context.device(), shaders, ShadowReach::Kind::radial, settings.filter, light_capacity) {
   check_features(context);
   const vulkan::Device& device = context.device();
   const auto casters = static_cast<std::uint32_t>(casters_.casters.size());
@@ -150,7 +153,9 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
     for (std::uint32_t i = 0; i < squares_of(maps_[redraw.light]); ++i)
       clears_.push_back(clear_rect(maps_[redraw.light], i));
   if (moments_) moments_->set(maps_, frame.redraws);
+  lights_.assign(lights.begin(), lights.end());
   radial_.set(maps_, lights, frame.redraws);
+  if (meshes_) meshes_->set(maps_, lights, frame.redraws);
   const std::span<std::byte> to = staging_.mapped();
   if (!maps_.empty()) std::memcpy(to.data(), maps_.data(), maps_.size() * sizeof(shared::ShadowMap));
   if (view_count_ != 0)
@@ -168,6 +173,20 @@ void Shadows::record(vulkan::Recorder& recorder) {
   const vulkan::Resource maps = vulkan::Resource::storage(map_buffer_.handle());
   if (moments_) moments_->record(recorder, maps, atlas_);
   radial_.record(recorder, maps, atlas_);
+  recorder.end_pass();
+}
+
+void Shadows::need_meshes() {
+  if (meshes_) return;
+  meshes_.emplace(device_, shaders_, ShadowReach::Kind::meshes, settings_.filter, light_capacity_);
+  meshes_->set(maps_, lights_, {});
+}
+
+void Shadows::record_meshes(vulkan::Recorder& recorder) {
+  if (!meshes_) return;
+  record(recorder);
+  recorder.begin_pass("light meshes", {});
+  meshes_->record(recorder, vulkan::Resource::storage(map_buffer_.handle()), atlas_);
   recorder.end_pass();
 }
 

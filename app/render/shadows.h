@@ -14,7 +14,7 @@
 #include "render/shader_library.h"
 #include "render/shadow_casters.h"
 #include "render/shadow_moments.h"
-#include "render/shadow_radial.h"
+#include "render/shadow_reach.h"
 
 namespace lamp::app {
 
@@ -70,7 +70,14 @@ class Shadows {
   [[nodiscard]] const ShadowMoments* moments() const { return moments_ ? &*moments_ : nullptr; }
   [[nodiscard]] ShadowBound bound() const;
   /// How far each light reaches before something stops it.
-  [[nodiscard]] const vulkan::Buffer& radial_bounds() const { return radial_.bounds(); }
+  [[nodiscard]] const vulkan::Buffer& radial_bounds() const { return radial_.buffer(); }
+
+  /// Meshes around what each light lights take memory and time, so they are made from the first call on.
+  void need_meshes();
+  /// Nothing where they are up to date, or not needed.
+  void record_meshes(vulkan::Recorder& recorder);
+  /// shared::LightMesh of each light; null until they are needed.
+  [[nodiscard]] const vulkan::Buffer* meshes() const { return meshes_ ? &meshes_->buffer() : nullptr; }
 
  private:
   void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
@@ -81,7 +88,10 @@ class Shadows {
   void begin_atlas(VkCommandBuffer commands) const;
 
   ShadowSettings settings_;
+  const vulkan::Device& device_;
+  const ShaderLibrary& shaders_;
   const GpuScene& scene_;
+  std::uint32_t light_capacity_;
   ShadowCasters casters_;
   std::uint32_t views_a_batch_ = 1;
   ShadowAtlas schedule_;
@@ -99,12 +109,14 @@ class Shadows {
   vulkan::Pipeline masked_;
 
   std::optional<ShadowMoments> moments_;
-  ShadowRadial radial_;
+  ShadowReach radial_;
+  std::optional<ShadowReach> meshes_;
   bool changed_ = false;  ///< since the last `record`
   ShadowCounts counts_;
   std::vector<std::uint32_t> waiting_;
   std::vector<std::uint32_t> without_;
   std::vector<shared::ShadowMap> maps_;
+  std::vector<shared::Light> lights_;  ///< of the last `schedule`
   std::vector<VkClearRect> clears_;
   std::uint32_t view_count_ = 0;
 };

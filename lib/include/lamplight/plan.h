@@ -32,7 +32,9 @@ inline constexpr ResourceId INPUT_SPHERES = 3;  ///< storage buffer, shared::Lig
 inline constexpr ResourceId INPUT_CONES = 4;    ///< storage buffer, likewise, where the layout has cones
 /// Storage buffer, shared::RadialBound of the first lights: where option occlusion=radial reads it.
 inline constexpr ResourceId INPUT_RADIAL = 5;
-inline constexpr ResourceId PLAN_BUFFER = 6;  ///< the first buffer of the plan
+/// Storage buffer, shared::LightMesh of the first lights: where option proxy=cut reads it.
+inline constexpr ResourceId INPUT_MESHES = 6;
+inline constexpr ResourceId PLAN_BUFFER = 7;  ///< the first buffer of the plan
 inline constexpr ResourceId NO_RESOURCE = ~0U;
 
 enum class Access : std::uint8_t { read, write, read_write };

@@ -58,6 +58,7 @@ LightProxy light_proxy(Frame frame, Light light, LightBounds sphere, float reach
       (ROUND_RADIUS + frame.stretch) * radius +
       ROUND_POSITION * (length(proxy.origin) + length(light.position) + length(frame.eye_world));
   const float margin = 4.0 * rounding + reach_px * pixel_m(frame, proxy.z_far);
+  proxy.margin = margin;
   if (spot)
     spot_profile(proxy, light, radius, margin);
   else

@@ -3,7 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/light_proxy.glsl"
+#include "common/light_mesh_view.glsl"
 #include "methods/raster_inputs.glsl"
+
+layout(set = 0, binding = 4, scalar) readonly buffer MeshBuffer { LightMesh meshes[]; };  // of cut lights
 
 layout(location = 0) flat out uint out_light;
 layout(location = 1) out float out_z_view;
@@ -13,6 +16,17 @@ const uvec3 ROWS[6] = uvec3[](uvec3(0, 1, 1), uvec3(1, 1, 2), uvec3(1, 2, 2), uv
                               uvec3(3, 3, 4));
 const uvec3 ENDS[6] = uvec3[](uvec3(0, 1, 0), uvec3(0, 1, 1), uvec3(0, 1, 0), uvec3(0, 1, 1), uvec3(0, 1, 0),
                               uvec3(0, 1, 0));
+
+// View space. Past the last triangle: all corners in one place.
+vec3 mesh_vertex(uint light, uint triangle, uint corner) {
+  const uint kind = meshes[light].kind;
+  const uint point = mesh_corner(kind, min(triangle, mesh_triangles(kind) - 1u), triangle < mesh_triangles(kind) ? corner : 0u);
+  const MeshAxes axes = mesh_axes(frame, kind, meshes[light].axis_x, meshes[light].axis_z);
+  const float reach = meshes[light].reach[point / 4u][point % 4u];
+  return proxies[light].origin +
+         axes.to_view * (mesh_reach(kind, point, reach, proxies[light].margin) *
+                         normalize(mesh_way(kind, meshes[light].half_width, point)));
+}
 
 vec3 proxy_vertex(LightProxy proxy, uint triangle, uint corner) {
   const uint row = ROWS[triangle % 6u][corner];
@@ -32,21 +46,27 @@ vec4 to_raster(vec4 clip) {
 }
 
 void main() {
-  const uint light = drawn[INSIDE * CAPACITY + gl_InstanceIndex];
+  const uint light = drawn[WHICH * CAPACITY + gl_InstanceIndex];
   const uint triangle = uint(gl_VertexIndex) / 3u;
   uint corner = uint(gl_VertexIndex) % 3u;
   out_light = light;
   // One triangle over the screen, a back face. Also where a device that snaps corners coarsely would draw back faces
   // around the eye: nothing asks how deep they lie, and of a large light it loses faces that it cuts at the picture's edge.
-  if (lights[light].range > EVERYWHERE_M || (INSIDE == PROXIES_INSIDE && !FACE_DEPTHS)) {
+  if (lights[light].range > EVERYWHERE_M || (INSIDE && !FACE_DEPTHS)) {
     const vec2 at = vec2(corner == 1u ? 3.0 : -1.0, corner == 2u ? 3.0 : -1.0);
     gl_Position = triangle == 0u ? vec4(at, 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     out_z_view = INFINITE_RADIUS;
     return;
   }
   const mat4 m = frame.clip_from_view;
-  if (m[0][0] * m[1][1] > 0.0 && corner != 0u) corner = 3u - corner;  // the picture is mirrored
-  const vec3 position = proxy_vertex(proxies[light], triangle, corner);
+  bool mirrored = m[0][0] * m[1][1] > 0.0;
+  if (IS_CUT && determinant(mat3(frame.view_from_world)) < 0.0) mirrored = !mirrored;  // others are made in view space
+  if (mirrored && corner != 0u) corner = 3u - corner;
+  vec3 position;
+  if (IS_CUT)
+    position = mesh_vertex(light, triangle, corner);
+  else
+    position = proxy_vertex(proxies[light], triangle, corner);
   out_z_view = -position.z;
   gl_Position = to_raster(m * vec4(position, 1.0));
 }

@@ -4,6 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "methods/raster_inputs.glsl"
 
-layout(set = 0, binding = 4, scalar) buffer BitBuffer { uint bits[]; };
+layout(set = 0, binding = 5, scalar) buffer BitBuffer { uint bits[]; };
 #include "methods/raster_atomic.glsl"
 #include "methods/raster_cluster_main.glsl"

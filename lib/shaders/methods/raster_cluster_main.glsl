@@ -13,12 +13,12 @@ layout(constant_id = 7) const uint MODE = 0;
 #include "common/slice_constants.glsl"
 layout(constant_id = 12) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
 layout(constant_id = 13) const bool RADIAL = false;
-#define RADIAL_BINDING 6
+#define RADIAL_BINDING 7
 #include "common/radial_bounds.glsl"
 #include "common/tile_volume.glsl"
 #include "lamplight/shared/tile.h"
 
-layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
 
 // Slices between the nearest and the farthest surface around a pixel; x > y: none. Without the depth pre-pass, all.
 uvec2 surface_slices(uvec2 pixel) {

@@ -6,6 +6,6 @@
 #include "common/depth_image.glsl"
 #include "methods/raster_inputs.glsl"
 
-layout(set = 0, binding = 6, scalar) buffer BitBuffer { uint bits[]; };
+layout(set = 0, binding = 7, scalar) buffer BitBuffer { uint bits[]; };
 #include "methods/raster_atomic.glsl"
 #include "methods/raster_tile_main.glsl"

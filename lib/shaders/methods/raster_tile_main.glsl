@@ -9,16 +9,16 @@
 #include "lamplight/shared/tile.h"
 #include "methods/raster_face.glsl"
 
-layout(set = 0, binding = 4) uniform DepthImage depth_image;
-layout(set = 0, binding = 5, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
+layout(set = 0, binding = 5) uniform DepthImage depth_image;
+layout(set = 0, binding = 6, scalar) readonly buffer RangeBuffer { TileRanges ranges[]; };
 
-layout(set = 0, binding = 7, scalar) readonly buffer StencilBuffer { uint stencil[]; };  // read by back faces of two
+layout(set = 0, binding = 8, scalar) readonly buffer StencilBuffer { uint stencil[]; };  // read by back faces of two
 
 layout(constant_id = 7) const uint STEP = 0;  // TILES_ONE_PASS, TILES_STENCIL or TILES_BEHIND
 layout(constant_id = 8) const bool DEPTH_BOUNDS = true;
 
 layout(constant_id = 9) const bool RADIAL = false;
-#define RADIAL_BINDING 8
+#define RADIAL_BINDING 9
 #include "common/radial_bounds.glsl"
 
 const float ROUND_DEPTH = 1e-5;  // of a depth: interpolation in 32 bits
@@ -53,7 +53,7 @@ void main() {
   const uint bit = 1u << (in_light % 32u);
   bool meets = surface.x <= surface.y;
   if (DEPTH_BOUNDS) meets = meets && surface.x <= proxy.z_far && surface.y >= proxy.z_near;
-  if (INSIDE == PROXIES_OUTSIDE && STEP != TILES_BEHIND)
+  if (!INSIDE && STEP != TILES_BEHIND)
     meets = meets && min(face.x, proxy.z_far) <= surface.y + ROUND_DEPTH * abs(surface.y);
   else
     meets = meets && (reaches_everywhere() || max(face.y, proxy.z_near) >= surface.x - ROUND_DEPTH * abs(surface.x));

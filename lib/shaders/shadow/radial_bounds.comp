@@ -28,19 +28,9 @@ void reach(RadialCells cells, uint value) {
     for (uint x = cells.first.x; x <= cells.last.x; ++x) atomicMax(s_bytes[y * RADIAL_SIDE + x], value);
 }
 
-// The greatest depth of a block's texels; infinite where nothing was drawn.
-float farthest_of_block(uint light, uint square, uvec2 first, uint size) {
-  float nearest_stored = 1.0;  // near / w
-  for (uint i = 0u; i < size * size; ++i) {
-    const ivec2 texel = ivec2(first + uvec2(i % size, i / size));
-    nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
-  }
-  return nearest_stored > 0.0 ? shadow_maps[light].near_m / nearest_stored : RADIAL_UNBOUNDED;
-}
-
 void reach_of_block(uint light, uint square, uvec2 first, uint size, float unit_m, float scale) {
   const RadialBox box = radial_box(light, square, vec2(first), float(size));
-  const float w = radial_farthest_lit(light, farthest_of_block(light, square, first, size));
+  const float w = radial_farthest_lit(light, radial_farthest_of_block(light, square, first, size));
   const float reach_m = w * radial_longest(light, box);
   const uint value = reach_m < unit_m * float(RADIAL_ANY - 1u) ? uint(reach_m / unit_m * 1.00001) + 1u : RADIAL_ANY;
   if (shadow_maps[light].kind == SHADOW_SPOT) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lamplight/shared/light_mesh.h"
 #include "lamplight/shared/proxy.h"
 #include "lamplight/shared/tile.h"
 #include "methods.h"
@@ -57,15 +58,22 @@ struct Buffers {
   ResourceId proxies, drawn, draws, ranges, stencil, bits;
 };
 
+bool is_cut(const Options& options) { return options.word("proxy") == "cut"; }
+
+/// The meshes, or another resource, which is not read.
+Binding mesh_binding(const Problem& problem) { return {is_cut(problem.options) ? INPUT_MESHES : INPUT_LIGHTS}; }
+
 Pass proxy_pass(const Problem& problem, const Raster& raster, const Buffers& b) {
   return {.name = "light proxies",
           .shader = "methods/light_proxies",
-          .constants = {parts::capacity(problem), static_cast<std::uint32_t>(raster.reach_px * 1024.0)},
+          .constants = {parts::capacity(problem), static_cast<std::uint32_t>(raster.reach_px * 1024.0),
+                        is_cut(problem.options) ? 1U : 0U},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {b.proxies, Access::write},
                        {b.drawn, Access::write},
-                       {b.draws, Access::read_write}},
+                       {b.draws, Access::read_write},
+                       mesh_binding(problem)},
           .extent = {.lights_per_group = 64}};
 }
 
@@ -77,9 +85,10 @@ Pass depth_pass(std::uint32_t tile_px, ResourceId ranges) {
           .extent = {.cells = {.px = tile_px}}};
 }
 
-/// A draw of the lights outside or inside of which the eye is. Constants: those of raster_inputs.glsl.
+/// A draw of the lights outside or inside of which the eye is, those of cut lights apart. Constants: those of
+/// raster_inputs.glsl.
 struct Draw {
-  const char* name;
+  std::string name;
   const char* shader;
   std::uint32_t which;
   RasterState::Cull cull;
@@ -92,7 +101,7 @@ Pass draw_pass(const Problem& problem, const Raster& raster, const Buffers& b, c
           .constants = {parts::capacity(problem), draw.which, raster.pixel, problem.options.integer("tile"),
                         parts::divide_up(parts::capacity(problem), 32), raster.exact() ? 1U : 0U,
                         knows_face_depths(problem.traits) ? 1U : 0U},
-          .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {b.proxies}, {b.drawn}},
+          .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {b.proxies}, {b.drawn}, mesh_binding(problem)},
           .extent = {.indirect = b.draws, .indirect_offset = draw.which * sizeof(shared::ProxyDraw)},
           .raster = {.vertex_shader = "methods/light_proxy",
                      .pixel = raster.pixel,
@@ -115,8 +124,9 @@ Buffers add_proxies(Plan& plan, const Problem& problem, const Raster& raster) {
   const std::uint64_t lights = parts::capacity(problem);
   Buffers b{};
   b.proxies = plan.add({.name = "light proxies", .bytes = lights * sizeof(shared::LightProxy)});
-  b.drawn = plan.add({.name = "drawn lights", .bytes = 2 * lights * 4});
-  b.draws = plan.add({.name = "draws", .bytes = 2 * sizeof(shared::ProxyDraw), .zeroed = true, .indirect = true});
+  const std::uint64_t draws = is_cut(problem.options) ? 4 : 2;
+  b.drawn = plan.add({.name = "drawn lights", .bytes = draws * lights * 4});
+  b.draws = plan.add({.name = "draws", .bytes = draws * sizeof(shared::ProxyDraw), .zeroed = true, .indirect = true});
   plan.passes.push_back(proxy_pass(problem, raster, b));
   return b;
 }
@@ -127,6 +137,19 @@ struct TileDraw {
   std::uint32_t step;
   ResourceId writes;
 };
+
+/// Draws with their like of cut lights behind them, if these are cut. `Drawn` has a Draw.
+template <class Drawn>
+std::vector<Drawn> with_cut(const Problem& problem, std::vector<Drawn> draws) {
+  const std::size_t count = is_cut(problem.options) ? draws.size() : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Drawn cut = draws[i];
+    cut.draw.name += ", cut lights";
+    cut.draw.which += shared::CUT_OUTSIDE - shared::PROXIES_OUTSIDE;
+    draws.push_back(std::move(cut));
+  }
+  return draws;
+}
 
 /// Draws in their order. With depth=stencil the eye's outside takes two: front faces into bits that are the stencil,
 /// kept by the tile so that one draw serves all lights, then back faces.
@@ -159,7 +182,7 @@ Plan plan_raster_tile(const Problem& problem) {
     plan.passes.push_back(depth_pass(tile_px, b.ranges));
   }
   const std::uint32_t depth_bounds = problem.options.word("depth") == "test" ? 0 : 1;
-  for (const auto& [draw, step, writes] : tile_draws(plan, problem, b)) {
+  for (const auto& [draw, step, writes] : with_cut(problem, tile_draws(plan, problem, b))) {
     Pass pass = draw_pass(problem, raster, b, draw);
     pass.constants.insert(pass.constants.end(), {step, depth_bounds, parts::is_radial(problem.options) ? 1U : 0U});
     pass.bindings.insert(pass.bindings.end(), {{INPUT_DEPTH},
@@ -174,6 +197,11 @@ Plan plan_raster_tile(const Problem& problem) {
                  .bindings = {{INPUT_FRAME}, {b.bits}, {INPUT_FRAME}}};
   return plan;
 }
+
+struct ClusterDraw {
+  Draw draw;
+  std::uint32_t mode;
+};
 
 /// The depth pass's work groups take no larger squares.
 constexpr std::uint32_t LARGEST_RANGE_PX = 32;
@@ -199,11 +227,11 @@ Plan plan_raster_cluster(const Problem& problem) {
     plan.passes.push_back(depth_pass(early_px, b.ranges));
   }
   const char* shader = compacts(plan, problem) ? "methods/raster_cluster_compact" : "methods/raster_cluster";
-  const std::pair<Draw, std::uint32_t> draws[] = {
+  const std::vector<ClusterDraw> draws{
       {{"mark back faces", shader, shared::PROXIES_OUTSIDE, Cull::front}, shared::CLUSTERS_MARK},
       {{"walk from front faces", shader, shared::PROXIES_OUTSIDE, Cull::back}, shared::CLUSTERS_WALK},
       {{"walk from the eye", shader, shared::PROXIES_INSIDE, Cull::front}, shared::CLUSTERS_FROM_EYE}};
-  for (const auto& [draw, mode] : draws) {
+  for (const auto& [draw, mode] : with_cut(problem, draws)) {
     Pass pass = draw_pass(problem, raster, b, draw);
     pass.constants.push_back(mode);
     pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
@@ -232,6 +260,13 @@ OptionSpec raster_option() {
           .choices = {"full", "half-msaa", "quarter-msaa", "conservative"}};
 }
 
+OptionSpec proxy_option() {
+  return {.key = "proxy",
+          .help = "lights are spheres and cones, or meshes cut to what their shadow maps let them light",
+          .fallback = "full",
+          .choices = {"full", "cut"}};
+}
+
 OptionSpec compact_option() {
   return {.key = "compact",
           .help = "one atomic for all fragments of a subgroup that set bits of one word",
@@ -258,6 +293,7 @@ Method drobot_raster_tile_method() {
                    .fallback = "bounds",
                    .choices = {"test", "bounds", "stencil"}},
                   compact_option(),
+                  proxy_option(),
                   parts::occlusion_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_tile,
@@ -286,6 +322,7 @@ Method drobot_raster_cluster_method() {
                    .fallback = "off",
                    .choices = {"on", "off"}},
                   compact_option(),
+                  proxy_option(),
                   parts::occlusion_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_cluster,

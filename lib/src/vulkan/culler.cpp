@@ -123,6 +123,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
                     .cones = frame.cones,
                     .spheres = frame.spheres,
                     .radial = frame.radial,
+                    .meshes = frame.meshes,
                     .depth = depths.front(),
                     .host_lights = frame.host_lights,
                     .host_frame = views.value().records.data()};
@@ -133,7 +134,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   tracker_.reset();
   for (const Resource& depth : depths)
     if (depth.image != VK_NULL_HANDLE) tracker_.assume(depth);
-  for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres, inputs.radial})
+  for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres, inputs.radial, inputs.meshes})
     if (part.buffer != VK_NULL_HANDLE) tracker_.assume(Resource::storage(part));
   Recorder recorder(device_, commands, tracker_);
   // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.

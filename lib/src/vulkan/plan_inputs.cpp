@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "lamplight/shared/light_mesh.h"
 #include "lamplight/shared/radial.h"
 #include "lamplight/vulkan/plan_runner.h"
 
@@ -89,6 +90,9 @@ std::optional<Error> PlanRunner::check_lights(const PlanInputs& inputs) const {
     if (auto error = check_part("cones", inputs.cones, layout.cone_bytes(count), offset_alignment_)) return error;
   if (plan_.binds(INPUT_RADIAL))
     if (auto error = check_part("radial bounds", inputs.radial, sizeof(shared::RadialBound), offset_alignment_))
+      return error;
+  if (plan_.binds(INPUT_MESHES))
+    if (auto error = check_part("light meshes", inputs.meshes, sizeof(shared::LightMesh), offset_alignment_))
       return error;
   if (plan_.binds(INPUT_SPHERES))
     return check_part("spheres", inputs.spheres, count * sizeof(shared::LightSphere), offset_alignment_);

@@ -76,6 +76,8 @@ Resource PlanRunner::all_views(ResourceId id, const PlanInputs& inputs) const {
       return Resource::storage(inputs.spheres);
     case INPUT_RADIAL:
       return Resource::storage(inputs.radial);
+    case INPUT_MESHES:
+      return Resource::storage(inputs.meshes);
     default:
       return id == INPUT_DEPTH ? resource(id, inputs, 0) : Resource::storage(buffer(id));
   }

@@ -24,11 +24,15 @@ struct LightProxy {
   float z_far;
   float along[5];   // m along the axis, of each point of the profile
   float radius[5];  // m from the axis, so large that the flat sides enclose the round ones
+  float margin;     // m, that the mesh holds beyond what the light reaches
 };
 
-// Who is drawn: lights outside which the eye is, then such that it may be inside of. Each an indirect draw.
+// Who is drawn: lights outside which the eye is, then such that it may be inside of; and the same of lights whose mesh
+// is cut (shared/light_mesh.h). Each an indirect draw.
 LAMP_CONST PROXIES_OUTSIDE = 0u;
 LAMP_CONST PROXIES_INSIDE = 1u;
+LAMP_CONST CUT_OUTSIDE = 2u;
+LAMP_CONST CUT_INSIDE = 3u;
 
 // What fragments of a face do to clusters: mark those that the back face lies in; walk from the front face to the mark;
 // or, where the eye may be inside, set all up to the back face.
@@ -50,7 +54,7 @@ struct ProxyDraw {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LightProxy) == 72 && sizeof(ProxyDraw) == 16);
+static_assert(sizeof(LightProxy) == 76 && sizeof(ProxyDraw) == 16);
 }  // namespace lamp::shared
 #endif
 

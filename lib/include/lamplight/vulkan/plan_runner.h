@@ -25,6 +25,7 @@ struct PlanInputs {
   BufferPart cones;                  ///< likewise, where the layout has them
   BufferPart spheres;                ///< shared::LightSphere, as many
   BufferPart radial;                 ///< shared::RadialBound of the first lights, at least one; nothing cuts others
+  BufferPart meshes;                 ///< shared::LightMesh, likewise
   Resource depth;                    ///< image, view, aspect and layout; unset where none is needed
   std::span<const Resource> depths;  ///< of several views: one each, instead
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights

@@ -55,6 +55,16 @@ bool radial_is_bounded(uint light) {
   return range > 0.0 && range < 1e18 && radial_offset(light) >= 0.0;
 }
 
+// The greatest depth of a block's texels; infinite where nothing was drawn.
+float radial_farthest_of_block(uint light, uint square, uvec2 first, uint size) {
+  float nearest_stored = 1.0;  // near / w
+  for (uint i = 0u; i < size * size; ++i) {
+    const ivec2 texel = ivec2(first + uvec2(i % size, i / size));
+    nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
+  }
+  return nearest_stored > 0.0 ? shadow_maps[light].near_m / nearest_stored : RADIAL_UNBOUNDED;
+}
+
 // The depth up to which a texel of that depth may light M.
 float radial_farthest_lit(uint light, float w) {
   if (!(w < RADIAL_UNBOUNDED)) return RADIAL_UNBOUNDED;

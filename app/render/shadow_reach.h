@@ -1,4 +1,5 @@
-// Radial bounds of a scene's lights (lamplight/shared/radial.h): made anew for lights whose maps or places changed.
+// What shadow maps say of how far a scene's lights reach: radial bounds (lamplight/shared/radial.h) or meshes
+// (lamplight/shared/light_mesh.h). Made anew for lights whose maps or places changed, kept of all others.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,10 +13,13 @@
 
 namespace lamp::app {
 
-class ShadowRadial {
+class ShadowReach {
  public:
+  enum class Kind : std::uint8_t { radial, meshes };
+
   /// At first nothing is known of any light.
-  ShadowRadial(Context& context, const ShaderLibrary& shaders, ShadowFilter filter, std::uint32_t light_capacity);
+  ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
+              std::uint32_t light_capacity);
 
   /// Of the next `record`: lights that were redrawn, and those of another map or place than the last time.
   void set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,
@@ -23,17 +27,20 @@ class ShadowRadial {
   /// `maps`: the buffer of all maps; `atlas`: depths.
   void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas);
 
-  /// shared::RadialBound of each light.
-  [[nodiscard]] const vulkan::Buffer& bounds() const { return bounds_; }
+  /// shared::RadialBound, or shared::LightMesh, of each light.
+  [[nodiscard]] const vulkan::Buffer& buffer() const { return buffer_; }
 
  private:
-  vulkan::Buffer bounds_;
+  void record_nothing_known(vulkan::Recorder& recorder);
+
+  vulkan::Buffer buffer_;
   vulkan::Buffer jobs_;
   vulkan::Pipeline pipeline_;
   std::vector<shared::ShadowMap> maps_;  ///< as they were made from
   std::vector<std::uint8_t> shows_all_;
   std::vector<std::uint8_t> pending_;  ///< to be made by the next `record`
   std::uint32_t job_count_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace lamp::app

@@ -1,0 +1,99 @@
+// Records the pass that makes radial bounds, or meshes.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/shadow_reach.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "gpu/check.h"
+#include "lamplight/shared/light_mesh.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t MOST_GROUPS_X = 32768;
+
+/// What tells the two apart.
+struct Made {
+  const char* name;
+  const char* shader;
+  std::uint64_t bytes;  ///< a light
+};
+
+Made made(ShadowReach::Kind kind) {
+  if (kind == ShadowReach::Kind::meshes) return {"light meshes", "shadow/light_meshes", sizeof(shared::LightMesh)};
+  return {"radial bounds", "shadow/radial_bounds", sizeof(shared::RadialBound)};
+}
+
+/// Squares belong to one map, which changes only where it is redrawn.
+bool same(const shared::ShadowMap& a, const shared::ShadowMap& b) {
+  return a.kind == b.kind && a.squares[0] == b.squares[0];
+}
+
+}  // namespace
+
+ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
+                         std::uint32_t light_capacity)
+    : maps_(light_capacity), shows_all_(light_capacity), pending_(light_capacity) {
+  const auto [name, shader, bytes] = made(kind);
+  const std::uint64_t lights = std::max(1U, light_capacity);
+  buffer_ = take(
+      vulkan::Buffer::create(device, {.name = name,
+                                      .bytes = lights * bytes,
+                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT}));
+  jobs_ = take(vulkan::Buffer::create(device, {.name = "jobs of shadow maps",
+                                               .bytes = lights * sizeof(shared::RadialJob),
+                                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                               .memory = vulkan::MemoryUse::upload}));
+  pipeline_ = take(vulkan::Pipeline::compute(device,
+                                             {.name = name,
+                                              .constants = {{0, static_cast<std::uint32_t>(filter)}},
+                                              .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {3}, {4}},
+                                              .push_constant_bytes = sizeof(std::uint32_t)},
+                                             shaders.spirv(shader)));
+}
+
+void ShadowReach::set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,
+                      std::span<const ShadowRedraw> redraws) {
+  for (const ShadowRedraw& redraw : redraws) pending_[redraw.light] = 1;
+  std::vector<shared::RadialJob> jobs;
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    const std::uint8_t shows_all = shadow_shows_all(maps[i], lights[i]) ? 1 : 0;
+    if (shows_all != shows_all_[i] || !same(maps[i], maps_[i])) pending_[i] = 1;
+    if (pending_[i] == 0) continue;
+    maps_[i] = maps[i];
+    shows_all_[i] = shows_all;
+    jobs.push_back({.light = i, .shows_all = shows_all});
+  }
+  job_count_ = static_cast<std::uint32_t>(jobs.size());
+  if (!jobs.empty()) std::memcpy(jobs_.mapped().data(), jobs.data(), jobs.size() * sizeof(jobs[0]));
+}
+
+void ShadowReach::record_nothing_known(vulkan::Recorder& recorder) {
+  const vulkan::Resource all = vulkan::Resource::storage(buffer_.handle());
+  recorder.barrier(
+      {{.resource = all, .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
+  vkCmdFillBuffer(recorder.commands(), buffer_.handle(), 0, VK_WHOLE_SIZE, 0);
+}
+
+void ShadowReach::record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) {
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  if (!std::exchange(begun_, true)) record_nothing_known(recorder);
+  const std::uint32_t count = std::exchange(job_count_, 0);
+  if (count == 0) return;
+  std::ranges::fill(pending_, std::uint8_t{0});
+  const vulkan::Resource written = vulkan::Resource::storage(buffer_.handle());
+  const vulkan::Resource jobs = vulkan::Resource::storage(jobs_.handle());
+  recorder.barrier({reads(maps, COMPUTE),
+                    reads(atlas.sampled(), COMPUTE),
+                    reads(jobs, COMPUTE),
+                    {.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}});
+  recorder.bind(pipeline_, std::vector<vulkan::Bound>{{0, maps}, {1, atlas.sampled()}, {3, jobs}, {4, written}});
+  vkCmdPushConstants(recorder.commands(), pipeline_.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(count), &count);
+  const std::uint32_t wide = std::min(count, MOST_GROUPS_X);
+  vkCmdDispatch(recorder.commands(), wide, (count + wide - 1) / wide, 1);
+}
+
+}  // namespace lamp::app
