@@ -64,6 +64,8 @@ std::vector<GroupEntry> entries_of(const Series& series) {
                          .path = path,
                          .label = method.label,
                          .host = method.host,
+                         .still_lists = method.still_lists,
+                         .still_occlusion = method.still_occlusion,
                          .swept = swept};
         if (series.paths.size() > 1 && method.path.empty() && series.chart.x != "path") entry.label += ", " + path;
         for (const auto& [key, value] : swept) entry.options.push_back(fmt::format("{}={}", key, value));
@@ -79,6 +81,7 @@ Group base_of(const Series& series, const Limits& limits) {
             .depth = series.depth,
             .depth_samples = series.depth_samples,
             .stereo_m = series.stereo_m,
+            .still = series.still,
             .seed = series.seed,
             .frame = series.frame,
             .entries = entries_of(series)};
@@ -91,6 +94,7 @@ Group base_of(const Series& series, const Limits& limits) {
           .depth = series.depth,
           .depth_samples = series.depth_samples,
           .stereo_m = series.stereo_m,
+          .still = series.still,
           .seed = series.seed,
           .frame = series.frame,
           .frames = limits.frames.value_or(std::min(series.frames, most)),
@@ -170,12 +174,16 @@ void choose_pictures(const Series& series, std::span<Group> groups) {
 std::string depth_words(const Group& group) {
   return (group.depth == "reversed" ? "" : " depth=" + group.depth) +
          (group.depth_samples == 1 ? "" : fmt::format(" depth_samples={}", group.depth_samples)) +
-         (group.stereo_m == 0.0 ? "" : fmt::format(" stereo={}", group.stereo_m));
+         (group.stereo_m == 0.0 ? "" : fmt::format(" stereo={}", group.stereo_m)) +
+         (group.still == 0.0 ? "" : fmt::format(" still={}", group.still));
 }
 
 std::string host_words(const GroupEntry& entry) {
-  if (entry.host == Host::plan) return "";
-  return fmt::format(" host={}", host_names()[static_cast<std::size_t>(entry.host)]);
+  std::string words;
+  if (entry.host != Host::plan) words += fmt::format(" host={}", host_names()[static_cast<std::size_t>(entry.host)]);
+  if (entry.still_lists != "off")
+    words += fmt::format(" still_lists={} still_occlusion={}", entry.still_lists, entry.still_occlusion);
+  return words;
 }
 
 }  // namespace

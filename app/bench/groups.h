@@ -16,6 +16,8 @@ struct GroupEntry {
   std::string path;
   std::string label;
   Host host = Host::plan;
+  std::string still_lists = "off";
+  std::uint32_t still_occlusion = 0;
   std::vector<std::pair<std::string, std::string>> swept;  ///< the series' options here: for the chart's x axis
 };
 
@@ -27,6 +29,7 @@ struct Group {
   double stereo_m = 0.0;
   std::uint32_t lights = 0;  ///< the most, in a flight
   double spots = 0.0;
+  double still = 0.0;
   std::uint64_t seed = 1;
   int frame = -1;
   std::uint32_t frames = 0;  ///< 0: nothing is rendered

@@ -83,6 +83,10 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
     object.read("options", method.options);
     object.read("label", method.label);
     object.read("path", method.path);
+    object.read("still_lists", method.still_lists);
+    object.read("still_occlusion", method.still_occlusion, 0, 1024);
+    if (method.still_lists != "off" && (method.still_lists != "triangle-lists" || method.path != "forward"))
+      object.wrong("still_lists", "off, or triangle-lists with \"path\": \"forward\"");
     method.host = parse_host(object);
     object.finish();
   }
@@ -161,6 +165,7 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("sizes", series.sizes);
   object.read("lights", series.lights, 0, MAX_LIGHTS);
   object.read("spots", series.spots, 0.0, 1.0);
+  object.read("still", series.still, 0.0, 1.0);
   object.read("ranges", series.ranges);
   object.read("cameras", series.cameras);
   object.read("projections", series.projections);
@@ -177,6 +182,9 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("warm_up", series.warm_up, 0, MAX_FRAMES);
   object.read("timed", series.timed);
   series.flight = parse_flight(object);
+  const bool has_lists = std::ranges::any_of(series.methods, [](const auto& m) { return m.still_lists != "off"; });
+  if (series.flight && series.still > 0.0) object.wrong("still", "0 where there is a flight");
+  if (has_lists && series.still == 0.0) object.wrong("still", "more than 0 where a method has still_lists");
   if (object.has("chart")) series.chart = parse_chart(object.at("chart"), series, where);
   series.verify = parse_verify(object);
   if (!series.timed && (series.flight || object.has("verify") || object.has("pictures")))

@@ -24,6 +24,8 @@ struct SuiteMethod {
   std::string label;                 ///< in charts and tables
   std::string path;                  ///< empty: each of the series'
   Host host = Host::plan;
+  std::string still_lists = "off";    ///< what lights that stand still are looked up in, as `--still-lists`
+  std::uint32_t still_occlusion = 0;  ///< as `--still-occlusion`
 };
 
 /// How many lights a frame of a flight has: from + (to - from) t², with t going 0 → 1 → 0 `waves` times over the
@@ -61,6 +63,7 @@ struct Series {
   std::vector<std::string> sizes{"1280x720"};
   std::vector<std::uint32_t> lights{4096};
   std::vector<double> spots{0.5};
+  double still = 0.0;  ///< part of the generated lights that stand still; the scene's own do then too
   std::vector<std::string> ranges{""};
   std::vector<std::string> cameras{""};
   std::vector<std::string> projections{"camera"};

@@ -35,17 +35,19 @@ HdrImage cropped(const HdrImage& image, const Rows& rows) {
 LightingInfo lighting_info(const BenchScene& scene, const Group& group, const GroupEntry& entry) {
   const Method& method = parse_method(entry.method);
   const glm::uvec2 size = parse_size(group.size);
+  const bool listed = entry.still_lists != "off";
   return {.method = &method,
           .options = take(resolve_options(method, entry.options)),
           .width = group.stereo_m > 0.0 ? size.x / 2 : size.x,
           .height = size.y,
-          .light_capacity = light_capacity(scene, group),
+          .light_capacity = light_capacity(scene, group) - (listed ? standing_lights(scene, group) : 0),
           .path = parse_path(entry.path),
           .brdf = parse_brdf(group.brdf),
           .depth = host_depth_of(group),
           .host = entry.host,
           .transparency = !scene.gpu->blended().empty(),
-          .captured = scene.scene.captured.has_value()};
+          .captured = scene.scene.captured.has_value(),
+          .still = listed ? gpu::STILL_TRIANGLES : gpu::STILL_OFF};
 }
 
 Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, const BenchFrame& frame)
@@ -55,6 +57,11 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
       frame_(frame),
       rows_(checked_rows(group.verify, frame.view().height())) {
   renderer_.set_frame(frame.views, frame.lights);
+}
+
+void Checker::show(const StillLists* still) {
+  renderer_.light_still(still);
+  renderer_.set_frame(frame_.views, frame_.lights);
 }
 
 void Checker::need_truths() {
@@ -93,10 +100,13 @@ const HdrImage& Checker::reference(ShadingPath path) {
   std::optional<HdrImage>& image = forward ? forward_ : deferred_;
   if (!image) {
     LightingInfo info =
-        lighting_info(device_.scene(group_.scene), group_, {.method = "all", .path = forward ? "forward" : "deferred"});
+        lighting_info(device_.scene(group_), group_, {.method = "all", .path = forward ? "forward" : "deferred"});
     info.shaded = rows_;
+    const StillLists* still = renderer_.still();
+    show(nullptr);
     Lighting lighting(device_.context().device(), device_.shaders(), info);
     image = cropped(render_views(renderer_, lighting, frame_.lights, {}, {}).image, rows_);
+    show(still);
   }
   return *image;
 }
@@ -116,7 +126,8 @@ Findings Checker::find(Lighting& lighting) {
 
 Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked) {
   Plan plan = lighting.runner().plan();
-  if (!checked.findings) plan.ordered = plan.approximate = false;  // light volumes: no lists
+  if (!checked.findings && lighting.info().still == gpu::STILL_OFF)
+    plan.ordered = plan.approximate = false;  // light volumes: no lists
   std::optional<PictureDifference> difference;
   if (checked.difference)
     difference = {.max_abs = *checked.difference,
@@ -124,15 +135,20 @@ Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked
   return judge(plan, checked.findings.value_or(Findings{}), difference);
 }
 
-Checked Checker::check(Lighting& lighting) {
+Checked Checker::check(Lighting& lighting, bool same_picture) {
   Checked checked{.verdict = "unverified",
                   .reason = group_.unchecked,
                   .rendered = render_views(renderer_, lighting, frame_.lights, {}, {})};
   if (group_.verify.what == Verify::What::nothing) return checked;
   const bool by_volumes = lighting.info().path == ShadingPath::standard_deferred;
-  if (by_volumes && !group_.verify.compares_pictures) return checked;
-  need_truths();
-  if (!by_volumes) checked.findings = find(lighting);
+  const bool still = lighting.info().still != gpu::STILL_OFF;
+  if (still && !same_picture) {
+    checked.reason = "not compared: lists leave out lights that walls hide, which `lamp verify` checks";
+    return checked;
+  }
+  if ((by_volumes || still) && !group_.verify.compares_pictures) return checked;
+  if (!still) need_truths();
+  if (!by_volumes && !still) checked.findings = find(lighting);
   if (group_.verify.compares_pictures)
     checked.difference = max_abs_difference(cropped(checked.rendered.image, rows_), reference(lighting.info().path));
   Judgement judgement = judge_output(lighting, checked);

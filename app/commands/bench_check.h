@@ -28,7 +28,10 @@ class Checker {
  public:
   Checker(BenchDevice& device, const Group& group, Renderer& renderer, const BenchFrame& frame);
 
-  [[nodiscard]] Checked check(Lighting& lighting);
+  /// Shows the frame anew, with lists of still lights or none: before `check` of a lighting that was made for them.
+  void show(const StillLists* still);
+  /// `same_picture`: nothing that shines through walls is left out.
+  [[nodiscard]] Checked check(Lighting& lighting, bool same_picture = true);
 
  private:
   [[nodiscard]] const HdrImage& reference(ShadingPath path);

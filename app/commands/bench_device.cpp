@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "scene/flight.h"
+#include "scene/number_triangles.h"
 #include "scene/place_lights.h"
 
 namespace lamp::app {
@@ -71,11 +72,14 @@ BenchDevice::BenchDevice(const Request& request)
           ContextInfo{.device = request.device, .pipeline_statistics = request.pipeline_statistics})),
       chooser_(*context_, shaders_, request.calibration) {}
 
-BenchScene& BenchDevice::scene(const std::string& name) {
+BenchScene& BenchDevice::scene(const Group& group) {
+  const bool numbers = group.still > 0.0;
+  const std::string name = group.scene + (numbers ? " with numbered triangles" : "");
   if (scene_.gpu != nullptr && scene_name_ == name) return scene_;
   scene_ = {};
-  scene_.scene = load_scene(name);
-  if (const auto error = check_lights(scene_.scene.lights)) throw Error(name + ": " + error->text());
+  scene_.scene = load_scene(group.scene);
+  if (numbers) number_triangles(scene_.scene);
+  if (const auto error = check_lights(scene_.scene.lights)) throw Error(group.scene + ": " + error->text());
   scene_.gpu = std::make_unique<GpuScene>(*context_, scene_.scene);
   scene_name_ = name;
   return scene_;
@@ -83,6 +87,12 @@ BenchScene& BenchDevice::scene(const std::string& name) {
 
 std::uint32_t light_capacity(const BenchScene& scene, const Group& group) {
   return group.lights + static_cast<std::uint32_t>(scene.scene.lights.size());
+}
+
+std::uint32_t standing_lights(const BenchScene& scene, const Group& group) {
+  const Request request = request_of(group, group.entries.front());
+  const std::vector<Light> generated(group.lights);
+  return still_lights(request, scene.scene, generated);
 }
 
 void check_views(std::span<const Group> groups) {
@@ -107,12 +117,14 @@ BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t numb
   if (count != 0)
     generated = place_lights(*scene.air, {.count = count,
                                           .spots = request.spots,
+                                          .still = request.still,
                                           .min_range = min_range,
                                           .max_range = max_range,
                                           .seed = group.seed,
                                           .frame = frame,
                                           .frames = path_frames});
-  made.lights = packed_lights(scene.scene, generated);
+  made.lights = packed_lights(request, scene.scene, generated);
+  made.still = still_lights(request, scene.scene, generated);
   return made;
 }
 
@@ -127,6 +139,9 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .options = entry.options,
           .path = entry.path,
           .brdf = group.brdf,
+          .still = static_cast<float>(group.still),
+          .still_lists = entry.still_lists,
+          .still_occlusion = entry.still_occlusion,
           .camera = group.camera,
           .frame = group.frame,
           .projection = group.projection,

@@ -27,7 +27,7 @@ class BenchDevice {
   explicit BenchDevice(const Request& request);
 
   /// Loads a scene unless it is the last one's.
-  [[nodiscard]] BenchScene& scene(const std::string& name);
+  [[nodiscard]] BenchScene& scene(const Group& group);
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
   [[nodiscard]] AutoMethod& chooser() { return chooser_; }
@@ -48,6 +48,7 @@ struct BenchFrame {
 
   [[nodiscard]] const View& view() const { return views.front(); }
   std::vector<shared::Light> lights;
+  std::uint32_t still = 0;  ///< how many of them stand still, the last ones
 };
 /// Throws Error for a scene, camera, flight or projection that is not there.
 void check_views(std::span<const Group> groups);
@@ -56,6 +57,9 @@ void check_views(std::span<const Group> groups);
 
 /// The most lights that a frame of the group has, the scene's own included.
 [[nodiscard]] std::uint32_t light_capacity(const BenchScene& scene, const Group& group);
+
+/// How many of them stand still.
+[[nodiscard]] std::uint32_t standing_lights(const BenchScene& scene, const Group& group);
 
 /// Depth and views as the group has them.
 [[nodiscard]] HostDepth host_depth_of(const Group& group);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <list>
+#include <memory>
 
 #include "bench/results.h"
 #include "commands/bench_check.h"
@@ -31,6 +32,8 @@ constexpr int MOST_TRIES = 3;
 struct Candidate {
   const GroupEntry* entry = nullptr;
   std::optional<Lighting> lighting;  ///< nothing: it cannot run here
+  std::optional<StillSetup> still;   ///< where lights that stand still have lists of their own
+  std::unique_ptr<StillLists> still_lists;
   Checked checked;
   FrameTimes times;
   std::vector<std::pair<std::uint32_t, std::size_t>> frames;  ///< number and lights of each timed frame
@@ -101,6 +104,9 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
                   {"method", entry.method}};
   if (group.depth != "reversed") parameters["depth"] = group.depth;
   if (group.depth_samples != 1) parameters["depth_samples"] = group.depth_samples;
+  if (group.still != 0.0) parameters["still"] = group.still;
+  if (entry.still_lists != "off") parameters["still_lists"] = entry.still_lists;
+  if (entry.still_occlusion != 0) parameters["still_occlusion"] = entry.still_occlusion;
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
   if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];
   for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
@@ -123,10 +129,11 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
   Stats stats = make_stats({.device = info.device.context().row(),
                             .scene = info.group.scene,
                             .view = frame.view(),
-                            .lights = light_capacity(info.device.scene(info.group.scene), info.group),
+                            .lights = light_capacity(info.device.scene(info.group), info.group),
                             .frames = static_cast<std::uint32_t>(candidate.frames.size())},
                            *candidate.lighting, std::move(rendered));
   stats.findings = candidate.checked.findings;
+  if (candidate.still) stats.still = still_stats(*candidate.still);
   if (stats.findings) stats.verifier = info.group.verify.verifier;
   stats.image_max_abs_diff = candidate.checked.difference;
   json made = to_json(stats);
@@ -191,6 +198,27 @@ std::list<Candidate> make_candidates(const MeasureInfo& info, const BenchScene& 
   return candidates;
 }
 
+void say(const MeasureInfo& info, const std::string& what, double share) {
+  if (const int signal = info.stop(); signal != 0) throw Interrupted{signal};
+  info.progress(what, share);
+}
+
+/// Before anything is timed.
+void make_still_lists(const MeasureInfo& info, const BenchScene& scene, const BenchFrame& frame,
+                      std::list<Candidate>& candidates) {
+  Context& context = info.device.context();
+  for (Candidate& candidate : candidates) {
+    if (!candidate.lighting || candidate.entry->still_lists == "off") continue;
+    say(info, "makes lists of still lights for " + full_label(*candidate.entry), 0.0);
+    candidate.still =
+        make_still(request_of(info.group, *candidate.entry),
+                   {.scene = scene.scene, .views = frame.views, .lights = std::span(frame.lights).last(frame.still)},
+                   context.device().traits);
+    candidate.still_lists =
+        std::make_unique<StillLists>(context, gpu::STILL_TRIANGLES, frame.still, candidate.still->lists.words);
+  }
+}
+
 /// What is left to say about a group whose frame does not fit the device.
 std::list<Candidate> all_impossible(const Group& group, const std::string& reason) {
   std::list<Candidate> candidates;
@@ -209,11 +237,6 @@ json pictures_of(const MeasureInfo& info, Renderer& renderer, std::list<Candidat
   return shown.empty() ? json::object() : write_pictures(info.folder, info.group, renderer, shown);
 }
 
-void say(const MeasureInfo& info, const std::string& what, double share) {
-  if (const int signal = info.stop(); signal != 0) throw Interrupted{signal};
-  info.progress(what, share);
-}
-
 /// Checks every candidate that can run; one whose check finds no room on the device no longer can.
 void check_all(const MeasureInfo& info, std::list<Candidate>& candidates, std::optional<Checker>& checker) {
   std::size_t done = 0;
@@ -222,7 +245,8 @@ void check_all(const MeasureInfo& info, std::list<Candidate>& candidates, std::o
         0.5 * static_cast<double>(done++) / static_cast<double>(candidates.size()));
     if (!candidate.lighting) continue;
     try {
-      candidate.checked = checker->check(*candidate.lighting);
+      checker->show(candidate.still_lists.get());
+      candidate.checked = checker->check(*candidate.lighting, candidate.entry->still_occlusion == 0);
     } catch (const Error& error) {
       candidate.lighting.reset();
       candidate.checked = {.verdict = "impossible", .reason = error.what()};
@@ -251,6 +275,10 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.runs() || has_enough(info, candidate, warm)) continue;
+      if (info.group.still > 0.0) {
+        renderer.light_still(candidate.still_lists.get());
+        renderer.set_frame(frame.views, frame.lights);
+      }
       if (candidate.entry->host == Host::changing_size) renderer.cull_as(*candidate.lighting, half_of(frame.view()));
       const std::vector<vulkan::Timestamps::Time> times =
           renderer.time(*candidate.lighting, warm ? candidate.times.next() : Timing::parts);
@@ -303,7 +331,7 @@ std::vector<json> plan_only(const MeasureInfo& info, BenchScene& scene) {
 
 std::vector<json> measure(const MeasureInfo& info) {
   say(info, "loads " + info.group.scene, 0.0);
-  BenchScene& scene = info.device.scene(info.group.scene);
+  BenchScene& scene = info.device.scene(info.group);
   if (info.group.frames == 0) return plan_only(info, scene);
   const BenchFrame frame = bench_frame(scene, info.group, checked_frame(info.group));
   std::optional<Renderer> renderer;
@@ -318,6 +346,7 @@ std::vector<json> measure(const MeasureInfo& info) {
   } catch (const Error& error) {
     candidates = all_impossible(info.group, error.what());
   }
+  if (renderer) make_still_lists(info, scene, frame, candidates);
   check_all(info, candidates, checker);
   const json pictures = info.group.pictures ? pictures_of(info, *renderer, candidates) : json::object();
   if (renderer) time_group(info, *renderer, scene, candidates);

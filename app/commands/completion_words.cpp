@@ -120,6 +120,7 @@ Words values_of(const Typed& typed, const std::string& name) {
   if (name == "--brdf") return copied(brdf_names());
   if (name == "--projection") return copied(projection_names());
   if (name == "--shadows") return copied(shadow_names());
+  if (name == "--still-lists") return copied(still_lists_names());
   if (name == "--point-shadows") return copied(point_shadow_names());
   if (name == "--depth") return copied(depth_names());
   if (name == "--depth-samples") return {"1", "2", "4", "8"};

@@ -151,7 +151,8 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
   write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
   Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), sampling.frames);
   set_walked(stats, visits);
-  const std::vector<std::uint32_t> counts = walked_lights(visits);
+  std::vector<std::uint32_t> counts = walked_lights(visits);
+  if (session.still() != nullptr && !session.renderer().depth().several()) add_still_walks(session, counts);
   const std::string title = fmt::format("{}, {} lights", stats.method, stats.lights);
   const auto write_map = [&](const std::string& name, const LdrImage* below) {
     if (name.empty()) return;

@@ -321,7 +321,10 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
                                          static_cast<std::uint32_t>(setup.lights.size()),
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
   if (request.still_lists != "off") {
-    still_ = make_still(request, setup, context_->device().traits);
+    still_ = make_still(
+        request,
+        {.scene = setup.scene, .views = setup.views, .lights = setup.standing(), .painted = !setup.decals.empty()},
+        context_->device().traits);
     still_lists_ = std::make_unique<StillLists>(*context_, gpu::STILL_TRIANGLES, setup.still, still_->lists.words);
     renderer_->light_still(still_lists_.get());
   }

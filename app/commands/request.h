@@ -196,7 +196,13 @@ struct StillSetup {
   TriangleLists lists;
   double build_ms = 0.0;
 };
-[[nodiscard]] StillSetup make_still(const Request& request, const Setup& setup, const DeviceTraits& traits);
+struct StillInfo {
+  const Scene& scene;
+  std::span<const View> views;
+  std::span<const shared::Light> lights;
+  bool painted = false;  ///< decals may bend normals
+};
+[[nodiscard]] StillSetup make_still(const Request& request, const StillInfo& of, const DeviceTraits& traits);
 
 /// Device, renderer and what they need, for one Setup.
 class Session {

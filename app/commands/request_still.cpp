@@ -83,23 +83,21 @@ std::vector<shared::Light> packed_lights(const Request& request, const Scene& sc
   return lights;
 }
 
-StillSetup make_still(const Request& request, const Setup& setup, const DeviceTraits& traits) {
-  if (setup.scene.captured)
+StillSetup make_still(const Request& request, const StillInfo& of, const DeviceTraits& traits) {
+  if (of.scene.captured)
     throw Error(fmt::format("--still-lists {}: the capture {} has no triangles, expected off", request.still_lists,
                             request.scene));
   const auto begin = std::chrono::steady_clock::now();
-  StillSetup made{.triangles = still_surfaces(setup.scene, !setup.decals.empty())};
-  const std::span<const shared::Light> lights = setup.standing();
-  TriangleListsInfo info{.triangles = made.triangles,
-                         .lights = lights,
-                         .slack_m = slack_of(setup.scene, setup.views, traits.sub_pixel_bits)};
+  StillSetup made{.triangles = still_surfaces(of.scene, of.painted)};
+  TriangleListsInfo info{
+      .triangles = made.triangles, .lights = of.lights, .slack_m = slack_of(of.scene, of.views, traits.sub_pixel_bits)};
   if (request.still_bytes > 0.0F)
     info.budget_bytes = std::max(LEAST_BYTES, static_cast<std::uint64_t>(double{request.still_bytes} *
                                                                          static_cast<double>(made.triangles.size())));
   std::optional<StillOccluders> occluders;
   if (request.still_occlusion != 0) {
-    occluders.emplace(still_triangles(setup.scene));
-    info.hides = hidden_by(*occluders, lights, request.still_occlusion);
+    occluders.emplace(still_triangles(of.scene));
+    info.hides = hidden_by(*occluders, of.lights, request.still_occlusion);
   }
   made.lists = take(make_triangle_lists(info));
   made.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

@@ -24,6 +24,14 @@ StillStats still_stats(const StillSetup& still) {
           .notes = still.lists.notes};
 }
 
+void add_still_walks(Session& session, std::vector<std::uint32_t>& walked) {
+  const std::vector<gpu::StillPoint> points = pixel_points(session.renderer(), session.gpu_scene(), session.shaders());
+  for (std::size_t i = 0; i < walked.size(); ++i)
+    if (points[i].triangle != NO_TRIANGLE)
+      walked[i] +=
+          static_cast<std::uint32_t>(lights_at(session.still()->lists, points[i].triangle, points[i].position).size());
+}
+
 std::string still_words(const StillStats& s) {
   return fmt::format(
       "{} lights in triangle lists: {:.2f} MB, {:.1f} bytes for each of {} triangles; {} patches, {} lists in {} "

@@ -11,6 +11,7 @@
 #include "render/decal_pass.h"
 #include "render/geometry.h"
 #include "render/lighting_pipelines.h"
+#include "render/still_lists.h"
 
 namespace lamp::app {
 namespace {
@@ -48,6 +49,9 @@ class PipelineLister {
     info.decals = true;
     add_paths(info, plan);
     add("", decal_pipeline(device_, shaders_, plan));
+    info.decals = false;
+    info.still = gpu::STILL_TRIANGLES;
+    add_path(info, ShadingPath::forward, plan);
     add_passes_of_many_lights(method, {});
   }
 
@@ -83,6 +87,7 @@ class PipelineLister {
     if (info.brdf == Brdf::blinn_phong) use += ", Blinn-Phong";
     if (info.captured) use += ", captured";
     if (info.decals) use += ", decals";
+    if (info.still != gpu::STILL_OFF) use += ", triangle lists";
     return use;
   }
 

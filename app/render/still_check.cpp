@@ -22,36 +22,6 @@ constexpr std::uint32_t WALK_GROUP = 64;  // threads of still_walk
 // hidden point lies behind its occluder at least (OcclusionMap).
 constexpr double RAY_END = 1.0 - 0.5 * OcclusionMap::HIDDEN_BEYOND;
 
-std::vector<gpu::StillWalk> walk_on_gpu(const StillCheck& check, std::span<const gpu::StillPoint> points) {
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  const vulkan::Device& device = check.context.device();
-  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(
-      device,
-      {.name = "still walk", .bindings = {{0}, {1}, {BINDING_STILL}}, .push_constant_bytes = sizeof(std::uint32_t)},
-      check.shaders.spirv("still_walk")));
-  const vulkan::Buffer from =
-      upload_buffer(check.context, "still points", std::as_bytes(points), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer to = readback_buffer(device, "still walks", points.size() * sizeof(gpu::StillWalk));
-  const vulkan::Resource read = vulkan::Resource::storage(from.handle());
-  const vulkan::Resource written = vulkan::Resource::storage(to.handle());
-  const auto count = static_cast<std::uint32_t>(points.size());
-  vulkan::AccessTracker tracker;
-  check.context.submit([&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(device, commands, tracker);
-    recorder.begin_pass("still walk",
-                        {reads(read, COMPUTE),
-                         reads(check.on_gpu.words(), COMPUTE),
-                         {.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}});
-    const std::vector<vulkan::Bound> bound{{0, read}, {1, written}, {BINDING_STILL, check.on_gpu.words()}};
-    recorder.bind(pipeline, bound);
-    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(count), &count);
-    vkCmdDispatch(commands, (count + WALK_GROUP - 1) / WALK_GROUP, 1, 1);
-    recorder.end_pass();
-    recorder.barrier({host_reads(written)});
-  });
-  return first_values<gpu::StillWalk>(to, points.size());
-}
-
 gpu::StillWalk walk_of(std::span<const std::uint32_t> list) {
   gpu::StillWalk walk{.lights = static_cast<std::uint32_t>(list.size()), .hash = gpu::STILL_HASH_FIRST};
   for (const std::uint32_t light : list) walk.hash = (walk.hash ^ light) * gpu::STILL_HASH_TIMES;
@@ -111,6 +81,12 @@ Verdict StillFindings::verdict() const {
 }
 
 std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene& scene, const ShaderLibrary& shaders) {
+  std::vector<gpu::StillPoint> points = pixel_points(renderer, scene, shaders);
+  std::erase_if(points, [](const gpu::StillPoint& point) { return point.triangle == NO_TRIANGLE; });
+  return points;
+}
+
+std::vector<gpu::StillPoint> pixel_points(Renderer& renderer, const GpuScene& scene, const ShaderLibrary& shaders) {
   const Targets& targets = renderer.targets();
   const GpuImage ids(renderer.device(),
                      {.name = "triangle numbers",
@@ -144,9 +120,9 @@ std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene
   const std::vector<float> depth = renderer.read_depth();
   std::vector<gpu::StillPoint> points;
   for (std::uint32_t i = 0; i < pixels; ++i) {
-    if (numbers[i] == 0) continue;
     const DVec3 position(renderer.view().world_position(i % targets.width, i / targets.width, depth[i]));
-    points.push_back({.position = Vec3(position), .triangle = numbers[i] - 1});
+    // Of no triangle: 0 - 1.
+    points.push_back({.position = numbers[i] == 0 ? Vec3{} : Vec3(position), .triangle = numbers[i] - 1});
   }
   return points;
 }
@@ -179,6 +155,37 @@ std::vector<gpu::StillPoint> random_points_on(std::span<const StillTriangle> tri
   return points;
 }
 
+std::vector<gpu::StillWalk> walk_still_points(Context& context, std::span<const std::uint32_t> spirv,
+                                              const StillLists& lists, std::span<const gpu::StillPoint> points) {
+  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  const vulkan::Device& device = context.device();
+  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(
+      device,
+      {.name = "still walk", .bindings = {{0}, {1}, {BINDING_STILL}}, .push_constant_bytes = sizeof(std::uint32_t)},
+      spirv));
+  const vulkan::Buffer from =
+      upload_buffer(context, "still points", std::as_bytes(points), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const vulkan::Buffer to = readback_buffer(device, "still walks", points.size() * sizeof(gpu::StillWalk));
+  const vulkan::Resource read = vulkan::Resource::storage(from.handle());
+  const vulkan::Resource written = vulkan::Resource::storage(to.handle());
+  const auto count = static_cast<std::uint32_t>(points.size());
+  vulkan::AccessTracker tracker;
+  context.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(device, commands, tracker);
+    recorder.begin_pass("still walk",
+                        {reads(read, COMPUTE),
+                         reads(lists.words(), COMPUTE),
+                         {.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}});
+    const std::vector<vulkan::Bound> bound{{0, read}, {1, written}, {BINDING_STILL, lists.words()}};
+    recorder.bind(pipeline, bound);
+    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(count), &count);
+    vkCmdDispatch(commands, (count + WALK_GROUP - 1) / WALK_GROUP, 1, 1);
+    recorder.end_pass();
+    recorder.barrier({host_reads(written)});
+  });
+  return first_values<gpu::StillWalk>(to, points.size());
+}
+
 StillFindings check_still_points(const StillCheck& check, std::span<const gpu::StillPoint> points) {
   StillFindings findings{.points = points.size()};
   if (points.empty()) return findings;
@@ -186,7 +193,8 @@ StillFindings check_still_points(const StillCheck& check, std::span<const gpu::S
   for (const gpu::StillPoint& point : points) positions.emplace_back(point.position);
   const PointTruth truth = truth_at(positions, check.lights);
   findings.boundary_pairs = truth.boundary_pairs;
-  const std::vector<gpu::StillWalk> walks = walk_on_gpu(check, points);
+  const std::vector<gpu::StillWalk> walks =
+      walk_still_points(check.context, check.shaders.spirv("still_walk"), check.on_gpu, points);
   std::vector<Met> met(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t i) { met[i] = meet(check, points[i], truth.of(i)); });

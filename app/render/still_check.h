@@ -12,7 +12,13 @@
 
 namespace lamp::app {
 
-/// Points of which each lies on a known triangle.
+/// Of a pixel that shows none.
+inline constexpr std::uint32_t NO_TRIANGLE = ~0U;
+
+/// The point that each pixel shows, row by row, and its triangle; of one view, with one sample a pixel.
+[[nodiscard]] std::vector<gpu::StillPoint> pixel_points(Renderer& renderer, const GpuScene& scene,
+                                                        const ShaderLibrary& shaders);
+/// Without those of the sky.
 [[nodiscard]] std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene& scene,
                                                             const ShaderLibrary& shaders);
 [[nodiscard]] std::vector<gpu::StillPoint> random_points_on(std::span<const StillTriangle> triangles, std::size_t count,
@@ -33,6 +39,11 @@ struct StillFindings {
 
   [[nodiscard]] Verdict verdict() const;
 };
+
+/// Walks lists on the device. `spirv`: of still_walk.comp, or a shader with its bindings.
+[[nodiscard]] std::vector<gpu::StillWalk> walk_still_points(Context& context, std::span<const std::uint32_t> spirv,
+                                                            const StillLists& lists,
+                                                            std::span<const gpu::StillPoint> points);
 
 struct StillCheck {
   Context& context;

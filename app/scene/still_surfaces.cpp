@@ -3,6 +3,7 @@
 #include "scene/still_surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,11 +12,29 @@
 namespace lamp::app {
 namespace {
 
-/// A vertex's tangent makes no skewed frame: material.glsl makes it normal to the interpolated normal.
-bool has_frames(const Scene& scene, const Mesh& mesh) {
-  for (std::uint32_t i = 0; i < mesh.index_count; ++i) {
-    const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + i] + mesh.vertex_offset];
-    if (std::abs(vertex.tangent.w) != 1.0F) return false;
+/// World space; tangent.w as the vertex has it.
+struct Frame {
+  glm::vec3 normal{0.0F};
+  glm::vec4 tangent{0.0F};
+};
+
+/// Whether all frames that are interpolated between these have three axes at right angles, as material.glsl makes them
+/// of a tangent that is not along the normal.
+bool keep_apart(const std::array<Frame, 3>& frames) {
+  constexpr float MOST_ALONG = 0.3F;   // cosine between a normal and a tangent
+  constexpr float LEAST_ALIKE = 0.5F;  // and between two normals or two tangents
+  for (const Frame& a : frames) {
+    if (std::abs(a.tangent.w) != 1.0F) return false;
+    for (const Frame& b : frames) {
+      const glm::vec3 normal = glm::normalize(b.normal);
+      const glm::vec3 tangent = glm::normalize(glm::vec3(b.tangent));
+      const glm::vec3 of_a = glm::normalize(glm::vec3(a.tangent));
+      const bool apart = std::abs(glm::dot(of_a, normal)) <= MOST_ALONG;
+      // Not of what is no number.
+      if (!(apart && glm::dot(of_a, tangent) >= LEAST_ALIKE &&
+            glm::dot(glm::normalize(a.normal), normal) >= LEAST_ALIKE))
+        return false;
+    }
   }
   return true;
 }
@@ -39,11 +58,8 @@ float normal_tilt(const Scene& scene, const Material& material) {
 
 std::vector<StillTriangle> still_surfaces(const Scene& scene, bool painted) {
   std::vector<float> tilts;
-  for (const Mesh& mesh : scene.meshes) {
-    const Material& material = scene.materials[mesh.material];
-    const bool known = !painted && (material.normal_texture.image < 0 || has_frames(scene, mesh));
-    tilts.push_back(known ? normal_tilt(scene, material) : ANY_NORMAL);
-  }
+  for (const Mesh& mesh : scene.meshes)
+    tilts.push_back(painted ? ANY_NORMAL : normal_tilt(scene, scene.materials[mesh.material]));
   std::vector<StillTriangle> triangles;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -52,11 +68,16 @@ std::vector<StillTriangle> still_surfaces(const Scene& scene, bool painted) {
     for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
       StillTriangle& triangle = triangles.emplace_back();
       triangle.normal_tilt = tilts[instance.mesh];
+      std::array<Frame, 3> frames;
       for (std::uint32_t i = 0; i < 3; ++i) {
         const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + 3 * t + i] + mesh.vertex_offset];
+        frames[i].normal = normal_matrix * vertex.normal;
+        frames[i].tangent =
+            glm::vec4(glm::mat3(instance.world_from_object) * glm::vec3(vertex.tangent), vertex.tangent.w);
         triangle.corners[i] = DVec3(glm::dvec3(world_from_object * glm::dvec4(glm::dvec3(vertex.position), 1.0)));
-        triangle.normals[i] = Vec3(normal_matrix * vertex.normal);
+        triangle.normals[i] = Vec3(frames[i].normal);
       }
+      if (triangle.normal_tilt > 0.0F && !keep_apart(frames)) triangle.normal_tilt = ANY_NORMAL;
     }
   }
   return triangles;

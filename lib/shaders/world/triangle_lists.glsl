@@ -1,6 +1,6 @@
-// Look-up by triangle: the still lights of a position on a triangle, ascending. `triangle`: its number among those that
+// Look-up by triangle: the still lights of a position on a triangle, ascending. `number`: the triangle's, among those that
 // the lists were made of, a flat attribute; positions tell patches apart.
-//   for (TriangleWalk walk = triangle_walk_begin(triangle, position); triangle_walk_next(walk, light);) shade(light);
+//   for (TriangleWalk walk = triangle_walk_begin(number, position); triangle_walk_next(walk, light);) shade(light);
 // A shader may say TRIANGLE_LISTS_SET and TRIANGLE_LISTS_BINDING before it includes this.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_TRIANGLE_LISTS
@@ -59,14 +59,14 @@ uint triangle_list_name(uint word, vec3 position) {
   return word;
 }
 
-TriangleWalk triangle_walk_begin(uint triangle, vec3 position) {
+TriangleWalk triangle_walk_begin(uint number, vec3 position) {
   TriangleWalk walk;
   walk.lights = 0u;
   walk.count = 0u;
   walk.row = 0u;
   walk.block = 0u;
   walk.bits = 0u;
-  const uint name = triangle_list_name(triangle_words[triangle], position);
+  const uint name = triangle_list_name(triangle_words[number], position);
   if (name != TRIANGLE_UNLIT) {
     const uint group = (name >> TRIANGLE_ROW_BITS) * TRIANGLE_GROUP_UNIT;
     walk.count = triangle_words[group];

@@ -92,8 +92,6 @@ class Cutting {
       if (!may_touch(light, box, slack) || !touches(light, polygon, plane_, slack)) continue;
       if (is_behind(light, polygon, tilt_, slack))
         ++tables_.stats.behind;
-      else if (hides(id, polygon, slack))
-        ++tables_.stats.hidden;
       else
         list.push_back(id);
     }
@@ -146,7 +144,13 @@ class Cutting {
     const double slack = slack_of(box);
     std::vector<std::uint32_t> list = lights_of(polygon, near, slack);
     Table table;
-    if (!table_for(box, square, wanted_side(list, slack), table)) return leaf(word, std::move(list));
+    if (!table_for(box, square, wanted_side(list, slack), table)) {
+      // Not before: what a light sees takes long to find out, and of large parts it sees some.
+      const std::size_t touching = list.size();
+      std::erase_if(list, [&](std::uint32_t id) { return hides(id, polygon, slack); });
+      tables_.stats.hidden += touching - list.size();
+      return leaf(word, std::move(list));
+    }
     fill(table, list, word, 2.0 * slack);
   }
 

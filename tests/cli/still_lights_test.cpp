@@ -1,0 +1,45 @@
+// Lights that stand still on the command line: numbers, checks, and what is wrong in one line.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli_test.h"
+
+namespace lamp::cli {
+namespace {
+
+using Still = CliTest;
+
+TEST_F(Still, ListsAreCheckedAndCounted) {
+  const Arguments small{"verify",        "corridor",       "--lights", "200",       "--size",  "64x36",
+                        "--path",        "forward",        "--method", "clustered", "--still", "0.25",
+                        "--still-lists", "triangle-lists", "--json"};
+  Outcome run = lamp(small);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json row = nlohmann::json::parse(run.out).at(0);
+  EXPECT_EQ(row.at("image_max_abs_diff"), 0.0);
+  const nlohmann::json still = row.at("still");
+  EXPECT_EQ(still.at("lights"), 50);
+  EXPECT_GT(still.at("bytes"), 0);
+  ASSERT_EQ(still.at("checks").size(), 2);
+  for (const nlohmann::json& check : still.at("checks")) {
+    EXPECT_EQ(check.at("missed"), 0);
+    EXPECT_GT(check.at("lighting"), 0);
+    EXPECT_EQ(check.at("verdict"), "ok");
+  }
+  Arguments hidden = small;
+  hidden.insert(hidden.end(), {"--still-occlusion", "16"});
+  run = lamp(hidden);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json cut = nlohmann::json::parse(run.out).at(0);
+  EXPECT_GT(cut.at("still").at("hidden"), 0);
+  EXPECT_FALSE(cut.contains("image_max_abs_diff"));
+}
+
+TEST_F(Still, SayWhatIsWrong) {
+  expect_error(BAD_INPUT, {"render", "--still", "2"}, {"--still"});
+  expect_error(BAD_INPUT, {"render", "--still-lists", "triangles"}, {"--still-lists 'triangles'", "triangle-lists"});
+  expect_error(BAD_INPUT, {"render", "--still-lists", "triangle-lists"},
+               {"does not know its triangle", "--path forward"});
+  expect_error(BAD_INPUT, {"render", "--still-occlusion", "32"}, {"--still-occlusion 32", "there are no lists"});
+}
+
+}  // namespace
+}  // namespace lamp::cli

@@ -1,0 +1,150 @@
+// Lights that stand still, in lists of their triangles: the same picture as with all lights in the picture's lists, and
+// nothing missed at pixels and on surfaces.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gpu/method_check.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "render/still_check.h"
+#include "scene/flight.h"
+#include "scene/number_triangles.h"
+#include "scene/place_decals.h"
+#include "scene/still_surfaces.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t WIDTH = 160;
+constexpr std::uint32_t HEIGHT = 90;
+constexpr std::uint32_t COUNT = 200;
+constexpr std::uint32_t STILL = 150;
+
+Scene numbered(std::string_view name) {
+  Scene scene = builtin_test_scene(name).scene;
+  number_triangles(scene);
+  return scene;
+}
+
+class StillLights : public GpuTest, public ::testing::WithParamInterface<std::string_view> {
+ protected:
+  StillLights()
+      : scene_(numbered(GetParam())),
+        view_(view_of(find_camera(scene_.scene, ""), WIDTH, HEIGHT, "camera")),
+        lights_(test_lights(scene_.air, view_, {.count = COUNT, .mix = Mix::both})) {}
+
+  void make(std::span<const gpu::DecalData> decals) {
+    triangles_ = still_surfaces(scene_.scene, !decals.empty());
+    const auto still = std::span(lights_).last(STILL);
+    lists_ = take(make_triangle_lists({.triangles = triangles_, .lights = still, .slack_m = 0.01F}));
+    on_gpu_.emplace(test_context(), gpu::STILL_TRIANGLES, STILL, lists_.words);
+  }
+
+  HdrImage picture(Renderer& renderer, const Method& method, std::span<const gpu::DecalData> decals) {
+    renderer.set_frame(view_, lights_, decals);
+    const StillLists* still = renderer.still();
+    const std::uint32_t listed = COUNT - (still == nullptr ? 0 : still->lights());
+    Lighting lighting(renderer.device(), shader_library(),
+                      {.method = &method,
+                       .options = take(resolve_options(method, {})),
+                       .width = WIDTH,
+                       .height = HEIGHT,
+                       .light_capacity = listed + static_cast<std::uint32_t>(decals.size()),
+                       .path = ShadingPath::forward,
+                       .transparency = !scene_.gpu.blended().empty(),
+                       .decals = !decals.empty(),
+                       .still = still == nullptr ? gpu::STILL_OFF : still->kind()});
+    return renderer.render(lighting).image;
+  }
+
+  TestScene scene_;
+  View view_;
+  std::vector<shared::Light> lights_;
+  std::vector<StillTriangle> triangles_;
+  TriangleLists lists_;
+  std::optional<StillLists> on_gpu_;
+};
+
+/// Glass, masked surfaces, instances; two look-ups of the picture's lights.
+TEST_P(StillLights, PictureEqualsThatOfOneList) {
+  make({});
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+  const HdrImage reference = picture(renderer, brute_force(), {});
+  EXPECT_GT(largest_value(reference), 0.01F);
+  renderer.light_still(&*on_gpu_);
+  for (const char* method : {"all", "lamplight", "clustered", "tiled-bits"}) {
+    SCOPED_TRACE(method);
+    EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method(method)), {}), reference), 0.0F);
+  }
+}
+
+TEST_P(StillLights, NothingIsMissed) {
+  make({});
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+  renderer.light_still(&*on_gpu_);
+  renderer.set_frame(view_, lights_);
+  const StillCheck check{.context = test_context(),
+                         .shaders = shader_library(),
+                         .triangles = triangles_,
+                         .lights = std::span(lights_).last(STILL),
+                         .lists = lists_,
+                         .on_gpu = *on_gpu_};
+  const std::vector<gpu::StillPoint> pixels = points_of_pixels(renderer, scene_.gpu, shader_library());
+  EXPECT_GT(pixels.size(), 1000U);
+  for (const auto& points : {pixels, random_points_on(triangles_, 2000, 1)}) {
+    const StillFindings found = check_still_points(check, points);
+    EXPECT_EQ(found.verdict(), Verdict::ok)
+        << found.missed << " missed: " << found.first_miss << "; " << found.differing << " differ";
+    EXPECT_GT(found.lighting, 0U);
+  }
+}
+
+TEST_P(StillLights, HlslWalksAsGlslDoes) {
+  make({});
+  const std::vector<gpu::StillPoint> points = random_points_on(triangles_, 2000, 3);
+  const auto hlsl = std::ranges::find(test_shaders(), "still_walk.hlsl", &ShaderCode::name);
+  ASSERT_NE(hlsl, test_shaders().end());
+  const auto glsl = shader_library().spirv("still_walk");
+  const std::vector<gpu::StillWalk> expected = walk_still_points(test_context(), glsl, *on_gpu_, points);
+  const std::vector<gpu::StillWalk> found = walk_still_points(test_context(), hlsl->spirv, *on_gpu_, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(found[i].lights, expected[i].lights);
+    EXPECT_EQ(found[i].hash, expected[i].hash);
+  }
+}
+
+/// The check finds what lists lack, and walks of other lists.
+TEST_P(StillLights, TheCheckSeesFaults) {
+  make({});
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+  const auto still = std::span(lights_).last(STILL);
+  const TriangleLists fewer =
+      take(make_triangle_lists({.triangles = triangles_, .lights = still.first(STILL / 2), .slack_m = 0.01F}));
+  const StillCheck check{.context = test_context(),
+                         .shaders = shader_library(),
+                         .triangles = triangles_,
+                         .lights = still,
+                         .lists = fewer,
+                         .on_gpu = *on_gpu_};
+  const StillFindings found = check_still_points(check, random_points_on(triangles_, 500, 2));
+  EXPECT_GT(found.missed, 0U);
+  EXPECT_GT(found.differing, 0U);
+}
+
+/// Their ids lie between those of lights that move and of lights that stand still.
+TEST_P(StillLights, DecalsKeepTheirIds) {
+  const std::vector<gpu::DecalData> decals = pack(place_decals(scene_.scene, 20, 1));
+  make(decals);
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT, 20);
+  const HdrImage reference = picture(renderer, brute_force(), decals);
+  renderer.light_still(&*on_gpu_);
+  EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method("lamplight")), decals), reference), 0.0F);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, StillLights, ::testing::Values("corridor", "atrium"),
+                         [](const auto& test) { return test_name(test.param); });
+
+}  // namespace
+}  // namespace lamp::app
