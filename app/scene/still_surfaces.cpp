@@ -29,11 +29,10 @@ bool keep_apart(const std::array<Frame, 3>& frames) {
       const glm::vec3 normal = glm::normalize(b.normal);
       const glm::vec3 tangent = glm::normalize(glm::vec3(b.tangent));
       const glm::vec3 of_a = glm::normalize(glm::vec3(a.tangent));
-      const bool apart = std::abs(glm::dot(of_a, normal)) <= MOST_ALONG;
-      // Not of what is no number.
-      if (!(apart && glm::dot(of_a, tangent) >= LEAST_ALIKE &&
-            glm::dot(glm::normalize(a.normal), normal) >= LEAST_ALIKE))
-        return false;
+      const bool apart = std::abs(glm::dot(of_a, normal)) <= MOST_ALONG;  // not of what is no number
+      const bool alike =
+          glm::dot(of_a, tangent) >= LEAST_ALIKE && glm::dot(glm::normalize(a.normal), normal) >= LEAST_ALIKE;
+      if (!apart || !alike) return false;
     }
   }
   return true;

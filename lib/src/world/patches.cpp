@@ -41,6 +41,10 @@ struct Table {
   int up = 0;
 
   [[nodiscard]] double side() const { return std::ldexp(1.0, exponent); }
+  [[nodiscard]] std::size_t patches() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(up); }
+  [[nodiscard]] std::size_t place(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x);
+  }
 };
 
 /// The square that a patch is for, seen along the axis; positions beyond it have other patches.
@@ -76,7 +80,7 @@ class Cutting {
 
   [[nodiscard]] bool hides(std::uint32_t light, const Polygon& polygon, double slack) const {
     if (how_.hides == nullptr) return false;
-    std::array<DVec3, 8 * Polygon::MOST> hull;
+    std::array<DVec3, 8 * Polygon::MOST> hull{};
     std::size_t count = 0;
     for (const Corner& corner : polygon.all())
       for (int i = 0; i < 8; ++i)
@@ -164,9 +168,8 @@ class Cutting {
     std::vector<std::uint32_t>& words = tables_.words;
     ++tables_.stats.tables;
     const std::size_t head = words.size();
-    const auto patches = static_cast<std::size_t>(table.across * table.up);
     words[word] = TRIANGLE_PATCHED | static_cast<std::uint32_t>(head);
-    words.resize(head + TRIANGLE_TABLE_HEAD + patches);
+    words.resize(head + TRIANGLE_TABLE_HEAD + table.patches());
     const auto exponent = static_cast<std::uint32_t>(table.exponent + static_cast<int>(TRIANGLE_EXPONENT_BIAS));
     words[head] = static_cast<std::uint32_t>(axis_) | exponent << TRIANGLE_AXIS_BITS |
                   static_cast<std::uint32_t>(table.across) << (TRIANGLE_AXIS_BITS + TRIANGLE_FIELD_BITS) |
@@ -176,7 +179,7 @@ class Cutting {
     const std::vector<std::vector<std::uint32_t>> near = spread(table, list, beyond);
     for (int y = 0; y < table.up; ++y)
       for (int x = 0; x < table.across; ++x) {
-        const auto at = static_cast<std::size_t>(y * table.across + x);
+        const std::size_t at = table.place(x, y);
         const Square square = square_of(table, x, y);
         part(patch_of(whole_, table, square, beyond), near[at], head + TRIANGLE_TABLE_HEAD + at, square);
       }
@@ -185,7 +188,7 @@ class Cutting {
   /// The lights whose sphere may touch each patch.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> spread(const Table& table, std::span<const std::uint32_t> list,
                                                                double beyond) const {
-    std::vector<std::vector<std::uint32_t>> near(static_cast<std::size_t>(table.across * table.up));
+    std::vector<std::vector<std::uint32_t>> near(table.patches());
     for (const std::uint32_t id : list) {
       const StillLight& light = how_.lights[id];
       const double reach = light.radius + 2.0 * beyond;
@@ -196,7 +199,7 @@ class Cutting {
       const int y_end = place(light.center[table.v] + reach, table.first_v, table.up);
       for (int y = place(light.center[table.v] - reach, table.first_v, table.up); y <= y_end; ++y)
         for (int x = place(light.center[table.u] - reach, table.first_u, table.across); x <= x_end; ++x)
-          near[static_cast<std::size_t>(y * table.across + x)].push_back(id);
+          near[table.place(x, y)].push_back(id);
     }
     return near;
   }

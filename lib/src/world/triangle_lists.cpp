@@ -43,11 +43,10 @@ std::optional<Error> fault_of(const shared::Light& light, std::size_t number) {
   if (!finite(light.position)) return Error(name, "position must be finite");
   if (!(light.range >= 0.0F)) return Error(name, "range must be >= 0 m");
   if (light.type != shared::LIGHT_SPOT) return std::nullopt;
-  const glm::dvec3 direction(light.direction);
-  if (!finite(light.direction) || direction == glm::dvec3(0.0))
-    return Error(name, "direction must be finite and not 0");
-  if (!(light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F))
-    return Error(name, "outer_angle must lie in 0 .. pi/2 radians");
+  const bool points_somewhere = glm::dvec3(light.direction) != glm::dvec3(0.0);
+  if (!finite(light.direction) || !points_somewhere) return Error(name, "direction must be finite and not 0");
+  const bool is_half_angle = light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F;  // false for a NaN
+  if (!is_half_angle) return Error(name, "outer_angle must lie in 0 .. pi/2 radians");
   return std::nullopt;
 }
 
