@@ -30,7 +30,7 @@ struct VerifyOptions {
   std::string out;  ///< picture of where lights are missed, or empty
   std::string verifier = "auto";
   std::uint32_t runs = 1;
-  std::uint32_t points = 0;
+  PointsRequest at_points;  ///< but its methods
   bool json = false;
 };
 
@@ -372,7 +372,7 @@ Run add_verify(CLI::App& app) {
                    "one")
       ->type_name("FILE")
       ->group("Output");
-  add_points_option(*command, o->points);
+  add_points_option(*command, o->at_points);
   add_json_flag(*command, o->json, "print the numbers as JSON, an array with one object for each method");
   command->footer(
       "Examples:\n"
@@ -385,7 +385,13 @@ Run add_verify(CLI::App& app) {
       "Either is inf (null in JSON) where lights are walked and none of them reaches its pixel.\n"
       "difference: from brute force's picture.\n"
       "Exit code 1: a method failed. 4: none failed, but one could not be checked on this device.");
-  return [o] { return o->points != 0 ? verify_points(o->request, {o->methods, o->points, o->json}) : verify(*o); };
+  return [o] {
+    if (o->at_points.points == 0) return verify(*o);
+    PointsRequest of = o->at_points;
+    of.methods = o->methods;
+    of.json = o->json;
+    return verify_points(o->request, of);
+  };
 }
 
 }  // namespace lamp::app

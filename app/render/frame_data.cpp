@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gpu/check.h"
+#include "gpu/transfer.h"
 #include "lamplight/light.h"
 #include "lamplight/shared/light_mesh.h"
 #include "lamplight/shared/radial.h"
@@ -82,6 +83,17 @@ void FrameData::set_view(const View& view, std::uint32_t index) {
   changed_ = true;
 }
 
+float FrameData::farthest_eye_m() const {
+  float farthest = 0.0F;
+  for (const shared::Frame& frame : host_frames_)
+    farthest = std::max(farthest, glm::length(glm::vec3(Vec3(frame.eye_world))));
+  return farthest;
+}
+
+void FrameData::set_still(Context& context, std::span<const std::uint32_t> words) {
+  still_ = upload_buffer(context, "still lights", std::as_bytes(words), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
 void FrameData::record_upload(vulkan::Recorder& recorder) {
   if (!std::exchange(changed_, false)) return;
   recorder.barrier({copies_to(frame()), copies_to(lights()), copies_to(spheres()), copies_to(decals())});
@@ -103,6 +115,7 @@ vulkan::PlanInputs FrameData::plan_inputs(std::span<const vulkan::Resource> dept
           .spheres = spheres_.handle(),
           .radial = nothing_known_.handle(),
           .meshes = nothing_known_.handle(),
+          .still = still_.handle(),
           .depth = depths.front(),
           .depths = depths,
           .host_lights = std::span(host_lights_).first(frame_of(0).light_count),

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/context.h"
 #include "lamplight/entity.h"
 #include "lamplight/view.h"
 #include "lamplight/vulkan.h"
@@ -23,6 +24,14 @@ class FrameData {
            std::span<const gpu::DecalData> decals = {}, std::uint32_t still = 0);
   /// The same lights and decals, seen otherwise: by one view, in a place among a frame's.
   void set_view(const View& view, std::uint32_t index = 0);
+  /// The entities of the picture: its lights, then the decals' records.
+  [[nodiscard]] std::span<const shared::Light> host_lights() const {
+    return std::span(host_lights_).first(frame_of(0).light_count);
+  }
+  /// m, of the views' eyes from the origin.
+  [[nodiscard]] float farthest_eye_m() const;
+  /// What was made ahead, for plans that read it (INPUT_STILL): at once, of no frame.
+  void set_still(Context& context, std::span<const std::uint32_t> words);
   /// Nothing if it was recorded before, and nothing has been set since.
   void record_upload(vulkan::Recorder& recorder);
 
@@ -51,6 +60,7 @@ class FrameData {
   vulkan::Buffer spheres_;  ///< of all these
   vulkan::Buffer decals_;
   vulkan::Buffer nothing_known_;  ///< radial bounds and meshes where no light casts a shadow
+  vulkan::Buffer still_;          ///< none where nothing was made ahead
   vulkan::Buffer
       staging_;  ///< a shared::Frame of each view, then the lights with the decals' records, their spheres, the decals
   bool changed_ = true;  ///< since the last upload

@@ -35,6 +35,7 @@ void PointFindings::add(const PointFindings& more, std::size_t first) {
   missed += more.missed;
   evaluations += more.evaluations;
   useful += more.useful;
+  reaching += more.reaching;
   boundary_pairs += more.boundary_pairs;
   list_max = std::max(list_max, more.list_max);
   unordered += more.unordered;

@@ -15,6 +15,7 @@ struct PointFindings {
   std::uint64_t missed = 0;          ///< pairs of point and light that the truth has and the walk has not
   std::uint64_t evaluations = 0;     ///< lights walked
   std::uint64_t useful = 0;          ///< lights of the truth
+  std::uint64_t reaching = 0;        ///< lights that reach their point, seen or not; as useful where nothing hides them
   std::uint64_t boundary_pairs = 0;  ///< pairs in the boundary band, which are not checked
   std::uint64_t list_max = 0;
   std::uint64_t unordered = 0;   ///< points whose lights did not ascend

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include "gpu/check.h"
@@ -14,7 +15,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr const char* POINT_SHADER = "world_walk";
+constexpr const char* POINT_SHADER = "walk_";       // and the look-up
 constexpr std::uint32_t WALK_GROUP = 64;            // threads of it
 constexpr std::uint32_t POINTS_AT_ONCE = 1U << 14;  // points
 constexpr std::uint32_t POINT_BINDING = 0;          // its bindings
@@ -25,17 +26,19 @@ constexpr std::uint32_t LIST_BINDING = 3;
 }  // namespace
 
 PointWalks::PointWalks(Context& context, const ShaderLibrary& shaders, Plan plan, const View& view,
-                       std::span<const shared::Light> lights)
+                       std::span<const shared::Light> lights, std::span<const std::uint32_t> still)
     : context_(context), data_(context.device(), static_cast<std::uint32_t>(lights.size())) {
   data_.set({&view, 1}, lights);
+  if (!still.empty()) data_.set_still(context, still);
   runner_ = take(vulkan::PlanRunner::create(context.device(), std::move(plan), shaders.source()));
   const vulkan::BoundLookUp lookup = runner_.lookup(inputs());
-  vulkan::PipelineInfo info{.name = POINT_SHADER,
+  const std::string shader = POINT_SHADER + std::string(lookup.name);
+  vulkan::PipelineInfo info{.name = shader,
                             .constants = lookup.constants,
                             .bindings = {{POINT_BINDING}, {WORD_BINDING}, {ENDED_BINDING}, {LIST_BINDING}},
                             .push_constant_bytes = 12};
   for (const vulkan::Bound& bound : lookup.resources) info.bindings.push_back({bound.binding, bound.resource.type});
-  pipeline_ = take(vulkan::Pipeline::compute(context.device(), info, shaders.spirv(POINT_SHADER)));
+  pipeline_ = take(vulkan::Pipeline::compute(context.device(), info, shaders.spirv(shader)));
   words_ = readback_buffer(context.device(), "counts of points", POINTS_AT_ONCE * sizeof(std::uint32_t));
   ended_ = readback_buffer(context.device(), "ended points", POINTS_AT_ONCE * sizeof(std::uint32_t));
 }
@@ -65,7 +68,7 @@ void PointWalks::cull() {
     recorder.barrier({host_reads(vulkan::Resource::storage(counts.handle()))});
   });
   runner_.finish(runner_.records());
-  counts_ = vulkan::read_counts(plan(), counts.mapped());
+  counts_ = plan().counters == NO_RESOURCE ? vulkan::FrameCounts{} : vulkan::read_counts(plan(), counts.mapped());
   tracker_.forget(counts.handle());
 }
 
@@ -117,7 +120,7 @@ void PointWalks::dispatch(const vulkan::Buffer& points, const vulkan::Buffer& li
   const std::array<std::uint32_t, 3> push{count, writes ? 1U : 0U, /*two*/ 2U};
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    recorder.begin_pass(POINT_SHADER, uses);
+    recorder.begin_pass("walk points", uses);
     recorder.bind(pipeline_, bound);
     vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), push.data());
     vkCmdDispatch(commands, (count + WALK_GROUP - 1) / WALK_GROUP, 1, 1);

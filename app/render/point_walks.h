@@ -27,9 +27,9 @@ struct PointLights {
 /// A frame's lights, culled by a plan with a look-up by position.
 class PointWalks {
  public:
-  /// Throws Error when the plan does not fit the device.
+  /// `still`: what the host made ahead, of plans that read it. Throws Error when the plan does not fit the device.
   PointWalks(Context& context, const ShaderLibrary& shaders, Plan plan, const View& view,
-             std::span<const shared::Light> lights);
+             std::span<const shared::Light> lights, std::span<const std::uint32_t> still = {});
 
   [[nodiscard]] PointLights walk(std::span<const glm::vec3> points);
   /// Of the last `walk`, with what the plan counted.

@@ -170,6 +170,9 @@ LightingFrame Renderer::lighting_frame() const {
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
+  if (lighting != nullptr)
+    still_tree_.bring(context_, all_pictures_ ? all_pictures_->data : data_, lighting->runner().plan(),
+                      lighting->info().options);
   context_.submit(record);
   if (lighting != nullptr) lighting->finish();
 }

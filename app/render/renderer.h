@@ -15,6 +15,7 @@
 #include "render/lighting.h"
 #include "render/sample_depth.h"
 #include "render/still_lists.h"
+#include "render/still_tree.h"
 #include "render/visit.h"
 
 namespace lamp::app {
@@ -213,6 +214,7 @@ class Renderer {
   bool surfaces_drawn_ = false;                  ///< the G-buffer has those of shown_view_, without decals
   std::optional<CapturedSurfaces> kept_;         ///< of shown_view_
   NoShadows no_shadows_;
+  StillTree still_tree_;
   std::optional<Shadows> shadows_;
   StillLists no_still_;
   const StillLists* still_ = nullptr;

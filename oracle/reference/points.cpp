@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "oracle/points.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -100,6 +101,24 @@ PointTruth truth_at(std::span<const glm::vec3> points, std::span<const shared::L
     truth.boundary_pairs += answer.boundary;
   }
   return truth;
+}
+
+PointTruth seen_at(const PointTruth& truth, std::span<const glm::vec3> points, std::span<const shared::Light> lights,
+                   const Occluders& occluders) {
+  std::vector<std::uint8_t> sees(truth.lights.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t point) {
+    for (std::size_t i = truth.offsets[point]; i < truth.offsets[point + 1]; ++i) {
+      const glm::dvec3 from(glm::vec3(lights[truth.lights[i]].position));
+      sees[i] = occluders.any_hit({.from = from, .to = glm::dvec3(points[point]), .last = STOPS_BEFORE}) ? 0 : 1;
+    }
+  });
+  PointTruth seen{.boundary_pairs = truth.boundary_pairs};
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    for (std::size_t i = truth.offsets[point]; i < truth.offsets[point + 1]; ++i)
+      if (sees[i] != 0) seen.lights.push_back(truth.lights[i]);
+    seen.offsets.push_back(seen.lights.size());
+  }
+  return seen;
 }
 
 }  // namespace lamp

@@ -19,6 +19,9 @@ class OverDepth {
   /// Of an image that is larger than the picture.
   OverDepth(const View& view, GpuImage depth, const std::vector<shared::Light>& lights);
 
+  /// What was made ahead, for plans that read it.
+  void set_still(std::span<const std::uint32_t> words) { data_.set_still(test_context(), words); }
+
   /// Records the plan, then `shader`, compiled against the plan's look-up: 0 is the frame, 1 a word for each pixel,
   /// which it writes and this returns.
   [[nodiscard]] std::vector<std::uint32_t> per_pixel(const std::string& shader, vulkan::PlanRunner& runner,

@@ -114,7 +114,7 @@ TEST_P(Limits, OneBeyondIsRefused) {
   DeviceTraits tight = test::LARGE_DEVICE;
   tight.memory_bytes = 1;
   const Result<Plan> memory = make_plan(method, problem_of(method, 64, 64, 64, tight));
-  EXPECT_EQ(memory.ok(), method.name == "all");
+  EXPECT_EQ(memory.ok(), method.name == "all" || method.still);  // they have no buffer of their own
   if (!memory) {
     EXPECT_NE(memory.error().text().find("memory: all buffers together need"), std::string::npos);
   }

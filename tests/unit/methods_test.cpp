@@ -207,6 +207,14 @@ TEST_P(EveryMethod, ReadsLightMeshesExactlyIfAsked) {
   EXPECT_TRUE(plan.binds(lamp::INPUT_MESHES));
 }
 
+// What is made ahead is read by the look-up, and by nothing in a frame.
+TEST_P(EveryMethod, ReadsWhatIsMadeAheadExactlyIfItsRowSaysSo) {
+  const Method& method = *GetParam();
+  const Plan plan = lamp::make_plan(method, ordinary_problem(defaults_of(method))).value();
+  EXPECT_EQ(plan.binds(lamp::INPUT_STILL), method.still);
+  EXPECT_TRUE(!method.still || plan.passes.empty());
+}
+
 // No look-up reads a light: an engine's shader needs nothing of them but its own.
 TEST_P(EveryMethod, LooksLightsUpWithoutReadingThem) {
   const Method& method = *GetParam();

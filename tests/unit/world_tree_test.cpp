@@ -288,6 +288,11 @@ TEST(WorldTree, NamesWhatIsWrong) {
   lights[3].range = 1.0F;
   EXPECT_EQ(WorldTree::build({.lights = lights, .detail = 0}).error().source, "detail");
   EXPECT_EQ(WorldTree::build({.lights = lights, .texels = 1025}).error().source, "texels");
+  EXPECT_EQ(WorldTree::build({.lights = lights, .eyes_m = std::nanf("")}).error().source, "eyes_m");
+  lights[2].type = lamp::shared::LIGHT_SPOT;
+  lights[2].direction = {0, 0, 2};
+  EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
+  lights[2].type = lamp::shared::LIGHT_POINT;
   WorldTree tree = built({.lights = lights});
   lights[1].range = std::nanf("");
   EXPECT_EQ(tree.change(1, lights[1]).error().source, "light 1");

@@ -76,6 +76,7 @@ struct Method {
   bool needs_depth = true;   ///< reads the depth buffer
   bool any_depth = false;    ///< right for any depth of a pixel, not only the depth buffer's (likewise)
   bool any_point = false;    ///< has a look-up by position, right at any point of the world (world_walk_begin)
+  bool still = false;        ///< of lights that stand still: its look-up reads what the host made ahead (INPUT_STILL)
   std::vector<OptionSpec> options;
   Plan (*plan)(const Problem&) = nullptr;
   std::optional<Error> (*check)(const Problem&) = nullptr;  ///< why options or sizes do not go together; may be null

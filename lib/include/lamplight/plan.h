@@ -34,7 +34,10 @@ inline constexpr ResourceId INPUT_CONES = 4;    ///< storage buffer, likewise, w
 inline constexpr ResourceId INPUT_RADIAL = 5;
 /// Storage buffer, shared::LightMesh of the first lights: where option proxy=cut reads it.
 inline constexpr ResourceId INPUT_MESHES = 6;
-inline constexpr ResourceId PLAN_BUFFER = 7;  ///< the first buffer of the plan
+/// Storage buffer of 32-bit words that the host made ahead, of lights that stand still (WorldTree::words): nothing of a
+/// frame. Where the host brings none, every point walks every light.
+inline constexpr ResourceId INPUT_STILL = 7;
+inline constexpr ResourceId PLAN_BUFFER = 8;  ///< the first buffer of the plan
 inline constexpr ResourceId NO_RESOURCE = ~0U;
 
 enum class Access : std::uint8_t { read, write, read_write };

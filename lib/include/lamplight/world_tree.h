@@ -18,6 +18,8 @@
 
 namespace lamp {
 
+class Options;
+
 struct WorldTreeInfo {
   std::span<const shared::Light> lights;            ///< light i has id i; at most MAX_LIGHTS (method.h)
   std::shared_ptr<const StillOccluders> occluders;  ///< kept with the tree; null: nothing hides anything
@@ -26,7 +28,12 @@ struct WorldTreeInfo {
       16;  ///< cells in a light's range, at most, 1 .. 64; fewer where the budget would not hold them
   std::uint32_t texels = 32;  ///< a side of a face of OcclusionMap, 1 .. 1024
   std::uint32_t threads = 0;  ///< that build; 0: as many as the machine has
+  float eyes_m =
+      0.0F;  ///< pixels ask by positions that rounding moves with their eye's distance from the origin: at most this
 };
+
+/// What the options of the method `world-tree` say; without occlusion=ahead, no occluders.
+LAMPLIGHT_API void set_options(WorldTreeInfo& info, const Options& options);
 
 struct WorldTreeCounts {
   std::uint64_t leaves = 0;   ///< with lights

@@ -14,13 +14,7 @@ LOOKUP_VIEW_WORDS(2, LOOKUP_ENTRIES_VIEW);
 LOOKUP_VIEW_WORDS(3, LOOKUP_BITS_VIEW);
 LOOKUP_VIEW_WORDS(4, LOOKUP_TOTALS_VIEW);
 
-// The view that a pixel's position is of, where a shader draws samples through views of their own.
-#ifndef LOOKUP_POSITION_FRAME
-#define LOOKUP_POSITION_FRAME(view) lookup_frames[view]
-#endif
-vec3 lookup_position(uint view, uvec2 pixel, float z_view) {
-  return world_position(LOOKUP_POSITION_FRAME(view), vec2(pixel) + 0.5, z_view);
-}
+#include "lookup/parts/pixel_position.glsl"
 
 void lookup_prepare() {}
 
@@ -39,6 +33,9 @@ struct Walk {
 };
 
 #include "lookup/parts/world_place.glsl"
+
+#define LOOKUP_CELL_WORD(word) lookup_bits[word]
+#include "lookup/parts/cell_field.glsl"
 
 uint lookup_levels(uint view) { return lookup_totals[view * LOOKUP_TOTALS_VIEW + WORLD_TOTALS_LEVELS]; }
 

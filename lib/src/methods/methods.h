@@ -16,5 +16,6 @@ namespace lamp {
 [[nodiscard]] Method drobot_raster_cluster_method();
 [[nodiscard]] Method lamplight_method();
 [[nodiscard]] Method world_cells_method();
+[[nodiscard]] Method world_tree_method();
 
 }  // namespace lamp

@@ -71,6 +71,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   culler.frame_ = std::move(frame.value());
   culler.counts_ = std::move(counts.value());
   culler.readers_ = info.readers;
+  culler.still_ = info.still;
   culler.slots_.assign(info.frames_in_flight, FREE);
   culler.reserve();
   return culler;
@@ -124,6 +125,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
                     .spheres = frame.spheres,
                     .radial = frame.radial,
                     .meshes = frame.meshes,
+                    .still = still_,
                     .depth = depths.front(),
                     .host_lights = frame.host_lights,
                     .host_frame = views.value().records.data()};
@@ -134,7 +136,8 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   tracker_.reset();
   for (const Resource& depth : depths)
     if (depth.image != VK_NULL_HANDLE) tracker_.assume(depth);
-  for (const BufferPart& part : {inputs.lights, inputs.cones, inputs.spheres, inputs.radial, inputs.meshes})
+  for (const BufferPart& part :
+       {inputs.lights, inputs.cones, inputs.spheres, inputs.radial, inputs.meshes, inputs.still})
     if (part.buffer != VK_NULL_HANDLE) tracker_.assume(Resource::storage(part));
   Recorder recorder(device_, commands, tracker_);
   // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
@@ -182,7 +185,7 @@ void Culler::record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gp
   recorder.barrier({{.resource = to, .stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
-BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle()}); }
+BoundLookUp Culler::lookup() const { return runner_.lookup({.frame = frame_.handle(), .still = still_}); }
 
 std::optional<std::uint32_t> Culler::slot_of(std::uint64_t frame) const {
   const auto found = std::ranges::find(slots_, frame);

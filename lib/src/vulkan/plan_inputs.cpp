@@ -6,6 +6,7 @@
 
 #include "lamplight/shared/light_mesh.h"
 #include "lamplight/shared/radial.h"
+#include "lamplight/shared/world_tree.h"
 #include "lamplight/vulkan/plan_runner.h"
 
 namespace lamp::vulkan {
@@ -93,6 +94,10 @@ std::optional<Error> PlanRunner::check_lights(const PlanInputs& inputs) const {
       return error;
   if (plan_.binds(INPUT_MESHES))
     if (auto error = check_part("light meshes", inputs.meshes, sizeof(shared::LightMesh), offset_alignment_))
+      return error;
+  if (plan_.binds(INPUT_STILL) && inputs.still.buffer != VK_NULL_HANDLE)
+    if (auto error =
+            check_part("still lights", inputs.still, shared::TREE_HEADER * sizeof(std::uint32_t), offset_alignment_))
       return error;
   if (plan_.binds(INPUT_SPHERES))
     return check_part("spheres", inputs.spheres, count * sizeof(shared::LightSphere), offset_alignment_);

@@ -78,6 +78,9 @@ Resource PlanRunner::all_views(ResourceId id, const PlanInputs& inputs) const {
       return Resource::storage(inputs.radial);
     case INPUT_MESHES:
       return Resource::storage(inputs.meshes);
+    case INPUT_STILL:
+      return Resource::storage(inputs.still.buffer != VK_NULL_HANDLE ? inputs.still
+                                                                     : BufferPart(every_light_.handle()));
     default:
       return id == INPUT_DEPTH ? resource(id, inputs, 0) : Resource::storage(buffer(id));
   }

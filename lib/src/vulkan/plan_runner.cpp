@@ -6,7 +6,9 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <span>
 
+#include "lamplight/shared/world_tree.h"
 #include "pass_use.h"
 
 namespace lamp::vulkan {
@@ -37,6 +39,19 @@ Result<OwnedSampler> depth_sampler(const Device& device) {
   if (const VkResult r = device.vk.vkCreateSampler(device.handle, &create, nullptr, &sampler); r != VK_SUCCESS)
     return Error{"sampler of the depth image", result_text(r)};
   return OwnedSampler(device.handle, sampler, device.vk.vkDestroySampler);
+}
+
+/// Whose look-up walks every light.
+Result<Buffer> tree_of_every_light(const Device& device) {
+  Result<Buffer> buffer = Buffer::create(device, {.name = "every light",
+                                                  .bytes = shared::TREE_HEADER * sizeof(std::uint32_t),
+                                                  .usage = device.addressable(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+                                                  .memory = MemoryUse::upload});
+  if (!buffer) return buffer;
+  std::array<std::uint32_t, shared::TREE_HEADER> words{};
+  words[shared::TREE_ROOT] = words[shared::TREE_OUTSIDE] = shared::TREE_ALL << shared::TREE_KIND_BIT;
+  std::ranges::copy(std::as_bytes(std::span(words)), buffer.value().mapped().begin());
+  return buffer;
 }
 
 }  // namespace
@@ -85,6 +100,11 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
     Result<OwnedSampler> sampler = depth_sampler(device);
     if (!sampler) return sampler.error();
     runner.depth_sampler_ = std::move(sampler.value());
+  }
+  if (runner.plan_.binds(INPUT_STILL)) {
+    Result<Buffer> every_light = tree_of_every_light(device);
+    if (!every_light) return every_light.error();
+    runner.every_light_ = std::move(every_light.value());
   }
   auto separate = runner.build(device, runner.plan_.passes, shaders);
   if (!separate) return separate.error();

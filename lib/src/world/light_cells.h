@@ -19,6 +19,7 @@ struct TreeGrid {
   glm::dvec3 low{0.0};  ///< in finest cells, exact as floats
   double cell_m = 1.0;  ///< of the finest; a power of two
   std::uint32_t levels = 0;
+  double eyes_m = 0.0;  ///< as in WorldTreeInfo
 
   [[nodiscard]] double brick_m(std::uint32_t level) const;
   [[nodiscard]] glm::dvec3 corner(std::uint32_t level, const glm::uvec3& brick) const;

@@ -15,7 +15,8 @@ constexpr double MOST_CELLS_ACROSS = 1U << 20;  // of the root, and from the ori
 constexpr std::uint32_t MOST_LEVELS = 18;       // 4 * 2^18 cells
 constexpr double FAR_REACHING = 4.0;            // times how far lights lie apart, and a usual range
 constexpr double SHIFT = 0.381966;              // of a cell: walls at whole numbers are no faces of cells
-constexpr double BUDGETS = 4.0;                 // times the budget is what is made and then pruned
+constexpr double BUDGETS = 4.0;                 // times the budget is what is made and then pruned,
+constexpr double FEWEST_BYTES = 256U << 20;     // or this, where it is more
 constexpr double ENTRY_BYTES = 12.0;
 constexpr double LEAST_DETAIL = 1.0 / 64.0;
 
@@ -71,7 +72,7 @@ TreeGrid grid_of(const WorldTreeInfo& info) {
   }
   if (!(least < std::numeric_limits<double>::infinity())) return {};
   const double farthest = std::max({glm::length(bounds.min), glm::length(bounds.max), bounds.longest()});
-  TreeGrid grid;
+  TreeGrid grid{.eyes_m = info.eyes_m};
   grid.cell_m =
       std::max(power_of_two_below(least / info.detail), 2.0 * power_of_two_below(farthest / MOST_CELLS_ACROSS));
   grid.cell_m = std::clamp(grid.cell_m, 0x1p-60, 0x1p60);
@@ -83,6 +84,7 @@ TreeGrid grid_of(const WorldTreeInfo& info) {
 }
 
 BrickLevels::BrickLevels(const WorldTreeInfo& info, const TreeGrid& grid) : grid_(grid), detail_(info.detail) {
+  const double most = std::max(BUDGETS * static_cast<double>(info.budget), FEWEST_BYTES);
   const auto bytes = [&] {
     double sum = 0.0;
     for (const shared::Light& light : info.lights)
@@ -92,7 +94,7 @@ BrickLevels::BrickLevels(const WorldTreeInfo& info, const TreeGrid& grid) : grid
       }
     return sum;
   };
-  while (detail_ > LEAST_DETAIL && bytes() > BUDGETS * static_cast<double>(info.budget)) detail_ *= 0.7071;
+  while (detail_ > LEAST_DETAIL && bytes() > most) detail_ *= 0.7071;
 }
 
 std::uint32_t BrickLevels::of(const shared::Light& light) const {

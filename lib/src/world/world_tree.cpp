@@ -37,6 +37,8 @@ std::string in_range(std::uint64_t least, std::uint64_t most, std::uint64_t got)
 
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+bool is_unit(const Vec3& v) { return std::abs(v.x * v.x + v.y * v.y + v.z * v.z - 1.0F) < 1e-3F; }
+
 std::optional<Error> check(std::uint32_t id, const shared::Light& light) {
   const std::string source = "light " + std::to_string(id);
   if (!is_finite(Vec3(light.position))) return Error{source, "position must be finite"};
@@ -44,8 +46,8 @@ std::optional<Error> check(std::uint32_t id, const shared::Light& light) {
   if (light.type != shared::LIGHT_POINT && light.type != shared::LIGHT_SPOT)
     return Error{source, "type must be LIGHT_POINT or LIGHT_SPOT, got " + std::to_string(light.type)};
   if (light.type == shared::LIGHT_SPOT &&
-      !(is_finite(Vec3(light.direction)) && light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F))
-    return Error{source, "a spot needs a direction and an outer angle from 0 to pi / 2"};
+      !(is_unit(Vec3(light.direction)) && light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F))
+    return Error{source, "a spot needs a direction of unit length and an outer angle from 0 to pi / 2"};
   return std::nullopt;
 }
 
@@ -53,6 +55,8 @@ std::optional<Error> check(const WorldTreeInfo& info) {
   if (info.lights.size() > MAX_LIGHTS) return Error{"lights", in_range(0, MAX_LIGHTS, info.lights.size())};
   if (info.detail < 1 || info.detail > 64) return Error{"detail", in_range(1, 64, info.detail)};
   if (info.texels < 1 || info.texels > 1024) return Error{"texels", in_range(1, 1024, info.texels)};
+  if (!(info.eyes_m >= 0.0F) || !std::isfinite(info.eyes_m))
+    return Error{"eyes_m", "expected a distance >= 0, got " + std::to_string(info.eyes_m)};
   for (std::size_t i = 0; i < info.lights.size(); ++i)
     if (auto error = check(static_cast<std::uint32_t>(i), info.lights[i])) return error;
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "oracle/occluders.h"
 #include "oracle/reference.h"
 
 namespace lamp {
@@ -24,5 +25,13 @@ struct PointTruth {
 
 /// Light by light and point by point, but for lights that surely miss a whole group of neighbouring points.
 [[nodiscard]] PointTruth truth_at(std::span<const glm::vec3> points, std::span<const shared::Light> lights);
+
+/// Of a share of the way from a light to a point, what stops the light: what is nearer than that to the point is the
+/// point's own surface, which 32-bit positions may lie on either side of.
+inline constexpr double STOPS_BEFORE = 1.0 - 5e-5;
+
+/// Of a truth at points, the lights that see their point.
+[[nodiscard]] PointTruth seen_at(const PointTruth& truth, std::span<const glm::vec3> points,
+                                 std::span<const shared::Light> lights, const Occluders& occluders);
 
 }  // namespace lamp

@@ -11,7 +11,7 @@ namespace lamp::shared {
 #endif
 
 // The header's words. Cells are the finest there can be; the root is a cube of 4 * 2^levels of them.
-LAMP_CONST TREE_LOW_X = 0u;    // float, cells: the root's low corner
+LAMP_CONST TREE_LOW_X = 0u;  // float, cells: the root's low corner
 LAMP_CONST TREE_LOW_Y = 1u;
 LAMP_CONST TREE_LOW_Z = 2u;
 LAMP_CONST TREE_SCALE = 3u;    // float, cells a metre: a power of two
@@ -22,8 +22,8 @@ LAMP_CONST TREE_HEADER = 8u;   // words
 
 // A node is a word: a kind, and the place of words. An inner node's words are its 8 children, child x + 2 y + 4 z. A
 // leaf's are a count and as many lights, ascending; a leaf has 4 x 4 x 4 cells. A plain one's lights are those of all
-// cells. In another the cells' bits follow, in blocks of 32 lights: in a block of n each cell has n bits, one cell behind
-// the other, cell x + 4 y + 16 z.
+// cells. In another the cells' bits follow, in blocks of 32 lights: in a block of n each cell has n bits, one cell
+// behind the other, cell x + 4 y + 16 z.
 LAMP_CONST TREE_KIND_BIT = 30u;
 LAMP_CONST TREE_INNER = 0u;
 LAMP_CONST TREE_PLAIN = 1u;

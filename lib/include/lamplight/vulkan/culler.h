@@ -27,6 +27,9 @@ struct CullerInfo {
   /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
   VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   std::uint32_t frames_in_flight = MAX_FRAMES_IN_FLIGHT;  ///< that may be recorded and not done yet, 1 .. that
+  /// Only for world-tree: a storage buffer with WorldTree::words, which the caller keeps, and brings up to date after
+  /// changes. None: every point walks every light.
+  BufferPart still;
 };
 
 /// One of several views of a frame. The look-up takes its place among them.
@@ -145,6 +148,7 @@ class LAMPLIGHT_API Culler {
   std::uint32_t last_slot_ = 0;
   PlanRunner runner_;
   VkPipelineStageFlags2 readers_ = 0;
+  BufferPart still_;
   AccessTracker tracker_;  ///< of one record alone; here so that the next one allocates nothing
   std::vector<Retired> retired_;
   std::uint64_t frames_ = 0;       ///< that were recorded

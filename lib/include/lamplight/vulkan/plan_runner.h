@@ -26,6 +26,7 @@ struct PlanInputs {
   BufferPart spheres;                ///< shared::LightSphere, as many
   BufferPart radial;                 ///< shared::RadialBound of the first lights, at least one; nothing cuts others
   BufferPart meshes;                 ///< shared::LightMesh, likewise
+  BufferPart still;                  ///< WorldTree::words; none: every point walks every light
   Resource depth;                    ///< image, view, aspect and layout; unset where none is needed
   std::span<const Resource> depths;  ///< of several views: one each, instead
   std::span<const shared::Light> host_lights;  ///< for host passes: the same lights
@@ -144,6 +145,7 @@ class LAMPLIGHT_API PlanRunner {
   std::vector<Buffer> buffers_;  ///< with a part for each view
   std::vector<Buffer> slots_;    ///< of each buffer of upload memory, one behind the other, mapped; else none
   OwnedSampler depth_sampler_;
+  Buffer every_light_;  ///< a tree of every light, where the plan reads one and the host brings none
   DescriptorSets sets_;
   std::uint32_t offset_alignment_ = 1;  ///< bytes, of storage buffers
   Sequence separate_;

@@ -15,4 +15,5 @@
 #define lookup_headers LookupHeaders(LOOKUP_ADDRESSES[lookup_headers_PLACE]).at_address
 #define lookup_buckets LookupBuckets(LOOKUP_ADDRESSES[lookup_buckets_PLACE]).at_address
 #define lookup_entries LookupEntries(LOOKUP_ADDRESSES[lookup_entries_PLACE]).at_address
+#define lookup_tree LookupTree(LOOKUP_ADDRESSES[lookup_tree_PLACE]).at_address
 #define lookup_totals LookupTotals(LOOKUP_ADDRESSES[lookup_totals_PLACE]).at_address

@@ -1,5 +1,5 @@
-// Where a position's lights are listed: the bucket of its brick at a level, the cell in it, the bits of that cell.
-// Needs: LOOKUP_BUCKETS, `lookup_bits`; common/world_cells.glsl.
+// Where a position's lights are listed: the bucket of its brick at a level, and the cell in it.
+// Needs: LOOKUP_BUCKETS; common/world_cells.glsl.
 // SPDX-License-Identifier: Apache-2.0
 // A position's place at a level.
 struct WorldPlace {
@@ -24,15 +24,4 @@ WorldPlace lookup_place(vec3 position, uint level) {
   place.bucket = 0u;
   if (place.lies) place.bucket = bucket_of(level, brick, LOOKUP_BUCKETS);
   return place;
-}
-
-// The bits of a cell in a block of `width` entries whose words begin at `first`.
-uint lookup_field(uint first, uint cell, uint width) {
-  const uint at = cell * width;
-  const uint word = first + at / 32u;
-  const uint shift = at % 32u;
-  uint field = lookup_bits[word] >> shift;
-  if (shift + width > 32u) field |= lookup_bits[word + 1u] << (32u - shift);
-  if (width < 32u) field &= (1u << width) - 1u;
-  return field;
 }

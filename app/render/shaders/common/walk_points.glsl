@@ -1,10 +1,6 @@
-// Walks the look-up by position at many points: how many lights each names, and then which.
+// Walks a look-up by position at many points: how many lights each names, and then which.
 // Promise: its loops are the walk's alone, so that a device which ends loops ends them where it ends the walk.
-// SPDX-License-Identifier: Apache-2.0
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
-#include "lookup/world_cells.glsl"
+// Needs: a look-up by position. SPDX-License-Identifier: Apache-2.0
 #include "common/loops_ended.glsl"
 
 layout(local_size_x = 64) in;
