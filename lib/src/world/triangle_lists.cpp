@@ -23,6 +23,7 @@ using world::StillLight;
 constexpr std::size_t FEW_TRIANGLES = 16;  // that are not halved
 constexpr double FURTHEST_M = 1e15;        // of anything from the origin, as scenes have it
 constexpr float LARGEST_PATCH = 1024.0F;   // over a light's range: then nothing is cut
+constexpr float COARSER = 1.41421356F;     // half as many patches
 constexpr std::uint32_t MOST_MERGED = 1U << 30;
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -182,7 +183,7 @@ class Build {
 
 /// What takes less memory; nothing if nothing does.
 std::optional<Fineness> coarser(const Fineness& fineness) {
-  if (fineness.patch < LARGEST_PATCH) return Fineness{.patch = 2.0F * fineness.patch};
+  if (fineness.patch < LARGEST_PATCH) return Fineness{.patch = COARSER * fineness.patch};
   if (fineness.merged < MOST_MERGED) return Fineness{.patch = fineness.patch, .merged = 4 * fineness.merged};
   return std::nullopt;
 }
