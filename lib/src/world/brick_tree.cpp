@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace lamp::world {
 namespace {
@@ -60,12 +61,12 @@ class Making {
   /// `place`: of its low corner. `from_above`: lights of coarser bricks. `own`: bricks in it.
   void node(std::uint32_t number, std::uint32_t level, std::uint64_t place, const Entries& from_above,
             std::span<const LitBrick> own) {
-    Entries entries = from_above;
     const auto deeper = std::ranges::find_if(own, [&](const LitBrick& b) { return b.level != level; });
+    Entries at_level;
     for (auto brick = own.begin(); brick != deeper; ++brick)
-      entries.push_back({.light = brick->light, .cells = brick->cells});
-    std::ranges::inplace_merge(entries, entries.begin() + static_cast<std::ptrdiff_t>(from_above.size()), {},
-                               &Entry::light);
+      at_level.push_back({.light = brick->light, .cells = brick->cells});
+    Entries entries;
+    std::ranges::merge(from_above, at_level, std::back_inserter(entries), {}, &Entry::light, &Entry::light);
     const std::span<const LitBrick> rest(deeper, own.end());
     std::uint32_t children = 0;
     if (!rest.empty()) {
@@ -97,7 +98,7 @@ class Making {
     for (std::uint32_t child = 0; child < 8; ++child)
       for (const Entry& entry : tree_.of(tree_.nodes[children + child]))
         all.push_back({.light = entry.light, .cells = cells_of_parent(entry.cells, child)});
-    std::ranges::stable_sort(all, {}, &Entry::light);
+    std::ranges::sort(all, {}, &Entry::light);
     Entries entries;
     for (const Entry& entry : all)
       if (!entries.empty() && entries.back().light == entry.light)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <thread>
@@ -66,6 +67,7 @@ std::optional<Error> check(const WorldTreeInfo& info) {
 std::vector<LitBrick> lit_bricks(const WorldTreeInfo& info, const TreeGrid& grid, const world::BrickLevels& levels) {
   const std::uint32_t threads = info.threads != 0 ? info.threads : std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::vector<LitBrick>> found(threads);
+  const auto place_of = [](const LitBrick& b) { return std::tuple(b.place, b.level, b.light); };
   std::atomic<std::size_t> next{0};
   const auto work = [&](std::uint32_t thread) {
     LightCells cells(info.texels);
@@ -74,7 +76,7 @@ std::vector<LitBrick> lit_bricks(const WorldTreeInfo& info, const TreeGrid& grid
         cells.look(info.lights[i], grid, info.occluders.get());
         cells.add_bricks(levels.of(info.lights[i]), static_cast<std::uint32_t>(i), found[thread]);
       }
-    std::ranges::sort(found[thread], {}, [](const LitBrick& b) { return std::tuple(b.place, b.level, b.light); });
+    std::ranges::sort(found[thread], {}, place_of);
   };
   {
     std::vector<std::jthread> others;
@@ -83,11 +85,11 @@ std::vector<LitBrick> lit_bricks(const WorldTreeInfo& info, const TreeGrid& grid
   }
   std::vector<LitBrick> all = std::move(found[0]);
   for (std::uint32_t thread = 1; thread < threads; ++thread) {
-    const auto middle = static_cast<std::ptrdiff_t>(all.size());
-    all.insert(all.end(), found[thread].begin(), found[thread].end());
+    std::vector<LitBrick> both;
+    both.reserve(all.size() + found[thread].size());
+    std::ranges::merge(all, found[thread], std::back_inserter(both), {}, place_of, place_of);
+    all = std::move(both);
     found[thread] = {};
-    std::ranges::inplace_merge(all, all.begin() + middle, {},
-                               [](const LitBrick& b) { return std::tuple(b.place, b.level, b.light); });
   }
   return all;
 }
