@@ -81,6 +81,8 @@ Group base_of(const Series& series, const Limits& limits) {
             .depth = series.depth,
             .depth_samples = series.depth_samples,
             .stereo_m = series.stereo_m,
+            .shadows = series.shadows,
+            .atlas = series.atlas,
             .still = series.still,
             .seed = series.seed,
             .frame = series.frame,
@@ -94,6 +96,8 @@ Group base_of(const Series& series, const Limits& limits) {
           .depth = series.depth,
           .depth_samples = series.depth_samples,
           .stereo_m = series.stereo_m,
+          .shadows = series.shadows,
+          .atlas = series.atlas,
           .still = series.still,
           .seed = series.seed,
           .frame = series.frame,
@@ -116,7 +120,8 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
   const std::uint64_t pairs = std::uint64_t{width} * rows * series.depth_samples * group.lights;
   const std::uint64_t all_pairs = std::uint64_t{width} * height * group.lights;
-  group.verify.verifier = series.depth_samples > 1 || series.stereo_m > 0.0  // which the oracle alone knows of
+  const bool oracle_only = series.depth_samples > 1 || series.stereo_m > 0.0 || series.shadows != "off";
+  group.verify.verifier = oracle_only  // which it alone knows of
                               ? Verifier::oracle
                               : chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
   const bool by_gpu = group.verify.verifier == Verifier::gpu;
@@ -178,6 +183,11 @@ std::string depth_words(const Group& group) {
          (group.still == 0.0 ? "" : fmt::format(" still={}", group.still));
 }
 
+/// Likewise.
+std::string shadow_words(const Group& group) {
+  return group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas);
+}
+
 std::string host_words(const GroupEntry& entry) {
   std::string words;
   if (entry.host != Host::plan) words += fmt::format(" host={}", host_names()[static_cast<std::size_t>(entry.host)]);
@@ -228,12 +238,13 @@ std::string key_of(const Group& group, const GroupEntry& entry) {
     lights = fmt::format("{}..{} in {} waves", group.flight->from, group.flight->to, group.flight->waves);
   std::vector<std::string> options = entry.options;
   return fmt::format(
-      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={}{} | {} {}{}{}{} | "
+      "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={}{}{} | {} {}{}{}{} | "
       "frames={}+{} verify={}{}",
       group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
       group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
-      depth_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ", entry.path,
-      host_words(entry), group.warm_up, group.frames, words_of(group.verify), group.pictures ? " pictures" : "");
+      depth_words(group), shadow_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ",
+      entry.path, host_words(entry), group.warm_up, group.frames, words_of(group.verify),
+      group.pictures ? " pictures" : "");
 }
 
 std::uint32_t lights_at(const LightWave& wave, std::uint32_t frame, std::uint32_t frames) {

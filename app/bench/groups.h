@@ -27,6 +27,8 @@ struct Group {
   std::string scene, size, range, camera, projection, brdf, depth;
   std::uint32_t depth_samples = 1;
   double stereo_m = 0.0;
+  std::string shadows = "off";
+  std::uint32_t atlas = 4096;
   std::uint32_t lights = 0;  ///< the most, in a flight
   double spots = 0.0;
   double still = 0.0;

@@ -175,6 +175,8 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("depth", series.depth);
   object.read("depth_samples", series.depth_samples, 1, 8);
   object.read("stereo", series.stereo_m, 0.0, 1000.0);
+  object.read("shadows", series.shadows);
+  object.read("atlas", series.atlas, 16, 32768);
   object.read("seed", series.seed);
   std::uint32_t frame = ~0U;
   object.read("frame", frame, 0, MAX_FRAMES);

@@ -9,6 +9,7 @@
 
 #include "gpu/check.h"
 #include "render/antialias.h"
+#include "render/shadow_truth.h"
 
 namespace lamp::app {
 namespace {
@@ -30,6 +31,11 @@ HdrImage cropped(const HdrImage& image, const Rows& rows) {
   return {image.width, rows.count, {begin, begin + static_cast<std::ptrdiff_t>(std::size_t{rows.count} * image.width)}};
 }
 
+std::optional<ShadowFilter> filter_of(const std::optional<ShadowSettings>& shadows) {
+  if (!shadows) return std::nullopt;
+  return shadows->filter;
+}
+
 }  // namespace
 
 LightingInfo lighting_info(const BenchScene& scene, const Group& group, const GroupEntry& entry) {
@@ -47,6 +53,7 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
           .host = entry.host,
           .transparency = !scene.gpu->blended().empty(),
           .captured = scene.scene.captured.has_value(),
+          .shadows = filter_of(shadows_of(group)),
           .still = listed ? gpu::STILL_TRIANGLES : gpu::STILL_OFF};
 }
 
@@ -114,12 +121,15 @@ const HdrImage& Checker::reference(ShadingPath path) {
 Findings Checker::find(Lighting& lighting) {
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
   if (verifier_) return verifier_->check(lighting, which);
+  const bool cut = is_cut(renderer_, lighting);
   Verification verification(frame_.view().width(), renderer_.depth());
   const std::vector<FramePicture> pictures = renderer_.all_pictures();  // the first last: it is timed
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     renderer_.show(pictures[i]);
-    for_each_truth(
-        i, [&](const Truth& truth) { verification.add(truth, renderer_.visit(lighting, truth, which), pictures[i]); });
+    for_each_truth(i, [&](const Truth& all) {
+      const Truth truth = cut ? lit_truth(renderer_, device_.shaders(), all) : all;
+      verification.add(truth, renderer_.visit(lighting, truth, which), pictures[i]);
+    });
   }
   return verification.findings();
 }

@@ -66,6 +66,10 @@ HostDepth host_depth_of(const Group& group) {
   return depth;
 }
 
+std::optional<ShadowSettings> shadows_of(const Group& group) {
+  return requested_shadows(request_of(group, group.entries.front()));
+}
+
 BenchDevice::BenchDevice(const Request& request)
     : shaders_(request.shader_dir),
       context_(std::make_unique<Context>(
@@ -142,6 +146,8 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .still = static_cast<float>(group.still),
           .still_lists = entry.still_lists,
           .still_occlusion = entry.still_occlusion,
+          .shadows = group.shadows,
+          .atlas = group.atlas,
           .camera = group.camera,
           .frame = group.frame,
           .projection = group.projection,

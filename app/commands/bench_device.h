@@ -63,6 +63,8 @@ void check_views(std::span<const Group> groups);
 
 /// Depth and views as the group has them.
 [[nodiscard]] HostDepth host_depth_of(const Group& group);
+/// Nothing: lights cast none.
+[[nodiscard]] std::optional<ShadowSettings> shadows_of(const Group& group);
 
 /// The request of one group's entry, for the checks that every command makes.
 [[nodiscard]] Request request_of(const Group& group, const GroupEntry& entry);

@@ -108,6 +108,8 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (entry.still_lists != "off") parameters["still_lists"] = entry.still_lists;
   if (entry.still_occlusion != 0) parameters["still_occlusion"] = entry.still_occlusion;
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
+  if (group.shadows != "off") parameters["shadows"] = group.shadows;
+  if (group.shadows != "off") parameters["atlas"] = group.atlas;
   if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];
   for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
   return parameters;
@@ -341,6 +343,7 @@ std::vector<json> measure(const MeasureInfo& info) {
     renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view().width(),
                      frame.view().height(), light_capacity(scene, info.group), /*decal_capacity=*/0,
                      host_depth_of(info.group));
+    if (const auto shadows = shadows_of(info.group)) renderer->cast_shadows(*shadows);
     checker.emplace(info.device, info.group, *renderer, frame);
     candidates = make_candidates(info, scene, choose_for(info, scene, *renderer, frame));
   } catch (const Error& error) {

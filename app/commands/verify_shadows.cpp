@@ -4,10 +4,7 @@
 
 namespace lamp::app {
 
-bool is_cut(Session& session, const Lighting& lighting) {
-  const Plan& plan = lighting.runner().plan();
-  return session.renderer().shadows() != nullptr && (plan.binds(INPUT_RADIAL) || plan.binds(INPUT_MESHES));
-}
+bool is_cut(Session& session, const Lighting& lighting) { return is_cut(session.renderer(), lighting); }
 
 std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
   Renderer& renderer = session.renderer();

@@ -26,6 +26,15 @@ Made made(ShadowReach::Kind kind) {
   return {"radial bounds", "shadow/radial_bounds", sizeof(shared::RadialBound)};
 }
 
+/// Meshes are fitted on a finer lattice where shared memory has room for it.
+std::vector<vulkan::Constant> constants_of(const vulkan::Device& device, ShadowReach::Kind kind, ShadowFilter filter) {
+  constexpr std::uint32_t FINE_BYTES = 24576;
+  std::vector<vulkan::Constant> constants{{0, static_cast<std::uint32_t>(filter)}};
+  if (kind == ShadowReach::Kind::meshes)
+    constants.push_back({1, device.traits.shared_memory_bytes >= FINE_BYTES ? 6U : 4U});
+  return constants;
+}
+
 /// Squares belong to one map, which changes only where it is redrawn.
 bool same(const shared::ShadowMap& a, const shared::ShadowMap& b) {
   return a.kind == b.kind && a.squares[0] == b.squares[0];
@@ -49,7 +58,7 @@ ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shad
                                                .memory = vulkan::MemoryUse::upload}));
   pipeline_ = take(vulkan::Pipeline::compute(device,
                                              {.name = name,
-                                              .constants = {{0, static_cast<std::uint32_t>(filter)}},
+                                              .constants = constants_of(device, kind, filter),
                                               .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {3}, {4}},
                                               .push_constant_bytes = sizeof(std::uint32_t)},
                                              shaders.spirv(shader)));

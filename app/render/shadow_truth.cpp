@@ -144,6 +144,11 @@ void add(ShadowLight& to, Answer answer, double light, double share) {
 
 }  // namespace
 
+bool is_cut(const Renderer& renderer, const Lighting& lighting) {
+  const Plan& plan = lighting.runner().plan();
+  return renderer.shadows() != nullptr && (plan.binds(INPUT_RADIAL) || plan.binds(INPUT_MESHES));
+}
+
 Truth lit_truth(Renderer& renderer, const ShaderLibrary& shaders, const Truth& truth) {
   Truth lit{.first_row = truth.first_row, .rows = truth.rows, .offsets = {0}, .boundary_pairs = truth.boundary_pairs};
   renderer.need_surfaces();

@@ -48,6 +48,9 @@ struct ShadowFindings {
 [[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
                                            std::span<const shared::Light> lights);
 
+/// Whether a method's lights are cut by what their shadow maps hold.
+[[nodiscard]] bool is_cut(const Renderer& renderer, const Lighting& lighting);
+
 /// The pairs of a truth that the frame's look-up of shadows leaves some light: what lists must hold of lights that are
 /// cut by their radial bounds. Of a renderer that casts shadows.
 [[nodiscard]] Truth lit_truth(Renderer& renderer, const ShaderLibrary& shaders, const Truth& truth);

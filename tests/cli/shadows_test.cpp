@@ -35,6 +35,26 @@ TEST_F(Shadows, OffIsTheDefault) {
   EXPECT_FALSE(nlohmann::json::parse(run.out).contains("shadows"));
 }
 
+TEST_F(Shadows, AreMeasuredWithLightsThatAreCut) {
+  write("cut.json", R"({"version": 1, "name": "cut", "series": [{"name": "cut", "methods": [
+    {"name": "drobot-raster-tile", "options": ["raster=full"]},
+    {"name": "drobot-raster-tile", "options": ["raster=full", "proxy=cut"]},
+    {"name": "drobot-raster-tile", "options": ["raster=full", "occlusion=radial"]}],
+    "scenes": ["corridor"], "sizes": ["160x90"], "lights": [12], "ranges": ["4:8"],
+    "shadows": "hard", "atlas": 1024, "still": 1, "frames": 1, "warm_up": 0}]})");
+  ASSERT_EQ(lamp({"bench", "cut.json", "--out", "folder"}).exit_code, 0);
+  const auto results = nlohmann::json::parse(read("folder/results.json")).at("results");
+  ASSERT_EQ(results.size(), 3);
+  for (const auto& result : results) {
+    EXPECT_EQ(result.at("verdict"), "exact") << result.at("reason");
+    EXPECT_EQ(result.at("parameters").at("shadows"), "hard");
+    EXPECT_EQ(result.at("parameters").at("still"), 1.0);
+  }
+  const auto walked = [&](std::size_t i) { return results.at(i).at("stats").at("evaluations").get<std::uint64_t>(); };
+  EXPECT_LT(walked(1), walked(0));
+  EXPECT_LT(walked(2), walked(0));
+}
+
 TEST_F(Shadows, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--shadows", "soft"}, {"--shadows 'soft'", "nearest are "});
   expect_error(BAD_INPUT, {"render", "--shadow-lights", "many"}, {"--shadow-lights 'many'", "or all"});

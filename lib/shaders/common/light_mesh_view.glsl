@@ -26,8 +26,11 @@ float mesh_reach(uint kind, uint point, float reach, float margin) {
   return max(reach + flatness * margin, flatness * margin / MESH_SPREAD);
 }
 
-// Whether the view draws so little of the light that a margin beyond is as large as the light: then the mesh says nothing.
-bool mesh_is_fine(float range_m, float margin) { return margin < 0.25 * MESH_SPREAD * range_m; }
+// Whether points move outwards by less than the light's range: else the mesh says nothing. Those that close a spot move
+// three times as far as others.
+bool mesh_is_fine(uint kind, float range_m, float margin) {
+  return margin < (kind == MESH_CUBE ? 0.75 : 0.25) * MESH_SPREAD * range_m;
+}
 
 // Whether a point of the mesh may be a corner of the triangle that lies towards `way`, in the mesh's own axes.
 bool mesh_is_towards(uint kind, float half_width, uint point, vec3 way) {

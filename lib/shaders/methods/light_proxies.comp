@@ -19,7 +19,7 @@ layout(set = 0, binding = 5, scalar) readonly buffer MeshBuffer { LightMesh mesh
 
 bool is_cut(uint light, LightProxy proxy) {
   if (!CUT || light >= uint(meshes.length()) || lights[light].range > EVERYWHERE_M) return false;
-  return meshes[light].kind != MESH_NONE && mesh_is_fine(lights[light].range, proxy.margin);
+  return meshes[light].kind != MESH_NONE && mesh_is_fine(meshes[light].kind, lights[light].range, proxy.margin);
 }
 
 // Depths between which the mesh lies, without the margin, and whether the eye may be inside, with it.

@@ -20,12 +20,12 @@ layout(set = 0, binding = 3, scalar) readonly buffer JobBuffer { RadialJob jobs[
 layout(set = 0, binding = 4, scalar) writeonly buffer MeshBuffer { LightMesh meshes[]; };
 layout(push_constant) uniform Push { uint job_count; };
 
-const uint STEPS = 4u;  // of the lattice, a quad
+layout(constant_id = 1) const uint STEPS = 4;  // of the lattice, a quad: 6 where there are 24 KiB of shared memory
 const uint CUBE_LATTICE = MESH_CUBE_QUADS * STEPS;
 const uint SPOT_LATTICE = MESH_SPOT_QUADS * STEPS;
-const uint MOST_LATTICE = 2402u;     // cube_points(CUBE_LATTICE); a spot's are fewer
-const uint BLOCKS = 32u;             // a side of a square: finer than the lattice
-const uint OCTAHEDRON_BLOCKS = 64u;  // which holds all directions
+const uint MOST_LATTICE = 6u * CUBE_LATTICE * CUBE_LATTICE + 2u;  // a cube's points; a spot's are fewer
+const uint BLOCKS = 64u;              // a side of a square, at most: finer than the lattice
+const uint OCTAHEDRON_BLOCKS = 128u;  // which holds all directions
 const float ROUNDING = 1e-4;
 const float FREE = 1e4;   // over the range: the inverse depth that nothing limits
 const uint COLOURS = 8u;  // of points, so that no two of one colour share a triangle
@@ -184,7 +184,7 @@ void main() {
   for (uint i = thread; i < lattice_points(); i += gl_WorkGroupSize.x) s_limits[i] = floatBitsToUint(FREE / g_range_m);
   barrier();  // nothing is known before blocks say more
   const uint side = shadow_maps[light].side;
-  const uint blocks = min(side, kind == SHADOW_FACES ? BLOCKS : OCTAHEDRON_BLOCKS);
+  const uint blocks = min(side, kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
   const uint squares = kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
   for (uint i = thread; i < squares * blocks * blocks; i += gl_WorkGroupSize.x) {
     const uint block = i % (blocks * blocks);

@@ -24,7 +24,7 @@ LAMP_CONST MESH_VERTICES = 900u;
 
 // The mesh also holds each lit point turned about the light by up to this (the sine of the angle), so that a view can
 // widen it by a margin: points move outwards, and none stays nearer to the light than the margin over this.
-LAMP_CONST_FLOAT MESH_SPREAD = 0.03125f;
+LAMP_CONST_FLOAT MESH_SPREAD = 0.015625f;
 
 // Every triangle is flat in space, and its points lie along fixed directions from `position` (common/light_mesh.glsl).
 struct LightMesh {
