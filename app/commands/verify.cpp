@@ -250,7 +250,9 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
     print_out("pictures not compared: {}\n", o.request.still_occlusion != 0 ? "lists leave out lights that walls hide"
                                                                             : "too many lights for brute force");
   if (const std::uint64_t pairs = rows.front().findings->boundary_pairs; pairs != 0)
-    print_out("{} pairs of pixel and light lie on a boundary (within 1e-5 of it): either answer is right\n", pairs);
+    print_out(
+        "{} pairs of pixel and light lie on a boundary (within 1e-5 of it): not checked, either answer is right\n",
+        pairs);
   print_table(rows);
   if (rows.front().still) print_still(*rows.front().still);
   if (const auto& shadows = rows.front().shadows) print_out("shadows: {}\n", shadow_words(*shadows));

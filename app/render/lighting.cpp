@@ -114,14 +114,13 @@ vulkan::BoundLookUp Lighting::lookup(const LightingFrame& frame) const {
   return runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate, frame.view);
 }
 
-void Lighting::record_counts(vulkan::Recorder& recorder, const vulkan::Buffer& to) {
-  if (!culler_) runner_.record_counts(recorder, to);
+void Lighting::record_counts(vulkan::Recorder& recorder) {
+  if (!culler_) runner_.record_counts(recorder);
 }
 
-vulkan::FrameCounts Lighting::counts(const vulkan::Buffer& read) const {
+vulkan::FrameCounts Lighting::counts() const {
   if (culler_) return {.counters = culler_->counters()};
-  if (runner_.plan().counters == NO_RESOURCE) return {};
-  return vulkan::read_counts(runner_.plan(), read.mapped());
+  return runner_.counts();
 }
 
 void Lighting::finish() {

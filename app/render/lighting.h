@@ -49,10 +49,9 @@ class Lighting {
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
   [[nodiscard]] bool fused() const;
-  /// Copies what the frame counted to a buffer of so many bytes, for `counts`.
-  [[nodiscard]] std::uint64_t count_bytes() const { return vulkan::count_bytes(runner_.plan()); }
-  void record_counts(vulkan::Recorder& recorder, const vulkan::Buffer& to);
-  [[nodiscard]] vulkan::FrameCounts counts(const vulkan::Buffer& read) const;
+  /// Makes what the frame counted visible to the host, for `counts`.
+  void record_counts(vulkan::Recorder& recorder);
+  [[nodiscard]] vulkan::FrameCounts counts() const;
   /// The options that `vulkan::Culler` would grow to after a frame that needed so much (of the plan's capacities).
   /// Nothing if everything fitted, or nothing can grow.
   [[nodiscard]] std::optional<Options> grown(std::span<const std::uint32_t> needed) const;

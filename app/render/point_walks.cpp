@@ -59,17 +59,14 @@ PointLights PointWalks::walk(std::span<const glm::vec3> points) {
 }
 
 void PointWalks::cull() {
-  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts", vulkan::count_bytes(plan()));
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     data_.record_upload(recorder);
     static_cast<void>(take(runner_.record(recorder, inputs())));
-    runner_.record_counts(recorder, counts);
-    recorder.barrier({host_reads(vulkan::Resource::storage(counts.handle()))});
+    runner_.record_counts(recorder);
   });
   runner_.finish(runner_.records());
-  counts_ = plan().counters == NO_RESOURCE ? vulkan::FrameCounts{} : vulkan::read_counts(plan(), counts.mapped());
-  tracker_.forget(counts.handle());
+  counts_ = runner_.counts();
 }
 
 void PointWalks::walk_part(std::span<const glm::vec3> points, PointLights& to) {

@@ -31,8 +31,8 @@ void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vu
   recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
 }
 
-void add_counts(Rendered& rendered, const Lighting& lighting, const vulkan::Buffer& counts) {
-  vulkan::FrameCounts counted = lighting.counts(counts);
+void add_counts(Rendered& rendered, const Lighting& lighting) {
+  vulkan::FrameCounts counted = lighting.counts();
   rendered.counters = counted.counters;
   rendered.needed = std::move(counted.needed);
 }
@@ -197,7 +197,6 @@ Rendered Renderer::relight(Lighting& lighting) { return render_frames(lighting, 
 Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::uint32_t warm_up, bool relights) {
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
   const vulkan::Buffer picture = readback_buffer(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
-  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts read-back", lighting.count_bytes());
   FrameTimes times(frames);
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
     const bool last = i + 1 == frames + warm_up;
@@ -209,20 +208,18 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
       timestamps_.finish(commands);
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
-      lighting.record_counts(recorder, counts);
+      lighting.record_counts(recorder);
     });
     if (i >= warm_up) times.add(timestamps_.read(), lighting);
   }
   tracker_.forget(picture.handle());
-  tracker_.forget(counts.handle());
   Rendered rendered{.image = {targets_->width, targets_->height, first_values<glm::vec4>(picture, pixels)}};
   times.fill(rendered, lighting);
-  add_counts(rendered, lighting, counts);
+  add_counts(rendered, lighting);
   return rendered;
 }
 
 Rendered Renderer::draw(Lighting& lighting, const std::function<void(vulkan::Recorder&)>& more) {
-  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts read-back", lighting.count_bytes());
   FrameTimes times;
   submit(&lighting, [&](VkCommandBuffer commands) {
     timestamps_.reset(commands);
@@ -231,13 +228,12 @@ Rendered Renderer::draw(Lighting& lighting, const std::function<void(vulkan::Rec
     timestamps_.finish(commands);
     vulkan::Recorder untimed(context_.device(), commands, tracker_);
     more(untimed);
-    lighting.record_counts(untimed, counts);
+    lighting.record_counts(untimed);
   });
-  tracker_.forget(counts.handle());
   times.add(timestamps_.read(), lighting);
   Rendered rendered;
   times.fill(rendered, lighting);
-  add_counts(rendered, lighting, counts);
+  add_counts(rendered, lighting);
   return rendered;
 }
 
@@ -251,16 +247,14 @@ void Renderer::also(const std::function<void(vulkan::Recorder&)>& record) {
 vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   if (lighting.runner().plan().counters == NO_RESOURCE) return {};
   need_surfaces();
-  const vulkan::Buffer counts = readback_buffer(context_.device(), "counts read-back", lighting.count_bytes());
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
     record_meshes(recorder, lighting);
     lighting.record_cull(recorder, lighting_frame());
-    lighting.record_counts(recorder, counts);
+    lighting.record_counts(recorder);
   });
-  forget(counts);
-  return lighting.counts(counts);
+  return lighting.counts();
 }
 
 void Renderer::cull_as(Lighting& lighting, const View& other) {

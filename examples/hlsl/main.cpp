@@ -78,7 +78,11 @@ bool run(const Options& options) {
   gpu.make_device(features.base, lamp::vulkan::useful_extensions(instance, gpu.physical));
   const auto device = value_of(lamp::vulkan::make_device(instance, gpu.physical, gpu.device));
   auto culler = value_of(lamp::vulkan::Culler::create(
-      device, {.width = SIZE.width, .height = SIZE.height, .light_capacity = LIGHTS, .method = "clustered"}));
+      device, {.width = SIZE.width,
+               .height = SIZE.height,
+               .light_capacity = LIGHTS,
+               .method = "clustered",
+               .options = {"mean_capacity=1"}}));  // little room, to show how it grows; by default there is enough
   const lamp::View view = value_of(lamp::View::create(SIZE.width, SIZE.height, clip_from_view, view_from_world()));
   // }
 
@@ -114,14 +118,18 @@ bool run(const Options& options) {
   bool same = true;
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     std::ranges::copy(pack(make_lights(LIGHTS, frame)), light_buffer.as<Record>().begin());
+    std::uint64_t number = 0;
     gpu.submit(gpu.graphics, [&](VkCommandBuffer commands) {
       // lamplight {
-      value_of(culler.record(commands, {.view = &view, .lights = light_buffer.handle, .light_count = LIGHTS}));
+      number = value_of(culler.record(commands, {.view = &view, .lights = light_buffer.handle, .light_count = LIGHTS}));
       // }
       draw(commands, forward, push, static_cast<std::uint32_t>(boxes.size()), color, depth, culled);
       draw(commands, brute_force, push, static_cast<std::uint32_t>(boxes.size()), color, depth, brute);
     });
     gpu.wait();
+    // lamplight {
+    if (value_of(culler.finish(number)) != lamp::vulkan::Growth::none) culler.lookup().write_to(device, forward.set);
+    // }
     same = compare(culled.as<glm::vec4>(), brute.as<glm::vec4>(), 1e-4F) && same;
   }
   write_picture(options, SIZE.width, culled.as<glm::vec4>());

@@ -35,7 +35,8 @@ ResourceId Plan::add(BufferDesc buffer) {
 std::uint64_t Plan::view_bytes(const BufferDesc& buffer) const {
   // 256 is the largest alignment of descriptors; elements have 4, 8, 12, 16, 24, 32, 48 or 64 bytes.
   constexpr std::uint64_t UNIT = 768;
-  return views == 1 || buffer.all_views ? buffer.bytes : divide_up(buffer.bytes, UNIT) * UNIT;
+  const bool is_one = (views == 1 || buffer.all_views) && buffer.memory != BufferMemory::counts;
+  return is_one ? buffer.bytes : divide_up(buffer.bytes, UNIT) * UNIT;
 }
 
 std::uint64_t Plan::all_bytes(const BufferDesc& buffer) const {
@@ -43,7 +44,15 @@ std::uint64_t Plan::all_bytes(const BufferDesc& buffer) const {
 }
 
 std::uint64_t Plan::bytes_of(const BufferDesc& buffer) const {
-  return all_bytes(buffer) * (buffer.memory == BufferMemory::upload ? 1 + frames_in_flight : 1);
+  switch (buffer.memory) {
+    case BufferMemory::upload:
+      return all_bytes(buffer) * (1 + frames_in_flight);
+    case BufferMemory::counts:
+      return all_bytes(buffer) * frames_in_flight;
+    case BufferMemory::device:
+      break;
+  }
+  return all_bytes(buffer);
 }
 
 std::uint64_t Plan::bytes() const {

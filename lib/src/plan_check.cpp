@@ -124,11 +124,10 @@ std::optional<Error> check_groups(const std::string& source, const Plan& plan, c
 
 std::optional<Error> check_capacity(const Plan& plan, const Capacity& capacity) {
   const std::string source = "capacity " + std::string(capacity.option);
-  if (!is_buffer(plan, capacity.needed) || !buffer_of(plan, capacity.needed).begins_at_zero())
-    return Error{source, "what was needed must be counted in a zeroed buffer of the plan"};
-  if (capacity.needed_offset % 4 != 0 || capacity.needed_offset + 4 > buffer_of(plan, capacity.needed).bytes)
-    return Error{source, "the count at byte " + std::to_string(capacity.needed_offset) + " is not in buffer " +
-                             buffer_of(plan, capacity.needed).name};
+  if (plan.counters == NO_RESOURCE)
+    return Error{source, "what was needed must be counted, and the plan has no counters"};
+  if (capacity.needed_offset % 4 != 0 || capacity.needed_offset + 4 > buffer_of(plan, plan.counters).bytes)
+    return Error{source, "the count at byte " + std::to_string(capacity.needed_offset) + " is not in the counters"};
   if (capacity.per_option == 0 || capacity.entries_per_count == 0) return Error{source, "must say how it grows"};
   return std::nullopt;
 }
@@ -153,13 +152,16 @@ class PassChecker {
     return std::nullopt;
   }
 
-  /// `counters`: the one buffer that it may write.
+  /// `counters`: of a fused one, the one buffer that it may write.
   [[nodiscard]] std::optional<Error> check_lookup(const LookUp& lookup, ResourceId counters) const {
     const std::string source = "look-up " + lookup.name;
     if (lookup.name.empty()) return Error{"look-up", "has no name"};
-    for (const Binding& binding : lookup.bindings)
+    for (const Binding& binding : lookup.bindings) {
       if (binding.access != Access::read && binding.resource != counters)
         return Error{source, "its bindings must be read-only"};
+      if (binding.resource == plan_.counters && is_buffer(plan_, plan_.counters) && binding.resource != counters)
+        return Error{source, "binds the counters, which lie elsewhere in each frame"};
+    }
     if (auto error = check_storage_buffers(source, lookup.bindings, traits_)) return error;
     return check_bindings(source, lookup.bindings);
   }
@@ -274,6 +276,8 @@ std::optional<Error> check_counters(const Plan& plan) {
   if (plan.counters == NO_RESOURCE) return std::nullopt;
   if (!is_buffer(plan, plan.counters)) return Error{"counters", "must be a buffer of the plan"};
   const BufferDesc& buffer = buffer_of(plan, plan.counters);
+  if (buffer.memory != BufferMemory::counts || buffer.all_views)
+    return Error{"counters", "must be in memory of counts, of each view"};
   if (buffer.bytes >= sizeof(shared::Counters) && buffer.begins_at_zero()) return std::nullopt;
   return Error{"counters", "must be a zeroed buffer of at least " + std::to_string(sizeof(shared::Counters)) +
                                " bytes, got " + std::to_string(buffer.bytes) +

@@ -271,7 +271,7 @@ void check_a_random_plan(Reader& in) {
   for (BufferDesc& buffer : plan.buffers)
     buffer = {.name = "buffer",
               .bytes = in.flag() ? in.number<std::uint64_t>() : in.number<std::uint8_t>() * 4U,
-              .memory = in.flag() ? BufferMemory::upload : BufferMemory::device,
+              .memory = static_cast<BufferMemory>(in.below(3)),
               .zeroed = in.flag(),
               .zeroed_by_pass = in.flag(),
               .indirect = in.flag()};

@@ -106,7 +106,7 @@ TEST_F(CullerTest, GrowsForTheNextFrame) {
   for (const auto& [method, options, growth] :
        {Case{"tiled", {"capacity=1"}, vulkan::Growth::constants},
         Case{"primal", {"mean_capacity=1"}, vulkan::Growth::buffers},
-        Case{"clustered", {"mean_capacity=1"}, vulkan::Growth::constants},
+        Case{"clustered", {"mean_capacity=1"}, vulkan::Growth::buffers},
         Case{"lamplight", {"mean_capacity=1", "cells=bits"}, vulkan::Growth::buffers}}) {
     SCOPED_TRACE(method);
     vulkan::Culler fits = take(engine_culler(method));
@@ -132,7 +132,7 @@ TEST_F(CullerTest, FramesUnderWayKeepTheirBuffers) {
   const std::vector<vulkan::Bound> first = culler.lookup().resources;
   static_cast<void>(cull_and_walk(culler, frame));
   static_cast<void>(cull_and_walk(culler, frame));
-  EXPECT_EQ(take(culler.finish(1)), vulkan::Growth::constants);
+  EXPECT_EQ(take(culler.finish(1)), vulkan::Growth::buffers);
   EXPECT_NE(culler.lookup().resources.back().resource.buffer, first.back().resource.buffer);
   EXPECT_EQ(take(culler.finish(2)), vulkan::Growth::none) << "it was recorded before the Culler grew";
   for (std::uint64_t number = 3; number < 9; ++number) {

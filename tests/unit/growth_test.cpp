@@ -110,10 +110,13 @@ TEST(Growth, CapacitiesMustSayWhereNeedsAreCounted) {
   EXPECT_NE(plan_check(p.plan, {})->text().find("capacity mean_capacity: the count at byte 16"), std::string::npos);
   p.plan.capacities[0].needed_offset = 2;
   EXPECT_TRUE(plan_check(p.plan, {}));
-  p.plan.capacities[0] = {.option = "mean_capacity", .needed = p.plan.counters, .needed_offset = 4};
+  p.plan.capacities[0] = {.option = "mean_capacity", .needed_offset = 4};
   EXPECT_NE(plan_check(p.plan, {})->text().find("must say how it grows"), std::string::npos);
-  p.plan.capacities[0] = {.option = "mean_capacity", .per_option = 1, .needed = INPUT_FRAME};
-  EXPECT_NE(plan_check(p.plan, {})->text().find("zeroed buffer"), std::string::npos);
+  p.plan.capacities[0] = {.option = "mean_capacity", .per_option = 1};
+  p.plan.buffers[p.plan.counters - PLAN_BUFFER].memory = BufferMemory::device;
+  EXPECT_EQ(plan_check(p.plan, {})->text(), "counters: must be in memory of counts, of each view");
+  p.plan.counters = NO_RESOURCE;
+  EXPECT_NE(plan_check(p.plan, {})->text().find("the plan has no counters"), std::string::npos);
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ Plan sound_plan() {
   plan.light_capacity = 1000;
   plan.cells = 4;
   (void)plan.add({.name = "sorted", .bytes = 4000, .memory = BufferMemory::upload});
-  plan.counters = plan.add({.name = "counters", .bytes = sizeof(lamp::shared::Counters), .zeroed = true});
+  plan.counters = plan.add(
+      {.name = "counters", .bytes = sizeof(lamp::shared::Counters), .memory = BufferMemory::counts, .zeroed = true});
   (void)plan.add({.name = "arguments", .bytes = 32, .indirect = true});
   (void)plan.add({.name = "lists", .bytes = 64});
   plan.passes = {{.name = "sort", .kind = PassKind::host, .bindings = {{SORTED, Access::write}}, .host = sort_lights},
@@ -150,7 +151,8 @@ const Rule BUFFER_RULES[] = {
     {"CountersBeyondTheBuffers", [](Plan& p) { p.counters = LISTS + 1; }, "counters", "buffer of the plan"},
     {"SmallCounters", [](Plan& p) { p.buffers[COUNTERS - PLAN_BUFFER].bytes = 12; }, "counters",
      "at least 16 bytes, got 12"},
-    {"StaleCounters", [](Plan& p) { p.counters = LISTS; }, "counters", "got 64, not zeroed"},
+    {"StaleCounters", [](Plan& p) { p.buffers[COUNTERS - PLAN_BUFFER].zeroed = false; }, "counters", "not zeroed"},
+    {"CountersInOtherMemory", [](Plan& p) { p.counters = LISTS; }, "counters", "must be in memory of counts"},
     {"NoCell", [](Plan& p) { p.cells = 0; }, "cells", "at least one cell"},
 };
 
@@ -249,6 +251,8 @@ const Rule RASTER_RULES[] = {
 const Rule LOOKUP_RULES[] = {
     {"NoName", [](Plan& p) { p.lookup.name.clear(); }, "look-up", "has no name"},
     {"Writes", [](Plan& p) { p.lookup.bindings[1].access = Access::read_write; }, "look-up lists", "read-only"},
+    {"BindsCounters", [](Plan& p) { p.lookup.bindings[1].resource = COUNTERS; }, "look-up lists",
+     "lie elsewhere in each frame"},
     {"BindsNothing", [](Plan& p) { p.lookup.bindings[1].resource = NO_RESOURCE; }, "look-up lists", "does not exist"},
     {"ReadsNothing", [](Plan& p) { p.passes.pop_back(); }, "look-up lists", "lists, which nothing has written"},
     {"FusedReadsNothing", [](Plan& p) { p.fused->passes.clear(); }, "look-up fused",

@@ -51,6 +51,7 @@ struct Binding {
 enum class BufferMemory : std::uint8_t {
   device,  ///< GPU only
   upload,  ///< likewise, filled from what host passes write: mapped memory besides, for each frame in flight
+  counts,  ///< the counters: a part for each frame in flight, mapped, which the host reads when the frame is done
 };
 
 /// Cells of a frame's picture: squares, of the tiles' kind, in layers. px 0: none.
@@ -68,7 +69,7 @@ struct BufferDesc {
   std::string name;
   std::uint64_t bytes = 0;  ///< of a view; > 0, a multiple of 4
   BufferMemory memory = BufferMemory::device;
-  bool zeroed = false;           ///< filled with zeros at the start of every frame; device memory only
+  bool zeroed = false;           ///< filled with zeros at the start of every frame; not upload memory
   CellGrid zeroed_cells;         ///< px not 0: only as far as the cells of the frame's picture reach,
   std::uint64_t cell_bytes = 0;  ///< of as many bytes each, a multiple of 4
   bool zeroed_by_pass = false;   ///< likewise, but by the first pass that binds it, which only writes it
@@ -166,12 +167,12 @@ struct FusedLookUp {
 /// Entries that a plan has room for, and where a frame counts how many it needed. What does not fit is walked the long
 /// way in that frame; a host can make room for the next one (`grow_plan`).
 struct Capacity {
-  std::string_view option;              ///< of the method, that it grows with
-  std::uint64_t entries = 0;            ///< that there is room for
-  std::uint64_t per_option = 0;         ///< entries that one more of the option adds
-  ResourceId needed = NO_RESOURCE;      ///< plan buffer with a 32-bit count of what was needed, or less than that where
-                                        ///< something else did not fit either, but then more than `entries`
-  std::uint64_t needed_offset = 0;      ///< bytes, a multiple of 4
+  std::string_view option;          ///< of the method, that it grows with
+  std::uint64_t entries = 0;        ///< that there is room for
+  std::uint64_t per_option = 0;     ///< entries that one more of the option adds
+  std::uint64_t needed_offset = 0;  ///< bytes, a multiple of 4: where in the counters there is a 32-bit count of what
+                                    ///< was needed, or less than that where something else did not fit either, but
+                                    ///< then more than `entries`
   std::uint32_t entries_per_count = 1;  ///< that one of the count stands for
 };
 
@@ -191,7 +192,8 @@ struct LAMPLIGHT_API Plan {
   LightLayout light_layout;            ///< likewise
   std::uint32_t depth_samples = 1;     ///< likewise
   std::uint32_t frames_in_flight = 1;  ///< likewise
-  ResourceId counters = NO_RESOURCE;   ///< shared::Counters that begin at zero, or NO_RESOURCE if nothing can overflow
+  ResourceId counters = NO_RESOURCE;   ///< buffer of counts that begins at zero, shared::Counters first; NO_RESOURCE if
+                                       ///< nothing can overflow
   std::vector<Capacity> capacities;    ///< everything that can overflow
   std::vector<std::string> notes;  ///< what is done otherwise than the options ask, and why: the device lacks something
 

@@ -8,11 +8,11 @@ LOOKUP_CONSTANT(0, uint, LOOKUP_BUCKETS, 1);
 LOOKUP_BUFFER(1, LookupBuckets, WorldBucket, lookup_buckets);
 LOOKUP_BUFFER(2, LookupEntries, uint, lookup_entries);
 LOOKUP_BUFFER(3, LookupBits, uint, lookup_bits);
-LOOKUP_BUFFER(4, LookupTotals, uint, lookup_totals);
+LOOKUP_BUFFER(4, LookupLevels, uint, lookup_level_bits);  // bit l: a light is listed at level l
 LOOKUP_VIEW_WORDS(1, LOOKUP_BUCKETS_VIEW);
 LOOKUP_VIEW_WORDS(2, LOOKUP_ENTRIES_VIEW);
 LOOKUP_VIEW_WORDS(3, LOOKUP_BITS_VIEW);
-LOOKUP_VIEW_WORDS(4, LOOKUP_TOTALS_VIEW);
+LOOKUP_VIEW_WORDS(4, LOOKUP_LEVELS_VIEW);
 
 #include "lookup/parts/pixel_position.glsl"
 
@@ -37,7 +37,7 @@ struct Walk {
 #define LOOKUP_CELL_WORD(word) lookup_bits[word]
 #include "lookup/parts/cell_field.glsl"
 
-uint lookup_levels(uint view) { return lookup_totals[view * LOOKUP_TOTALS_VIEW + WORLD_TOTALS_LEVELS]; }
+uint lookup_levels(uint view) { return lookup_level_bits[view * LOOKUP_LEVELS_VIEW]; }
 
 WorldBucket lookup_bucket(uint view, uint bucket) {
   return lookup_buckets[view * (LOOKUP_BUCKETS_VIEW / 2u) + bucket];

@@ -6,13 +6,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lamplight/shared/frame.h"
 #include "lamplight/shared/light.h"
+#include "lamplight/shared/slices.h"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
 #define SLICE_CONSTANT 2
 #include "common/slice_constants.glsl"
-layout(constant_id = 7) const uint ENTRIES = 1;
-layout(constant_id = 8) const uint WORDS = 0;  // of a tile's bits; 0: there are none
+layout(constant_id = 7) const uint WORDS = 0;  // of a tile's bits; 0: there are none
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer BoundsBuffer { LightBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer RangeBuffer { uvec2 ranges[]; };
@@ -41,7 +41,7 @@ void main() {
   if (slice < SLICES) {
     const uvec2 range = ranges[cluster_index(gl_WorkGroupID.xy, slice)];
     at = range.x;
-    const bool fits = range.x <= ENTRIES && range.y <= ENTRIES - range.x;
+    const bool fits = range.y != NO_RANGE;
     end = fits ? range.x + range.y : range.x;
     if (!fits) s_overflowed = true;
   }

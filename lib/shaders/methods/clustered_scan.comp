@@ -1,12 +1,13 @@
 // From counts to places: an exclusive prefix sum over all clusters, by one work group that walks them in chunks.
 // Based on: Hillis, Steele, Data Parallel Algorithms, CACM 29:12 (1986), for the sum within a chunk.
-// Promise: ranges = (first, count); a cluster whose range ends beyond ENTRIES is counted as overflowed.
+// Promise: ranges = (first, count); a cluster whose range ends beyond ENTRIES has NO_RANGE and is counted as overflowed.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "common/frame.glsl"
 #include "lamplight/shared/counters.h"
+#include "lamplight/shared/slices.h"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 64;
@@ -40,8 +41,9 @@ void main() {
     }
     const uint begin = add(s_total, thread == 0u ? 0u : s_sums[thread - 1u]);
     if (cluster < clusters) {
-      ranges[cluster] = uvec2(begin, count);
-      if (begin > ENTRIES || count > ENTRIES - begin) atomicAdd(counters.overflowed_cells, 1u);
+      const bool fits = begin <= ENTRIES && count <= ENTRIES - begin;
+      ranges[cluster] = uvec2(begin, fits ? count : NO_RANGE);
+      if (!fits) atomicAdd(counters.overflowed_cells, 1u);
     }
     barrier();  // the old total is read before it grows
     if (thread == threads - 1u) s_total = add(s_total, s_sums[thread]);

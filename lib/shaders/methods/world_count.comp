@@ -7,11 +7,11 @@
 #include "lamplight/shared/world.h"
 
 layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };
-layout(set = 0, binding = 4, scalar) buffer TotalBuffer { WorldTotals totals; };
+layout(set = 0, binding = 4, scalar) buffer LevelBuffer { uint levels; };  // bit l: a light is listed at level l
 
 // Most are marked already, and an atomic is dear.
 void saw(uint level) {
-  if ((LOAD_OF_DEVICE(totals.levels) & 1u << level) == 0u) atomicOr(totals.levels, 1u << level);
+  if ((LOAD_OF_DEVICE(levels) & 1u << level) == 0u) atomicOr(levels, 1u << level);
 }
 
 #define SAW(level) saw(level)

@@ -82,7 +82,7 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   const std::uint64_t wanted = list_entries(problem, c.count);
   const auto entries = static_cast<std::uint32_t>(wanted);  // beyond 32 bits, plan_check refuses the buffer
   const ResourceId counters = parts::add_counters(plan);
-  plan.capacities = {parts::shared_list(plan, "mean_capacity", wanted, c.count)};
+  plan.capacities = {parts::shared_list("mean_capacity", wanted, c.count)};
   const ResourceId ranges = plan.add({.name = "cluster ranges", .bytes = c.count * 8});
   const ResourceId lists = plan.add({.name = "cluster lists", .bytes = wanted * 4});
   const std::uint32_t words = words_of_a_tile(problem, c.tiles);
@@ -91,7 +91,7 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   plan.passes.push_back(
       {.name = "cluster count",
        .shader = "methods/clustered_count",
-       .constants = c.pass_constants({entries}),
+       .constants = c.pass_constants({}),
        .bindings = {{INPUT_FRAME}, {bounds}, {ranges, Access::write}, parts::radial_binding(problem, bounds)},
        .extent = c.one_group_a_tile()});
   plan.passes.push_back({.name = "cluster scan",
@@ -100,7 +100,7 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
                          .bindings = {{INPUT_FRAME}, {ranges, Access::read_write}, {counters, Access::read_write}}});
   plan.passes.push_back({.name = "cluster fill",
                          .shader = "methods/clustered_fill",
-                         .constants = c.pass_constants({entries, words}),
+                         .constants = c.pass_constants({words}),
                          .bindings = {{INPUT_FRAME},
                                       {bounds},
                                       {ranges},
@@ -111,7 +111,7 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_lists"),
                  .constants = c.constants,
                  .bindings = {{INPUT_FRAME}, {ranges}, {lists}, {bits}}};
-  plan.lookup.constants.insert(plan.lookup.constants.end(), {entries, words});
+  plan.lookup.constants.push_back(words);
 }
 
 Plan plan_clustered(const Problem& problem) {

@@ -79,6 +79,7 @@ Buffers add_buffers(Plan& plan, const Problem& problem, const Sizes& s) {
   const bool depth_clears = s.cell_bits && !s.sliced();
   b.totals = plan.add({.name = "totals",
                        .bytes = sizeof(shared::LightTotals),
+                       .memory = BufferMemory::counts,
                        .zeroed = !depth_clears,
                        .zeroed_by_pass = depth_clears,
                        .indirect = !s.cell_bits});
@@ -303,14 +304,12 @@ Plan plan_lamplight(const Problem& problem) {
   plan.capacities = {{.option = "mean_cells",
                       .entries = sizes.entries,
                       .per_option = parts::capacity(problem),
-                      .needed = buffers.totals,
                       .needed_offset = offsetof(shared::LightTotals, wanted_pieces),
                       .entries_per_count = PIECE}};
   if (!sizes.bits)
     plan.capacities.push_back({.option = "mean_capacity",
                                .entries = sizes.listed,
                                .per_option = plan.cells,
-                               .needed = buffers.totals,
                                .needed_offset = offsetof(shared::LightTotals, list_entries)});
   plan.passes = passes_of(problem, sizes, buffers);
   plan.lookup = {.name = sizes.bits ? "cell_bits" : "cell_lists",

@@ -28,24 +28,21 @@ Pass light_bounds_pass(ResourceId bounds) {
 }
 
 ResourceId add_counters(Plan& plan) {
-  plan.counters = plan.add({.name = "counters", .bytes = sizeof(shared::Counters), .zeroed = true});
+  plan.counters =
+      plan.add({.name = "counters", .bytes = sizeof(shared::Counters), .memory = BufferMemory::counts, .zeroed = true});
   return plan.counters;
 }
 
-Capacity shared_list(const Plan& plan, std::string_view option, std::uint64_t entries, std::uint64_t per_option) {
+Capacity shared_list(std::string_view option, std::uint64_t entries, std::uint64_t per_option) {
   return {.option = option,
           .entries = entries,
           .per_option = per_option,
-          .needed = plan.counters,
           .needed_offset = offsetof(shared::Counters, entries_needed)};
 }
 
-Capacity own_lists(const Plan& plan, std::string_view option, std::uint64_t entries) {
-  return {.option = option,
-          .entries = entries,
-          .per_option = 1,
-          .needed = plan.counters,
-          .needed_offset = offsetof(shared::Counters, longest_list)};
+Capacity own_lists(std::string_view option, std::uint64_t entries) {
+  return {
+      .option = option, .entries = entries, .per_option = 1, .needed_offset = offsetof(shared::Counters, longest_list)};
 }
 
 OptionSpec occlusion_option() {

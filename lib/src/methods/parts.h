@@ -44,9 +44,8 @@ ResourceId add_counters(Plan& plan);
 constexpr std::uint64_t SMALL_LISTS = 5U << 18;
 
 /// Capacities whose need is in the counters: of one list shared by all cells, and of each cell's own.
-[[nodiscard]] Capacity shared_list(const Plan& plan, std::string_view option, std::uint64_t entries,
-                                   std::uint64_t per_option);
-[[nodiscard]] Capacity own_lists(const Plan& plan, std::string_view option, std::uint64_t entries);
+[[nodiscard]] Capacity shared_list(std::string_view option, std::uint64_t entries, std::uint64_t per_option);
+[[nodiscard]] Capacity own_lists(std::string_view option, std::uint64_t entries);
 
 /// What a cell keeps: a list, or a bit for each light.
 enum class Container : std::uint8_t { list, bits };

@@ -170,9 +170,9 @@ Plan plan_tiled(const Problem& problem) {
   plan.ordered = axes.order == shared::ORDER_INDEX;
   plan.approximate = axes.test == shared::TEST_CONE_APPROXIMATE;
   const Buffers buffers = add_buffers(plan, problem, axes, tiles);
-  if (!axes.bits) plan.capacities = {parts::own_lists(plan, "capacity", axes.capacity)};
+  if (!axes.bits) plan.capacities = {parts::own_lists("capacity", axes.capacity)};
   if (axes.order == shared::ORDER_TYPE)
-    plan.capacities.push_back(parts::shared_list(plan, "mean_capacity", shared_list, plan.cells));
+    plan.capacities.push_back(parts::shared_list("mean_capacity", shared_list, plan.cells));
   plan.passes = passes_before(axes, buffers);
   plan.passes.push_back(cull_pass(problem, axes, buffers));
   // Container bits: the last constant is the words of a cell; a shared list: its length.

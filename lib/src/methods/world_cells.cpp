@@ -103,12 +103,17 @@ Sizes sizes_of(const Problem& problem) {
 }
 
 struct Buffers {
-  ResourceId totals, counts, buckets, pieces, long_pieces, entries, bits;
+  ResourceId totals, levels, counts, buckets, pieces, long_pieces, entries, bits;
 };
 
 Buffers add_buffers(Plan& plan, const Sizes& s) {
   Buffers b{};
-  b.totals = plan.add({.name = "totals", .bytes = sizeof(shared::WorldTotals), .zeroed = true, .indirect = true});
+  b.totals = plan.add({.name = "totals",
+                       .bytes = sizeof(shared::WorldTotals),
+                       .memory = BufferMemory::counts,
+                       .zeroed = true,
+                       .indirect = true});
+  b.levels = plan.add({.name = "levels", .bytes = 4, .zeroed = true});
   plan.counters = b.totals;
   b.counts = plan.add({.name = "bucket counts", .bytes = std::uint64_t{s.buckets} * 4, .zeroed = true});
   b.buckets = plan.add({.name = "buckets", .bytes = std::uint64_t{s.buckets} * sizeof(shared::WorldBucket)});
@@ -138,7 +143,7 @@ Pass count_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   Pass pass = find_pass(problem, s, b);
   pass.name = "count bricks";
   pass.shader = "methods/world_count";
-  pass.bindings.push_back({b.totals, Access::read_write});
+  pass.bindings.push_back({b.levels, Access::read_write});
   return pass;
 }
 
@@ -197,7 +202,7 @@ Plan plan_world_cells(const Problem& problem) {
   plan.cells = std::uint64_t{sizes.buckets} * BRICK_CELLS;
   plan.any_depth = true;
   const Buffers b = add_buffers(plan, sizes);
-  plan.capacities = {parts::shared_list(plan, "mean_bricks", sizes.entries, parts::capacity(problem))};
+  plan.capacities = {parts::shared_list("mean_bricks", sizes.entries, parts::capacity(problem))};
   plan.passes = {count_pass(problem, sizes, b),
                  scan_pass(problem, sizes, b),
                  fill_pass(problem, sizes, b),
@@ -206,7 +211,7 @@ Plan plan_world_cells(const Problem& problem) {
                  piece_pass(sizes, b, b.long_pieces)};
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets},
-                 .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.totals}}};
+                 .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};
   return plan;
 }
 

@@ -47,6 +47,12 @@ DescriptorWrites BoundLookUp::writes(VkDescriptorSet set) const {
   return made;
 }
 
+void BoundLookUp::write_to(const Device& device, VkDescriptorSet set) const {
+  const DescriptorWrites made = writes(set);
+  device.vk.vkUpdateDescriptorSets(device.handle, static_cast<std::uint32_t>(made.writes.size()), made.writes.data(), 0,
+                                   nullptr);
+}
+
 SpecializationConstants BoundLookUp::specialization(std::vector<Constant> own) const {
   SpecializationConstants made{.constants = std::move(own)};
   made.constants.insert(made.constants.end(), constants.begin(), constants.end());

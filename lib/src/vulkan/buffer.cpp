@@ -16,10 +16,24 @@ MemoryFlags flags_of(MemoryUse use) {
       return {HOST, 0};
     case MemoryUse::readback:
       return {HOST, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
+    case MemoryUse::counts:
+      return {HOST, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
     case MemoryUse::device:
       break;
   }
   return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+}
+
+VkResult allocate_from(const Device& device, std::uint32_t type, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                       VkDeviceMemory& memory) {
+  const VkMemoryAllocateFlagsInfo addressable{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                              .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
+  const bool has_address = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+  const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                      .pNext = has_address ? &addressable : nullptr,
+                                      .allocationSize = bytes,
+                                      .memoryTypeIndex = type};
+  return device.vk.vkAllocateMemory(device.handle, &allocate, nullptr, &memory);
 }
 
 Error failed(const BufferInfo& info, VkResult result) {
@@ -43,17 +57,15 @@ Result<Allocation> Buffer::allocate(const Device& device, const BufferInfo& info
     return Error{"buffer " + info.name, "expected mapped memory from MemoryCallbacks::allocate, got none"};
   }
   const MemoryFlags flags = flags_of(info.memory);
-  const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, flags.preferred);
-  if (!type) return type.error();
-  const VkMemoryAllocateFlagsInfo addressable{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
-                                              .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
-  const bool has_address = (info.usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
-  const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                      .pNext = has_address ? &addressable : nullptr,
-                                      .allocationSize = needs.size,
-                                      .memoryTypeIndex = type.value()};
-  if (const VkResult r = device.vk.vkAllocateMemory(device.handle, &allocate, nullptr, &made.memory); r != VK_SUCCESS)
-    return failed(info, r);
+  VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  // What is preferred may be used up: of the device's memory that can be mapped there is often little.
+  for (const VkMemoryPropertyFlags preferred : {flags.preferred, VkMemoryPropertyFlags{0}}) {
+    const Result<std::uint32_t> type = find_memory_type(device, needs.memoryTypeBits, flags.wanted, preferred);
+    if (!type) return type.error();
+    result = allocate_from(device, type.value(), needs.size, info.usage, made.memory);
+    if (result == VK_SUCCESS || preferred == 0) break;
+  }
+  if (result != VK_SUCCESS) return failed(info, result);
   memory_ = OwnedMemory(device.handle, made.memory, device.vk.vkFreeMemory);
   if (info.memory == MemoryUse::device) return made;
   if (const VkResult r = device.vk.vkMapMemory(device.handle, made.memory, 0, VK_WHOLE_SIZE, 0, &made.mapped);

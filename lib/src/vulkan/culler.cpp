@@ -61,15 +61,13 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                .usage = device.addressable(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT)});
   if (!frame) return frame.error();
-  const std::uint64_t slots_bytes = info.frames_in_flight * culler.slot_bytes();
-  Result<Buffer> counts = Buffer::create(device, {.name = "counts read-back",
-                                                  .bytes = slots_bytes,
+  Result<Buffer> counts = Buffer::create(device, {.name = "light counts read-back",
+                                                  .bytes = info.frames_in_flight * LIGHT_COUNT_BYTES,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
   if (!counts) return counts.error();
-  std::memset(counts.value().mapped().data(), 0, slots_bytes);
   culler.frame_ = std::move(frame.value());
-  culler.counts_ = std::move(counts.value());
+  culler.light_counts_ = std::move(counts.value());
   culler.readers_ = info.readers;
   culler.still_ = info.still;
   culler.slots_.assign(info.frames_in_flight, FREE);
@@ -145,8 +143,8 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   recorder.order(stages | readers_, stages);
   record_frame(recorder, views.value(), frame);
   if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
-  recorder.order(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_);
-  record_counts(recorder, last_slot_ * slot_bytes(), gpu_counts);
+  recorder.order(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_ | VK_PIPELINE_STAGE_2_HOST_BIT);
+  if (gpu_counts) record_light_count(recorder);
   return frames_;
 }
 
@@ -168,20 +166,18 @@ void Culler::record_frame(Recorder& recorder, const Views& views, const CullerFr
                              counts.data());
 }
 
-/// What the plan counted, and behind it the lights that there were.
-void Culler::record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts) {
-  runner_.record_counts(recorder, counts_, slot_begin);
-  if (!gpu_counts) return;
-  const Resource to = Resource::storage(counts_.handle());
+/// The lights that there were, for the host.
+void Culler::record_light_count(Recorder& recorder) const {
+  const Resource to = Resource::storage(light_counts_.handle());
   recorder.barrier(
       {{.resource = Resource::storage(frame_.handle()),
         .stages = VK_PIPELINE_STAGE_2_COPY_BIT,
         .access = VK_ACCESS_2_TRANSFER_READ_BIT},
        {.resource = to, .stages = VK_PIPELINE_STAGE_2_COPY_BIT, .access = VK_ACCESS_2_TRANSFER_WRITE_BIT}});
   const VkBufferCopy count{.srcOffset = offsetof(shared::Frame, light_count),
-                           .dstOffset = slot_begin + count_bytes(runner_.plan()),
+                           .dstOffset = last_slot_ * LIGHT_COUNT_BYTES,
                            .size = LIGHT_COUNT_BYTES};
-  device_.vk.vkCmdCopyBuffer(recorder.commands(), frame_.handle(), counts_.handle(), 1, &count);
+  device_.vk.vkCmdCopyBuffer(recorder.commands(), frame_.handle(), light_counts_.handle(), 1, &count);
   recorder.barrier({{.resource = to, .stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT}});
 }
 
@@ -193,40 +189,49 @@ std::optional<std::uint32_t> Culler::slot_of(std::uint64_t frame) const {
   return static_cast<std::uint32_t>(found - slots_.begin());
 }
 
-/// A free slot, or that of the frame that was recorded first: it is done. Begins with counts of zero.
+/// A free slot, or that of the frame that was recorded first: it is done. Begins with no lights.
 std::uint32_t Culler::take_slot(std::uint64_t frame) {
   const auto slot = std::ranges::min_element(slots_);
   *slot = frame;
   const auto taken = static_cast<std::uint32_t>(slot - slots_.begin());
-  std::ranges::fill(count_bytes_in(taken), std::byte{0});
+  std::ranges::fill(light_count_in(taken), std::byte{0});
   return taken;
 }
 
-std::span<std::byte> Culler::count_bytes_in(std::uint32_t slot) const {
-  return counts_.mapped().subspan(slot * slot_bytes(), slot_bytes());
+std::span<std::byte> Culler::light_count_in(std::uint32_t slot) const {
+  return light_counts_.mapped().subspan(slot * LIGHT_COUNT_BYTES, LIGHT_COUNT_BYTES);
 }
 
-std::uint64_t Culler::slot_bytes() const { return count_bytes(runner_.plan()) + LIGHT_COUNT_BYTES; }
-
-FrameCounts Culler::counts_in(std::uint32_t slot) const {
-  const std::span<std::byte> bytes = count_bytes_in(slot);
-  FrameCounts counts = read_counts(runner_.plan(), bytes);
+/// From the runner that it was recorded with.
+FrameCounts Culler::counts_of(std::uint64_t frame, std::uint32_t slot) const {
+  const auto retired =
+      std::ranges::find_if(retired_, [&](const Retired& runner) { return frame <= runner.last_frame; });
+  FrameCounts counts = (retired != retired_.end() ? retired->runner : runner_).counts(slot);
   std::uint32_t lights = 0;  // unless the GPU counted them
-  std::memcpy(&lights, bytes.last(LIGHT_COUNT_BYTES).data(), LIGHT_COUNT_BYTES);
+  std::memcpy(&lights, light_count_in(slot).data(), LIGHT_COUNT_BYTES);
   counts.counters.excess_lights = lights - std::min(lights, problem_.light_capacity);
   return counts;
+}
+
+shared::Counters Culler::counters() const {
+  if (frames_ == last_finished_) return finished_counters_;
+  return counts_of(frames_, last_slot_).counters;
 }
 
 Result<Growth> Culler::finish(std::uint64_t frame) {
   const std::optional<std::uint32_t> slot = slot_of(frame);
   assert(frame != FREE && slot && "finish each frame once, before frames_in_flight further ones are recorded");
+  FrameCounts counts;
+  if (slot) {
+    counts = counts_of(frame, *slot);
+    slots_[*slot] = FREE;
+    last_finished_ = frame;
+    finished_counters_ = counts.counters;
+  }
   std::erase_if(retired_, [&](const Retired& retired) { return retired.last_frame <= frame; });
-  if (!slot) return Growth::none;
-  slots_[*slot] = FREE;
-  if (frame < first_frame_) return Growth::none;
+  if (!slot || frame < first_frame_) return Growth::none;
   runner_.finish(frame - first_frame_ + 1);
-  if (runner_.plan().counters == NO_RESOURCE) return Growth::none;
-  std::optional<GrownPlan> grown = grow_plan(*method_, problem_, runner_.plan(), counts_in(*slot).needed);
+  std::optional<GrownPlan> grown = grow_plan(*method_, problem_, runner_.plan(), counts.needed);
   return grown ? grow(std::move(*grown)) : Result<Growth>(Growth::none);
 }
 

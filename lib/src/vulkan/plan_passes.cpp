@@ -49,13 +49,14 @@ void add_uses(std::vector<Use>& to, std::span<const Use> uses) {
 
 }  // namespace
 
-BufferPart PlanRunner::part(ResourceId id, std::uint32_t view) const {
+BufferPart PlanRunner::part(ResourceId id, std::uint32_t view, std::uint32_t slot) const {
   const BufferDesc& desc = plan_.buffers[id - PLAN_BUFFER];
-  return {buffer(id), desc.all_views ? 0 : view * plan_.view_bytes(desc), desc.bytes};
+  const std::uint64_t begin = desc.memory == BufferMemory::counts ? slot * plan_.all_bytes(desc) : 0;
+  return {buffer(id), begin + (desc.all_views ? 0 : view * plan_.view_bytes(desc)), desc.bytes};
 }
 
 Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs, std::uint32_t view) const {
-  if (id >= PLAN_BUFFER) return Resource::storage(part(id, view));
+  if (id >= PLAN_BUFFER) return Resource::storage(part(id, view, inputs.slot));
   if (id == INPUT_FRAME) return Resource::storage({inputs.frame, view * sizeof(shared::Frame), sizeof(shared::Frame)});
   if (id != INPUT_DEPTH) return all_views(id, inputs);
   Resource depth = inputs.depths.empty() ? inputs.depth : inputs.depths[view];
@@ -86,7 +87,7 @@ Resource PlanRunner::all_views(ResourceId id, const PlanInputs& inputs) const {
   }
 }
 
-/// With the plan's own buffers. Inputs, which nothing writes, come with each frame.
+/// With the plan's own buffers. Inputs, which nothing writes, come with each frame, and so does the slot of counters.
 void PlanRunner::bind_all(Sequence& sequence) const {
   for (std::size_t i = 0; i < sequence.passes.size(); ++i) {
     const Pass& pass = sequence.passes[i].pass;
@@ -99,7 +100,7 @@ void PlanRunner::bind_all(Sequence& sequence) const {
         bound.resources.push_back({b, used});
       }
       if (pass.extent.indirect != NO_RESOURCE)
-        bound.uses.push_back({.resource = Resource::storage(part(pass.extent.indirect, view)),
+        bound.uses.push_back({.resource = Resource::storage(part(pass.extent.indirect, view, 0)),
                               .stages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                               .access = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
       const std::size_t place = sequence.bound.size();
@@ -117,9 +118,10 @@ void PlanRunner::bind_inputs(Sequence& sequence, const PlanInputs& inputs) const
   for (BoundPass& bound : sequence.bound) {
     const Pass& pass = sequence.passes[bound.pass].pass;
     for (std::size_t b = 0; b < pass.bindings.size(); ++b) {
-      if (pass.bindings[b].resource >= PLAN_BUFFER) continue;
-      Resource used = resource(pass.bindings[b].resource, inputs, bound.view);
-      used.type = descriptor_type(pass.bindings[b].resource, pass);
+      const ResourceId id = pass.bindings[b].resource;
+      if (id >= PLAN_BUFFER && id != plan_.counters) continue;
+      Resource used = resource(id, inputs, bound.view);
+      used.type = descriptor_type(id, pass);
       bound.uses[b] = use_of(used, pass.bindings[b].access, shader_stages(pass));
       bound.resources[b].resource = used;
     }
@@ -138,7 +140,7 @@ void PlanRunner::zero_buffers(Recorder& recorder, const PlanInputs& inputs) {
   for (ResourceId id = PLAN_BUFFER; id < PLAN_BUFFER + buffers_.size(); ++id) {
     const BufferDesc& desc = plan_.buffers[id - PLAN_BUFFER];
     for (std::uint32_t view = 0; view < plan_.views && desc.zeroed; ++view)
-      recorder.device().vk.vkCmdFillBuffer(recorder.commands(), buffer(id), part(id, view).offset,
+      recorder.device().vk.vkCmdFillBuffer(recorder.commands(), buffer(id), part(id, view, inputs.slot).offset,
                                            zeroed_bytes(desc, inputs.host_frame[view]), 0);
   }
   recorder.end_pass();
@@ -165,32 +167,31 @@ void PlanRunner::record_together(Recorder& recorder, const Sequence& sequence, c
     recorder.begin_pass(built.pass.name, uses_);
     uses_.clear();
     recorder.bind(built.pipeline, bound.resources, set(built, inputs.slot, bound.view));
-    const shared::Frame& frame = inputs.host_frame[bound.view];
     if (built.pass.kind == PassKind::raster)
-      draw(recorder, built.pass, frame, bound.view);
+      draw(recorder, built.pass, inputs, bound.view);
     else
-      dispatch(recorder, built.pass, frame, bound.view);
+      dispatch(recorder, built.pass, inputs, bound.view);
     recorder.end_pass();
   }
 }
 
-void PlanRunner::dispatch(const Recorder& recorder, const Pass& pass, const shared::Frame& frame,
+void PlanRunner::dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs,
                           std::uint32_t view) const {
   const DeviceFunctions& vk = recorder.device().vk;
   const VkCommandBuffer commands = recorder.commands();
   const Extent& extent = pass.extent;
   if (extent.indirect != NO_RESOURCE) {
-    const BufferPart counts = part(extent.indirect, view);
+    const BufferPart counts = part(extent.indirect, view, inputs.slot);
     return vk.vkCmdDispatchIndirect(commands, counts.buffer, counts.offset + extent.indirect_offset);
   }
-  const auto [x, y, z] = counts_of(extent, frame);
+  const auto [x, y, z] = counts_of(extent, inputs.host_frame[view]);
   if (x != 0) vk.vkCmdDispatch(commands, x, y, z);
 }
 
-void PlanRunner::draw(const Recorder& recorder, const Pass& pass, const shared::Frame& frame,
-                      std::uint32_t view) const {
+void PlanRunner::draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs, std::uint32_t view) const {
   const DeviceFunctions& vk = recorder.device().vk;
   const VkCommandBuffer commands = recorder.commands();
+  const shared::Frame& frame = inputs.host_frame[view];
   const CellGrid pixels{.px = pass.raster.pixel};
   const VkRect2D area{.extent = {pixels.across(frame.size_px.x), pixels.across(frame.size_px.y)}};
   const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = area, .layerCount = 1};
@@ -202,7 +203,7 @@ void PlanRunner::draw(const Recorder& recorder, const Pass& pass, const shared::
   vk.vkCmdSetScissor(commands, 0, 1, &area);
   const Extent& extent = pass.extent;
   if (extent.indirect != NO_RESOURCE) {
-    const BufferPart counts = part(extent.indirect, view);
+    const BufferPart counts = part(extent.indirect, view, inputs.slot);
     vk.vkCmdDrawIndirect(commands, counts.buffer, counts.offset + extent.indirect_offset, 1,
                          sizeof(VkDrawIndirectCommand));
   } else {

@@ -18,7 +18,11 @@ BufferInfo buffer_info(const Device& device, const Plan& plan, const BufferDesc&
   VkBufferUsageFlags usage =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   if (desc.indirect) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-  return {.name = desc.name, .bytes = plan.all_bytes(desc), .usage = device.addressable(usage)};
+  const bool is_counts = desc.memory == BufferMemory::counts;
+  return {.name = desc.name,
+          .bytes = is_counts ? plan.bytes_of(desc) : plan.all_bytes(desc),
+          .usage = is_counts ? usage : device.addressable(usage),
+          .memory = is_counts ? MemoryUse::counts : MemoryUse::device};
 }
 
 /// What a buffer of upload memory is filled from; none for others.
@@ -91,6 +95,7 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   for (const BufferDesc& desc : runner.plan_.buffers) {
     Result<Buffer> buffer = Buffer::create(device, buffer_info(device, runner.plan_, desc));
     if (!buffer) return buffer.error();
+    std::ranges::fill(buffer.value().mapped(), std::byte{0});
     runner.buffers_.push_back(std::move(buffer.value()));
     Result<Buffer> slots = make_slots(device, runner.plan_, desc);
     if (!slots) return slots.error();
@@ -151,6 +156,7 @@ VkBuffer PlanRunner::buffer(ResourceId id) const {
 Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {
   if (auto error = check(inputs)) return *error;
   Sequence& sequence = which == Passes::fused ? fused_ : separate_;
+  std::ranges::fill(count_bytes(inputs.slot), std::byte{0});  // of a frame that is dropped
   bind_inputs(sequence, inputs);
   record_host_passes(recorder, sequence, inputs);
   zero_buffers(recorder, inputs);

@@ -23,6 +23,9 @@ LAMP_CONST SORT_BLOCK = 1024u;
 LAMP_CONST SORT_DIGITS = 256u;
 LAMP_CONST SORT_DIGIT_BITS = 8u;
 
+// A cluster's range of the shared list: first entry and count. In the place of the count of one that does not fit:
+LAMP_CONST NO_RANGE = 0xffffffffu;
+
 // A bin holds the least and the greatest rank of the lights that reach into it: 16 + 16 bits, least in the low half, or
 // two words. Least > greatest: no light.
 LAMP_CONST MOST_NARROW_LIGHTS = 65535u;

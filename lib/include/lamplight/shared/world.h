@@ -47,7 +47,6 @@ LAMP_CONST WORLD_GROUPS_ACROSS = 32768u;
 // Zeroed at the start of every frame.
 struct WorldTotals {
   Counters counters;
-  uint levels;    // bit l: a light is listed at level l
   uint pieces;    // of all buckets
   uint pieces_x;  // their group counts
   uint pieces_y;
@@ -57,10 +56,9 @@ struct WorldTotals {
   uint long_y;
   uint long_z;
 };
-LAMP_CONST WORLD_TOTALS_LEVELS = 4u;  // the place of `levels`, in words
 
 #ifdef __cplusplus
-static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 52);
+static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 48);
 static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_BRICK_BITS);
 }  // namespace lamp::shared
 #endif

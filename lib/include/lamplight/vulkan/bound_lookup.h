@@ -49,6 +49,8 @@ struct LAMPLIGHT_API BoundLookUp {
       VkShaderStageFlags stages, std::vector<VkDescriptorSetLayoutBinding> own = {}) const;
   /// Of its buffers into a set, or pushed: none.
   [[nodiscard]] DescriptorWrites writes(VkDescriptorSet set = VK_NULL_HANDLE) const;
+  /// Writes them into a set that no frame under way uses: at the start, and after the Culler grew.
+  void write_to(const Device& device, VkDescriptorSet set) const;
   /// Its constants behind those of your own.
   [[nodiscard]] SpecializationConstants specialization(std::vector<Constant> own = {}) const;
   /// Of its buffers, in the order of their bindings: what a shader with LOOKUP_ADDRESSES reads instead of descriptors.

@@ -110,7 +110,7 @@ class LAMPLIGHT_API Culler {
 
   /// What the frame that was recorded last counted: cells that did not fit and were walked the long way, and lights
   /// beyond the capacity. Read it after that frame's fence; before it has run, nothing was counted.
-  [[nodiscard]] shared::Counters counters() const { return counts_in(last_slot_).counters; }
+  [[nodiscard]] shared::Counters counters() const;
 
   /// Bytes on the GPU of the buffers in use.
   [[nodiscard]] std::uint64_t bytes() const { return runner_.plan().bytes(); }
@@ -133,17 +133,16 @@ class LAMPLIGHT_API Culler {
   void reserve();
   [[nodiscard]] Result<Views> views_of(const CullerFrame& frame) const;
   void record_frame(Recorder& recorder, const Views& views, const CullerFrame& frame) const;
-  void record_counts(Recorder& recorder, std::uint64_t slot_begin, bool gpu_counts);
-  [[nodiscard]] std::uint64_t slot_bytes() const;
-  [[nodiscard]] std::span<std::byte> count_bytes_in(std::uint32_t slot) const;
-  [[nodiscard]] FrameCounts counts_in(std::uint32_t slot) const;
+  void record_light_count(Recorder& recorder) const;
+  [[nodiscard]] std::span<std::byte> light_count_in(std::uint32_t slot) const;
+  [[nodiscard]] FrameCounts counts_of(std::uint64_t frame, std::uint32_t slot) const;
   [[nodiscard]] Result<Growth> grow(GrownPlan grown);
 
   Device device_;
   const Method* method_ = nullptr;
   Problem problem_;
   Buffer frame_;
-  Buffer counts_;                     ///< a slot for each frame in flight
+  Buffer light_counts_;               ///< of the GPU, read back: one for each frame in flight
   std::vector<std::uint64_t> slots_;  ///< the frame that has each, or FREE
   std::uint32_t last_slot_ = 0;
   PlanRunner runner_;
@@ -153,6 +152,8 @@ class LAMPLIGHT_API Culler {
   std::vector<Retired> retired_;
   std::uint64_t frames_ = 0;       ///< that were recorded
   std::uint64_t first_frame_ = 1;  ///< of the runner
+  std::uint64_t last_finished_ = 0;
+  shared::Counters finished_counters_{};  ///< of that frame
 };
 
 }  // namespace lamp::vulkan

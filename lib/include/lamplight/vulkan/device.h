@@ -18,8 +18,8 @@
 namespace lamp::vulkan {
 
 /// The features to enable, chained for VkDeviceCreateInfo::pNext or to merge into an engine's own chain.
-/// Vulkan 1.3: scalar block layout, subgroup size control, full subgroups, synchronization2, dynamic rendering,
-/// maintenance4.
+/// Vulkan 1.0: stores and atomics in fragment shaders. Later: scalar block layout, subgroup size control, full
+/// subgroups, synchronization2, dynamic rendering, maintenance4.
 struct LAMPLIGHT_API RequiredFeatures {
   /// VK_FALSE: none of them yet, for vkGetPhysicalDeviceFeatures2 to fill.
   explicit RequiredFeatures(VkBool32 enabled = VK_TRUE);

@@ -13,13 +13,14 @@ enum class MemoryUse : std::uint8_t {
   device,    ///< GPU only
   upload,    ///< host writes, GPU reads; mapped
   readback,  ///< GPU writes, host reads; mapped
+  counts,    ///< GPU adds up, host reads few bytes; mapped, and the device's own memory where such can be mapped
 };
 
 /// A part of a device's memory, which Lamplight binds a buffer to.
 struct Allocation {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;  ///< bytes
-  void* mapped = nullptr;   ///< upload and readback: the first byte at `offset`, coherent, until it is released
+  void* mapped = nullptr;   ///< all but device: the first byte at `offset`, coherent, until it is released
   void* host = nullptr;     ///< whatever the host wants to know it by
 };
 

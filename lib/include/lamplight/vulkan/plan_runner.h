@@ -46,9 +46,6 @@ struct FrameCounts {
   shared::Counters counters{};
   std::vector<std::uint32_t> needed;  ///< of the plan's capacities, in their order; the most of any view
 };
-/// Bytes of those in a read-back buffer, and from there.
-[[nodiscard]] LAMPLIGHT_API std::uint64_t count_bytes(const Plan& plan);
-[[nodiscard]] LAMPLIGHT_API FrameCounts read_counts(const Plan& plan, std::span<const std::byte> bytes);
 
 class LAMPLIGHT_API PlanRunner {
  public:
@@ -78,8 +75,10 @@ class LAMPLIGHT_API PlanRunner {
   /// The pipeline stages that its passes run in: inputs must be visible to these, of shaders.
   [[nodiscard]] VkPipelineStageFlags2 stages() const;
 
-  /// Records the copy of the frame's counts to a mapped buffer, for `read_counts` after the frame's fence.
-  void record_counts(Recorder& recorder, const Buffer& to, std::uint64_t offset = 0);
+  /// Records that the host will read the counts of the last record, after the frame's fence.
+  void record_counts(Recorder& recorder);
+  /// What the frame that was recorded last for that slot counted. Until it has run, nothing.
+  [[nodiscard]] FrameCounts counts(std::uint32_t slot = 0) const;
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
   /// A host pass of the last record(), and how long it took on the CPU.
@@ -124,7 +123,8 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] std::optional<Error> check_depths(const PlanInputs& inputs) const;
   [[nodiscard]] Resource resource(ResourceId id, const PlanInputs& inputs, std::uint32_t view) const;
   [[nodiscard]] Resource all_views(ResourceId id, const PlanInputs& inputs) const;
-  [[nodiscard]] BufferPart part(ResourceId id, std::uint32_t view) const;
+  [[nodiscard]] BufferPart part(ResourceId id, std::uint32_t view, std::uint32_t slot) const;
+  [[nodiscard]] std::span<std::byte> count_bytes(std::uint32_t slot) const;
   [[nodiscard]] Result<Sequence> build(const Device& device, const std::vector<Pass>& passes,
                                        const ShaderSource& shaders);
   [[nodiscard]] std::optional<Error> make_sets(const Device& device, BuiltPass& built);
@@ -136,13 +136,13 @@ class LAMPLIGHT_API PlanRunner {
   void run_on_host(const Pass& pass, const PlanInputs& inputs, std::uint32_t view);
   void upload(Recorder& recorder, std::uint32_t slot);
   void record_together(Recorder& recorder, const Sequence& sequence, const Range& range, const PlanInputs& inputs);
-  void dispatch(const Recorder& recorder, const Pass& pass, const shared::Frame& frame, std::uint32_t view) const;
-  void draw(const Recorder& recorder, const Pass& pass, const shared::Frame& frame, std::uint32_t view) const;
+  void dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs, std::uint32_t view) const;
+  void draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs, std::uint32_t view) const;
   [[nodiscard]] bool is_kept(std::uint32_t view, const shared::Frame& frame, std::uint64_t record);
   void zero_buffers(Recorder& recorder, const PlanInputs& inputs);
 
   Plan plan_;
-  std::vector<Buffer> buffers_;  ///< with a part for each view
+  std::vector<Buffer> buffers_;  ///< with a part for each view; of counts, all of them for each slot
   std::vector<Buffer> slots_;    ///< of each buffer of upload memory, one behind the other, mapped; else none
   OwnedSampler depth_sampler_;
   Buffer every_light_;  ///< a tree of every light, where the plan reads one and the host brings none

@@ -16,4 +16,4 @@
 #define lookup_buckets LookupBuckets(LOOKUP_ADDRESSES[lookup_buckets_PLACE]).at_address
 #define lookup_entries LookupEntries(LOOKUP_ADDRESSES[lookup_entries_PLACE]).at_address
 #define lookup_tree LookupTree(LOOKUP_ADDRESSES[lookup_tree_PLACE]).at_address
-#define lookup_totals LookupTotals(LOOKUP_ADDRESSES[lookup_totals_PLACE]).at_address
+#define lookup_level_bits LookupLevels(LOOKUP_ADDRESSES[lookup_level_bits_PLACE]).at_address

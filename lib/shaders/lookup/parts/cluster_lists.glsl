@@ -1,10 +1,9 @@
-// Clusters, each a range of one shared list. A range beyond its end means what its tile's bits say, and every light where
-// there are no bits.
+// Clusters, each a range of one shared list. NO_RANGE means what the tile's bits say, and every light where there are no
+// bits.
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/cluster_cell.glsl"
 
-LOOKUP_CONSTANT(5, uint, LOOKUP_ENTRIES, 1);
-LOOKUP_CONSTANT(6, uint, LOOKUP_WORDS, 0);  // of a tile's bits
+LOOKUP_CONSTANT(5, uint, LOOKUP_WORDS, 0);  // of a tile's bits
 LOOKUP_BUFFER(1, LookupRanges, uvec2, lookup_ranges);
 LOOKUP_BUFFER(2, LookupLists, uint, lookup_lists);
 LOOKUP_BUFFER(3, LookupBits, uint, lookup_bits);
@@ -31,9 +30,8 @@ Walk walk_nothing() { return walk_from(0u, 0u, NO_WORD); }
 
 Walk walk_of_cell(uint view, uint cell) {
   const uvec2 range = lookup_ranges[view * (LOOKUP_RANGES_VIEW / 2u) + cell];
-  const bool fits = range.x <= LOOKUP_ENTRIES && range.y <= LOOKUP_ENTRIES - range.x;
   const uint first = view * LOOKUP_LISTS_VIEW + range.x;
-  if (fits) return walk_from(first, first + range.y, NO_WORD);
+  if (range.y != NO_RANGE) return walk_from(first, first + range.y, NO_WORD);
   const uint tile = cell % square_count(lookup_frames[view], LOOKUP_TILE_PX);
   const uint first_word = view * LOOKUP_BITS_VIEW + tile * LOOKUP_WORDS;
   return walk_from(0u, lookup_light_count(), first_word);
