@@ -196,15 +196,13 @@ TEST_P(EveryMethod, ReadsRadialBoundsExactlyIfAsked) {
             plan.lookup.bindings.end());
 }
 
-// Meshes are drawn, so it takes a method that draws.
 TEST_P(EveryMethod, ReadsLightMeshesExactlyIfAsked) {
   const Method& method = *GetParam();
   EXPECT_FALSE(lamp::make_plan(method, ordinary_problem(defaults_of(method))).value().binds(lamp::INPUT_MESHES));
   const lamp::Result<Options> cut = lamp::resolve_options(method, {"proxy=cut"});
   ASSERT_EQ(cut.ok(), method.name.starts_with("drobot-raster"));
   if (!cut) return;
-  const Plan plan = lamp::make_plan(method, ordinary_problem(cut.value())).value();
-  EXPECT_TRUE(plan.binds(lamp::INPUT_MESHES));
+  EXPECT_TRUE(lamp::make_plan(method, ordinary_problem(cut.value())).value().binds(lamp::INPUT_MESHES));
 }
 
 // What is made ahead is read by the look-up, and by nothing in a frame.

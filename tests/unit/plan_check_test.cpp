@@ -170,7 +170,7 @@ const Rule PASS_RULES[] = {
     {"GpuWritesUpload", [](Plan& p) { p.passes[COUNT].bindings[3].access = Access::read_write; }, "pass count",
      "binding 3 writes to an upload buffer"},
     {"BindingToNothing", [](Plan& p) { p.passes[COUNT].bindings[1].resource = LISTS + 1; }, "pass count",
-     "binding 1 names resource 11, which does not exist"},
+     "binding 1 names resource 12, which does not exist"},
     {"UnsetBinding", [](Plan& p) { p.passes[COUNT].bindings[1] = {}; }, "pass count", "binding 1 names resource"},
     {"WriteToInput", [](Plan& p) { p.passes[COUNT].bindings[2].access = Access::write; }, "pass count",
      "binding 2 writes to an input"},
