@@ -29,7 +29,6 @@ using lamp::OccluderTriangle;
 using lamp::StillOccluders;
 using lamp::WorldTree;
 using lamp::WorldTreeInfo;
-using lamp::app::procedural::Random;
 
 constexpr float INF = std::numeric_limits<float>::infinity();
 constexpr std::uint64_t PLENTY = 64ULL << 20;
@@ -38,7 +37,7 @@ using Points = std::vector<glm::vec3>;
 using PackedLights = std::vector<lamp::shared::Light>;
 
 Points points_in(std::uint64_t seed, std::size_t count, const glm::vec3& low, const glm::vec3& high) {
-  Random random(seed);
+  lamp::app::procedural::Random random(seed);
   Points points;
   for (std::size_t i = 0; i < count; ++i) {
     const float x = random.between(low.x, high.x);
@@ -50,7 +49,7 @@ Points points_in(std::uint64_t seed, std::size_t count, const glm::vec3& low, co
 
 /// Point lights and spots, in a cube around a centre.
 PackedLights lights_around(const glm::vec3& center, float half, float min_range, float max_range, std::size_t count) {
-  Random random(3);
+  lamp::app::procedural::Random random(3);
   std::vector<Light> lights;
   for (const glm::vec3& position : points_in(4, count, center - half, center + half)) {
     Light light{.position = position, .range = random.between(min_range, max_range)};
@@ -186,7 +185,7 @@ TEST(WorldTree, KeepsToItsBudgetAndSaysWhatThatCosts) {
 TEST(WorldTree, KnowsLightsOfEveryRange) {
   std::vector<Light> lights;
   Points points{{INF, 0, 0}, {0, std::nanf(""), 0}, {0, 0, -1e30F}};
-  Random random(5);
+  lamp::app::procedural::Random random(5);
   for (int exponent = -20; exponent <= 59; ++exponent) {
     const float range = std::ldexp(random.between(1.0F, 2.0F), exponent);
     lights.push_back({.position = {range, 0.0F, 0.0F}, .range = range});
