@@ -273,11 +273,12 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     const bool warm = round >= info.group.warm_up;
     const std::uint32_t number = warm ? round - info.group.warm_up : 0;
     const BenchFrame frame = bench_frame(scene, info.group, number);
-    renderer.set_frame(frame.views, frame.lights);
+    const bool each_its_own = info.group.still > 0.0;  // each may have lists of still lights of its own
+    if (!each_its_own) renderer.set_frame(frame.views, frame.lights);
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.runs() || has_enough(info, candidate, warm)) continue;
-      if (info.group.still > 0.0) {
+      if (each_its_own) {
         renderer.light_still(candidate.still_lists.get());
         renderer.set_frame(frame.views, frame.lights);
       }
