@@ -1,9 +1,10 @@
 // Lights that stand still, listed in a tree of cells over all of the world that they reach, ahead of all frames. A
-// light is left out of a cell only where it does not reach it or is proved not to see any of it. Based on: Drobot,
-// Improved Culling for Tiled and Clustered Rendering (2017), bonus slides: world-space sparse voxel trees with
-// occlusion computed ahead; bottom-up pruning: Breiman et al., Classification and Regression Trees (1984). Promise:
-// pure code, no device. Of any point, the list has every light that reaches and sees it, ascending. What does not fit
-// the budget is kept coarser, never left out. SPDX-License-Identifier: Apache-2.0
+// light is left out of a cell only where it does not reach it or is proved not to see any of it.
+// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering (2017), bonus slides: world-space sparse voxel
+// trees with occlusion computed ahead; bottom-up pruning: Breiman et al., Classification and Regression Trees (1984).
+// Promise: pure code, no device. Of any point, the list has every light that reaches and sees it, ascending. What does
+// not fit the budget is kept coarser, never left out.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -24,12 +25,10 @@ struct WorldTreeInfo {
   std::span<const shared::Light> lights;            ///< light i has id i; at most MAX_LIGHTS (method.h)
   std::shared_ptr<const StillOccluders> occluders;  ///< kept with the tree; null: nothing hides anything
   std::uint64_t budget = 64ULL << 20;               ///< bytes of `words`, as built
-  std::uint32_t detail =
-      16;  ///< cells in a light's range, at most, 1 .. 64; fewer where the budget would not hold them
+  std::uint32_t detail = 16;  ///< cells in a light's range, at most, 1 .. 64; fewer where the budget holds no more
   std::uint32_t texels = 32;  ///< a side of a face of OcclusionMap, 1 .. 1024
   std::uint32_t threads = 0;  ///< that build; 0: as many as the machine has
-  float eyes_m =
-      0.0F;  ///< pixels ask by positions that rounding moves with their eye's distance from the origin: at most this
+  float eyes_m = 0.0F;        ///< the most that an eye is away from the origin: rounding moves its pixels' positions
 };
 
 /// What the options of the method `world-tree` say; without occlusion=ahead, no occluders.
@@ -41,9 +40,9 @@ struct WorldTreeCounts {
   std::uint64_t outside = 0;  ///< lights in the list of points outside of the tree
   std::uint32_t levels = 0;   ///< from the root to the finest leaf
   double cell_m = 0.0;        ///< side of the finest cell that there may be
-  double detail = 0.0;  ///< cells in a light's range, at most; less than asked for where the budget would not hold them
-  double coarser = 1.0;      ///< and lights of an average cell, over those before cells were merged to keep the budget
-  bool every_light = false;  ///< the budget holds no list at all: every point walks every light
+  double detail = 0.0;        ///< cells in a light's range, at most; less than asked for where the budget holds no more
+  double coarser = 1.0;       ///< and lights of an average cell, over those before cells were merged to keep the budget
+  bool every_light = false;   ///< the budget holds no list at all: every point walks every light
 };
 
 /// A part of `words` that is no longer what it was.
