@@ -40,7 +40,7 @@ TEST(BenchSuite, EveryBuiltInSuiteIsOneAndNamesItself) {
   const std::vector<std::string> names = suite_names();
   for (const char* name : {"quick", "stewart-1.3", "stewart-1.6", "stewart-flight", "article", "primal", "tests",
                            "tile-size", "lights", "drobot-scalarisation", "drobot-memory", "drobot-zbin",
-                           "drobot-raster", "proxies", "adversarial", "auto", "hosts"})
+                           "drobot-raster", "proxies", "shadows", "adversarial", "auto", "hosts"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   for (const std::string& name : names) {
     SCOPED_TRACE(name);
