@@ -85,8 +85,8 @@ void check(const PlaceLights& how) {
   if (!is_fraction) {
     throw Error(fmt::format("spots: the fraction must lie in 0 .. 1, got {}", how.spots));
   }
-  if (!(how.still >= 0.0F && how.still <= 1.0F))
-    throw Error(fmt::format("still: the fraction must lie in 0 .. 1, got {}", how.still));
+  const bool is_part = how.still >= 0.0F && how.still <= 1.0F;
+  if (!is_part) throw Error(fmt::format("still: the fraction must lie in 0 .. 1, got {}", how.still));
   const bool automatic = how.min_range == 0.0F && how.max_range == 0.0F;
   const bool is_range = how.min_range > 0.0F && how.min_range <= how.max_range && std::isfinite(how.max_range);
   const bool none = without_range(how) && how.min_range > 0.0F;

@@ -71,6 +71,8 @@ bool run(const Options& options) {
   Gpu gpu(options.validate);
   const double aspect = double{SIZE.width} / SIZE.height;
   const glm::dmat4 clip_from_view = reversed_projection(-0.42 * aspect, 0.42 * aspect, -0.42, 0.42);
+  // The method is `clustered`, since none is named. mean_capacity=1 is little room, to show how it grows; by default
+  // there is enough.
   // lamplight {
   const auto instance = value_of(lamp::vulkan::load_instance(vkGetInstanceProcAddr, gpu.instance, VK_API_VERSION_1_3));
   if (const auto lack = lamp::vulkan::check_device(instance, gpu.physical)) throw std::runtime_error(lack->text());
@@ -78,11 +80,7 @@ bool run(const Options& options) {
   gpu.make_device(features.base, lamp::vulkan::useful_extensions(instance, gpu.physical));
   const auto device = value_of(lamp::vulkan::make_device(instance, gpu.physical, gpu.device));
   auto culler = value_of(lamp::vulkan::Culler::create(
-      device, {.width = SIZE.width,
-               .height = SIZE.height,
-               .light_capacity = LIGHTS,
-               .method = "clustered",
-               .options = {"mean_capacity=1"}}));  // little room, to show how it grows; by default there is enough
+      device, {.width = SIZE.width, .height = SIZE.height, .light_capacity = LIGHTS, .options = {"mean_capacity=1"}}));
   const lamp::View view = value_of(lamp::View::create(SIZE.width, SIZE.height, clip_from_view, view_from_world()));
   // }
 

@@ -15,7 +15,7 @@ TEST_F(Still, ListsAreCheckedAndCounted) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json row = nlohmann::json::parse(run.out).at(0);
   EXPECT_EQ(row.at("image_max_abs_diff"), 0.0);
-  const nlohmann::json still = row.at("still");
+  const nlohmann::json& still = row.at("still");
   EXPECT_EQ(still.at("lights"), 50);
   EXPECT_GT(still.at("bytes"), 0);
   ASSERT_EQ(still.at("checks").size(), 2);

@@ -146,7 +146,7 @@ TEST_F(GpuTest, FlatTrianglesOfLightMeshesKeepTheirDistance) {
   const ShadowReach reach = reach_of(ShadowReach::Kind::meshes, lit, atlas, ShadowFilter::hard);
   for (const Mesh& mesh : corners_of(reach, static_cast<std::uint32_t>(lit.lights.size()), 0))
     for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
-      std::array<glm::dvec3, 3> v;
+      std::array<glm::dvec3, 3> v{};
       for (std::size_t k = 0; k < 3; ++k)
         v[k] = glm::dvec3(glm::vec3(mesh.corners[i + k].way)) * double{mesh.corners[i + k].flatness};
       for (int a = 0; a <= 20; ++a)

@@ -92,8 +92,8 @@ TEST_P(ShadowCut, OfProxiesChangesNoPicture) {
       renderer.set_frame(i % 3 == 2 ? parallel : view, lights);
       const auto& [name, settings] = ways[i];
       SCOPED_TRACE(fmt::format("{} {} {}", name, fmt::join(settings, " "), static_cast<int>(filter)));
-      const auto lighting = [&, &name = name, &settings = settings](const char* proxy) {
-        LightingInfo info{.method = take(find_method(name)),
+      const auto lighting = [&, &method_name = name, &method_settings = settings](const char* proxy) {
+        LightingInfo info{.method = take(find_method(method_name)),
                           .width = 2 * WIDTH,
                           .height = 2 * HEIGHT,
                           .light_capacity = COUNT,

@@ -118,7 +118,7 @@ TEST_P(StillLights, HlslWalksAsGlslDoes) {
 /// The check finds what lists lack, and walks of other lists.
 TEST_P(StillLights, TheCheckSeesFaults) {
   make({});
-  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+  const Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
   const auto still = std::span(lights_).last(STILL);
   const TriangleLists fewer =
       take(make_triangle_lists({.triangles = triangles_, .lights = still.first(STILL / 2), .slack_m = 0.01F}));

@@ -77,8 +77,8 @@ class Merging {
     const glm::dvec3 cross = glm::cross(b - a, c - a);
     const double area = glm::length(cross);
     const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-    // Also where a number is not finite.
-    if (!(area > LEAST_ALTITUDE * longest * longest && std::isfinite(area) && std::isfinite(longest))) {
+    const bool is_finite = std::isfinite(area) && std::isfinite(longest);
+    if (!is_finite || area <= LEAST_ALTITUDE * longest * longest) {
       ++left_out_;
       return;
     }

@@ -13,15 +13,15 @@
 namespace lamp::world {
 
 struct ConvexPolygon {
-  std::vector<glm::dvec3> corners{};  ///< counter-clockwise around the normal
-  glm::dvec3 normal{0.0};             ///< unit
-  double offset = 0.0;                ///< dot(normal, a point of the plane)
-  double thickness = 0.0;             ///< m; corners of its triangles are so near to the plane
-  double tilt = 0.0;                  ///< |normal - a triangle's|, at most
+  std::vector<glm::dvec3> corners;  ///< counter-clockwise around the normal
+  glm::dvec3 normal{0.0};           ///< unit
+  double offset = 0.0;              ///< dot(normal, a point of the plane)
+  double thickness = 0.0;           ///< m; corners of its triangles are so near to the plane
+  double tilt = 0.0;                ///< |normal - a triangle's|, at most
 };
 
 struct MergedTriangles {
-  std::vector<ConvexPolygon> polygons{};
+  std::vector<ConvexPolygon> polygons;
   std::size_t left_out = 0;  ///< triangles without area or with a corner that is not finite
 };
 

@@ -134,7 +134,7 @@ bool LightCells::leaves_root() const {
   const glm::dvec3 low = grid_.corner(0, glm::uvec3(0)) - (center_ - range_);
   const glm::dvec3 high = center_ + range_ - (grid_.corner(0, glm::uvec3(0)) + grid_.side_m());
   const double room = -grid_.slack_m();
-  return !(low.x < room && low.y < room && low.z < room && high.x < room && high.y < room && high.z < room);
+  return std::max({low.x, low.y, low.z, high.x, high.y, high.z}) >= room;
 }
 
 bool LightCells::reaches_brick(std::uint32_t level, const glm::uvec3& brick) const {

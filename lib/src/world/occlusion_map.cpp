@@ -260,7 +260,7 @@ struct OcclusionMap::Part {
     return {2.0 * texel * half - 1.0 - EDGE_ROOM, 2.0 * (texel + 1.0) * half - 1.0 + EDGE_ROOM};
   }
   [[nodiscard]] double from(const Range& over_u, const Range& over_v) const {
-    double w = std::max({min.z, 0.0, least_w(min.x, max.x, over_u), least_w(min.y, max.y, over_v)});
+    const double w = std::max({min.z, 0.0, least_w(min.x, max.x, over_u), least_w(min.y, max.y, over_v)});
     if (plane == glm::dvec3(0.0)) return w;
     const double most = std::max(plane.x * over_u.low, plane.x * over_u.high) +
                         std::max(plane.y * over_v.low, plane.y * over_v.high) + plane.z;

@@ -46,8 +46,8 @@ std::optional<Error> check(std::uint32_t id, const shared::Light& light) {
   if (!(light.range >= 0.0F)) return Error{source, "range must be >= 0, got " + std::to_string(light.range)};
   if (light.type != shared::LIGHT_POINT && light.type != shared::LIGHT_SPOT)
     return Error{source, "type must be LIGHT_POINT or LIGHT_SPOT, got " + std::to_string(light.type)};
-  if (light.type == shared::LIGHT_SPOT &&
-      !(is_unit(Vec3(light.direction)) && light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F))
+  const bool is_cone = is_unit(Vec3(light.direction)) && light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F;
+  if (light.type == shared::LIGHT_SPOT && !is_cone)
     return Error{source, "a spot needs a direction of unit length and an outer angle from 0 to pi / 2"};
   return std::nullopt;
 }
