@@ -99,7 +99,7 @@ TEST_P(ShadowCut, OfProxiesChangesNoPicture) {
                           .light_capacity = COUNT,
                           .transparency = !scene.gpu.blended().empty(),
                           .shadows = filter};
-        std::vector<std::string> all = settings;
+        std::vector<std::string> all = method_settings;
         all.push_back(fmt::format("proxy={}", proxy));
         info.options = take(resolve_options(*info.method, all));
         return Lighting(test_context().device(), shader_library(), info);
