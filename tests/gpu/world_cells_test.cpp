@@ -11,6 +11,7 @@
 #include "scene/flight.h"
 #include "scene/procedural_random.h"
 #include "scene/random_points.h"
+#include "world_lights.h"
 
 namespace lamp::app {
 namespace {
@@ -20,8 +21,10 @@ constexpr std::size_t POINTS = 2000;  // of each kind
 constexpr std::uint32_t LIGHTS = 1000;
 constexpr float INF = std::numeric_limits<float>::infinity();
 
-using Points = std::vector<glm::vec3>;
 using procedural::Random;
+using test::lights_around;
+using test::Points;
+using test::points_in;
 
 View view_from(const glm::vec3& eye) {
   Camera camera{.name = "any"};
@@ -61,32 +64,6 @@ Answered ask(const Asked& asked) {
   return answered;
 }
 
-Points points_in(std::uint64_t seed, std::size_t count, const glm::vec3& low, const glm::vec3& high) {
-  Random random(seed);
-  Points points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = random.between(low.x, high.x);
-    const float y = random.between(low.y, high.y);
-    points.emplace_back(x, y, random.between(low.z, high.z));
-  }
-  return points;
-}
-
-/// Point lights and spots, in a cube around a centre.
-std::vector<shared::Light> lights_around(const glm::vec3& center, float half, float min_range, float max_range,
-                                         std::uint32_t count = LIGHTS) {
-  Random random(3);
-  std::vector<Light> lights;
-  for (const glm::vec3& position : points_in(4, count, center - half, center + half)) {
-    Light light{.position = position, .range = random.between(min_range, max_range)};
-    light.type = random.chance(0.5F) ? LightType::spot : LightType::point;
-    light.direction = {random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(0.1F, 1.0F)};
-    light.outer_angle = random.between(0.0F, 1.57F);
-    lights.push_back(light);
-  }
-  return pack(lights);
-}
-
 class WorldCells : public GpuTest {};
 
 class WorldCellsInScene : public GpuTest, public ::testing::WithParamInterface<BuiltinScene> {};
@@ -108,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Of, WorldCellsInScene, ::testing::ValuesIn(builtin_scen
                          [](const auto& test) { return test_name(test.param.name); });
 
 TEST_F(WorldCells, WalkLittleMoreThanWhatReachesAPoint) {
-  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F),
+  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
                     .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F))};
   const Answered answered = ask(asked);
   EXPECT_LT(answered.findings.waste(), 2.3);
@@ -119,7 +96,7 @@ TEST_F(WorldCells, AreRightAHundredKilometresAway) {
   const glm::vec3 there(1e5F, -1e5F, 1e5F);
   for (const glm::vec3& eye : {there, glm::vec3(0.0F)}) {
     const Asked asked{.view = view_from(eye),
-                      .lights = lights_around(there, 20.0F, 1.0F, 8.0F),
+                      .lights = lights_around(there, 20.0F, 1.0F, 8.0F, LIGHTS),
                       .points = points_in(1, POINTS, there - 20.0F, there + 20.0F)};
     EXPECT_GT(ask(asked).findings.useful, POINTS);
   }
@@ -149,7 +126,7 @@ TEST_F(WorldCells, AreRightJustBelowAFaceOfABrick) {
       point[axis] = below;
       points.push_back(point);
     }
-  ask({.lights = lights_around({}, 1.0F, 0.5F, 1.5F), .points = points});
+  ask({.lights = lights_around({}, 1.0F, 0.5F, 1.5F, LIGHTS), .points = points});
 }
 
 TEST_F(WorldCells, NameTheLightsOfInfiniteRangeWherePositionsAreNone) {
@@ -175,7 +152,7 @@ TEST_F(WorldCells, TakeAllLightsInOneCell) {
 }
 
 TEST_F(WorldCells, WalkEveryLightWhereRoomIsLacking) {
-  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F),
+  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
                     .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
                     .settings = {"mean_bricks=1"}};
   const Answered answered = ask(asked);
@@ -185,7 +162,7 @@ TEST_F(WorldCells, WalkEveryLightWhereRoomIsLacking) {
 }
 
 TEST_F(WorldCells, AreTheSameInEveryRun) {
-  const Asked asked{.lights = lights_around({}, 5.0F, 1.0F, 4.0F),
+  const Asked asked{.lights = lights_around({}, 5.0F, 1.0F, 4.0F, LIGHTS),
                     .points = points_in(1, POINTS, glm::vec3(-5.0F), glm::vec3(5.0F))};
   PointWalks walks(test_context(), shader_library(), plan_of(asked), asked.view, asked.lights);
   const PointLights first = walks.walk(asked.points);
@@ -195,7 +172,7 @@ TEST_F(WorldCells, AreTheSameInEveryRun) {
 TEST_F(WorldCells, TakeBricksOfEverySize) {
   for (const char* brick : {"brick=50", "brick=63", "brick=250", "brick=1600"}) {
     SCOPED_TRACE(brick);
-    ask({.lights = lights_around({}, 10.0F, 0.01F, 4.0F),
+    ask({.lights = lights_around({}, 10.0F, 0.01F, 4.0F, LIGHTS),
          .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
          .settings = {brick}});
   }

@@ -14,9 +14,9 @@
 #include "render/point_check.h"
 #include "render/scene_occluders.h"
 #include "scene/flight.h"
-#include "scene/procedural_random.h"
 #include "scene/random_points.h"
 #include "scene/still_triangles.h"
+#include "world_lights.h"
 
 namespace lamp::app {
 namespace {
@@ -26,7 +26,8 @@ constexpr std::size_t POINTS = 500;  // of each kind
 constexpr std::uint32_t LIGHTS = 300;
 constexpr std::uint32_t WORDS = 11;  // of a pixel, in walks.comp
 
-using Points = std::vector<glm::vec3>;
+using test::Points;
+using test::points_in;
 
 Plan plan_of(std::size_t lights, glm::uvec2 size = {SIDE, SIDE}) {
   const Method& method = *take(find_method("world-tree"));
@@ -74,25 +75,14 @@ INSTANTIATE_TEST_SUITE_P(Of, WorldTreeInScene, ::testing::ValuesIn(builtin_scene
 
 class WorldTreeLookUp : public GpuTest {};
 
-Points around(const glm::vec3& center, float half) {
-  Points points;
-  procedural::Random random(9);
-  for (std::size_t i = 0; i < 1000; ++i) {
-    const float x = random.between(-half, half);
-    const float y = random.between(-half, half);
-    points.push_back(center + glm::vec3(x, y, random.between(-half, half)));
-  }
-  return points;
-}
-
 TEST_F(WorldTreeLookUp, IsRightFarAwayNowhereAndOfEveryLight) {
   const View view = made_up_view({SIDE, SIDE}, 0.0);
   for (const float far_away : {0.0F, 1e5F}) {
     std::vector<Light> lights;
-    for (const glm::vec3& position : around(glm::vec3(far_away), 20.0F))
+    for (const glm::vec3& position : points_in(9, 1000, glm::vec3(far_away - 20.0F), glm::vec3(far_away + 20.0F)))
       if (lights.size() < 200) lights.push_back({.position = position, .range = 6.0F});
     lights.push_back({.position = {}, .range = std::numeric_limits<float>::infinity()});
-    Points points = around(glm::vec3(far_away), 30.0F);
+    Points points = points_in(9, 1000, glm::vec3(far_away - 30.0F), glm::vec3(far_away + 30.0F));
     const float nan = std::numeric_limits<float>::quiet_NaN();
     points.insert(points.end(), {{nan, 0, 0}, {0, std::numeric_limits<float>::infinity(), 0}, {-1e30F, 0, 0}});
     const std::vector<shared::Light> packed = pack(lights);

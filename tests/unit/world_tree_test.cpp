@@ -20,6 +20,7 @@
 #include "scene/procedural_random.h"
 #include "scene/random_points.h"
 #include "scene/still_triangles.h"
+#include "world_lights.h"
 
 namespace {
 
@@ -33,33 +34,10 @@ using lamp::WorldTreeInfo;
 constexpr float INF = std::numeric_limits<float>::infinity();
 constexpr std::uint64_t PLENTY = 64ULL << 20;
 
-using Points = std::vector<glm::vec3>;
+using lamp::test::lights_around;
+using lamp::test::Points;
+using lamp::test::points_in;
 using PackedLights = std::vector<lamp::shared::Light>;
-
-Points points_in(std::uint64_t seed, std::size_t count, const glm::vec3& low, const glm::vec3& high) {
-  lamp::app::procedural::Random random(seed);
-  Points points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = random.between(low.x, high.x);
-    const float y = random.between(low.y, high.y);
-    points.emplace_back(x, y, random.between(low.z, high.z));
-  }
-  return points;
-}
-
-/// Point lights and spots, in a cube around a centre.
-PackedLights lights_around(const glm::vec3& center, float half, float min_range, float max_range, std::size_t count) {
-  lamp::app::procedural::Random random(3);
-  std::vector<Light> lights;
-  for (const glm::vec3& position : points_in(4, count, center - half, center + half)) {
-    Light light{.position = position, .range = random.between(min_range, max_range)};
-    light.type = random.chance(0.5F) ? LightType::spot : LightType::point;
-    light.direction = {random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(0.1F, 1.0F)};
-    light.outer_angle = random.between(0.0F, 1.57F);
-    lights.push_back(light);
-  }
-  return lamp::pack(lights);
-}
 
 WorldTree built(const WorldTreeInfo& info) {
   auto tree = WorldTree::build(info);

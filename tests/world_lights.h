@@ -1,0 +1,42 @@
+// Random points and lights in the world, for look-ups by position.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "lamplight/light.h"
+#include "scene/procedural_random.h"
+
+namespace lamp::test {
+
+using Points = std::vector<glm::vec3>;
+
+inline Points points_in(std::uint64_t seed, std::size_t count, const glm::vec3& low, const glm::vec3& high) {
+  app::procedural::Random random(seed);
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = random.between(low.x, high.x);
+    const float y = random.between(low.y, high.y);
+    points.emplace_back(x, y, random.between(low.z, high.z));
+  }
+  return points;
+}
+
+/// Point lights and spots, in a cube around a centre.
+inline std::vector<shared::Light> lights_around(const glm::vec3& center, float half, float min_range, float max_range,
+                                                std::size_t count) {
+  app::procedural::Random random(3);
+  std::vector<Light> lights;
+  for (const glm::vec3& position : points_in(4, count, center - half, center + half)) {
+    Light light{.position = position, .range = random.between(min_range, max_range)};
+    light.type = random.chance(0.5F) ? LightType::spot : LightType::point;
+    light.direction = {random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(0.1F, 1.0F)};
+    light.outer_angle = random.between(0.0F, 1.57F);
+    lights.push_back(light);
+  }
+  return pack(lights);
+}
+
+}  // namespace lamp::test
