@@ -3,17 +3,19 @@
 #include "render/scene_occluders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+
+#include "scene/triangles.h"
 
 namespace lamp::app {
 namespace {
 
 /// Where a triangle comes from.
 struct Origin {
-  std::uint32_t first_index = 0;  ///< of the scene's
-  std::uint32_t vertex_offset = 0;
-  std::uint32_t material = 0;
+  const Mesh* mesh = nullptr;
+  std::uint32_t triangle = 0;
 };
 
 std::uint32_t wrapped(std::int64_t at, std::uint32_t size, Wrap wrap) {
@@ -43,13 +45,14 @@ double alpha_at(const Image& image, const Texture& texture, const glm::dvec2& uv
 }
 
 bool is_there(const Scene& scene, const Origin& origin, double u, double v) {
-  const Material& material = scene.materials[origin.material];
+  const Material& material = scene.materials[origin.mesh->material];
   if (material.alpha_mode != AlphaMode::mask) return true;
   glm::dvec2 uv(0.0);
   double alpha = 0.0;
   const double weights[] = {1.0 - u - v, u, v};
-  for (std::uint32_t i = 0; i < 3; ++i) {
-    const Vertex& vertex = scene.vertices[scene.indices[origin.first_index + i] + origin.vertex_offset];
+  const std::array<const Vertex*, 3> corners = corners_of(scene, *origin.mesh, origin.triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vertex& vertex = *corners[i];
     uv += weights[i] * glm::dvec2(vertex.uv[material.base_color_texture.uv]);
     alpha += weights[i] * vertex.color.a / 255.0;
   }
@@ -67,14 +70,9 @@ Occluders scene_occluders(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
-    for (std::uint32_t at = 0; at + 2 < mesh.index_count; at += 3) {
-      Triangle triangle{};
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const glm::vec3& p = scene.vertices[scene.indices[mesh.first_index + at + i] + mesh.vertex_offset].position;
-        triangle.corners[i] = glm::dmat4(instance.world_from_object) * glm::dvec4(glm::dvec3(p), 1.0);
-      }
-      triangles.push_back(triangle);
-      origins.push_back({mesh.first_index + at, mesh.vertex_offset, mesh.material});
+    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
+      triangles.push_back({world_triangle<double>(scene, instance, t)});
+      origins.push_back({&mesh, t});
     }
   }
   return Occluders(std::move(triangles),

@@ -5,6 +5,8 @@
 #include <array>
 #include <unordered_map>
 
+#include "scene/triangles.h"
+
 namespace lamp::app {
 namespace {
 

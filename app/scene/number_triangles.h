@@ -11,7 +11,4 @@ namespace lamp::app {
 /// order and turn the same way, but may begin at another of their corners.
 void number_triangles(Scene& scene);
 
-/// How many triangles a mesh has; indices behind the last whole one draw nothing.
-[[nodiscard]] inline std::uint32_t triangle_count(const Mesh& mesh) { return mesh.index_count / 3; }
-
 }  // namespace lamp::app

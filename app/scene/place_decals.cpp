@@ -11,6 +11,7 @@
 
 #include "error.h"
 #include "scene/procedural_random.h"
+#include "scene/triangles.h"
 
 namespace lamp::app {
 namespace {
@@ -29,12 +30,8 @@ std::vector<Triangle> surfaces(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (scene.materials[mesh.material].alpha_mode != AlphaMode::opaque) continue;
-    for (std::uint32_t i = 0; i + 2 < mesh.index_count; i += 3) {
-      Triangle triangle;
-      for (std::uint32_t c = 0; c < 3; ++c) {
-        const std::uint32_t index = mesh.vertex_offset + scene.indices[mesh.first_index + i + c];
-        triangle.corners[c] = glm::vec3(instance.world_from_object * glm::vec4(scene.vertices[index].position, 1.0F));
-      }
+    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
+      Triangle triangle{.corners = world_triangle<float>(scene, instance, t)};
       const auto& [a, b, c] = triangle.corners;
       const double doubled = glm::length(glm::dvec3(glm::cross(b - a, c - a)));
       if (!(doubled > 1e-10) || !std::isfinite(doubled)) continue;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "scene/procedural_random.h"
+#include "scene/triangles.h"
 
 namespace lamp::app {
 namespace {
@@ -60,12 +61,8 @@ PointSource::PointSource(const Scene& scene, OpenAir air, const glm::vec3& eye)
     : air_(std::move(air)), bounds_(bounds(scene)), eye_(eye) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    for (std::uint32_t at = 0; at + 2 < mesh.index_count; at += 3) {
-      std::array<glm::vec3, 3> corners{};
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + at + i] + mesh.vertex_offset];
-        corners[i] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0F));
-      }
+    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
+      const std::array<glm::vec3, 3> corners = world_triangle<float>(scene, instance, t);
       const Facet facet{corners[0], corners[1] - corners[0], corners[2] - corners[0]};
       add(all_, facet);
       const glm::vec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/number_triangles.h"
+#include "scene/triangles.h"
 
 namespace lamp::app {
 namespace {
@@ -62,18 +62,19 @@ std::vector<StillTriangle> still_surfaces(const Scene& scene, bool painted) {
   std::vector<StillTriangle> triangles;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const glm::dmat4 world_from_object(instance.world_from_object);
     const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(instance.world_from_object)));
     for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
       StillTriangle& triangle = triangles.emplace_back();
       triangle.normal_tilt = tilts[instance.mesh];
       std::array<Frame, 3> frames;
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const Vertex& vertex = scene.vertices[scene.indices[mesh.first_index + 3 * t + i] + mesh.vertex_offset];
+      const std::array<const Vertex*, 3> corners = corners_of(scene, mesh, t);
+      const auto positions = world_triangle<double>(scene, instance, t);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vertex& vertex = *corners[i];
         frames[i].normal = normal_matrix * vertex.normal;
         frames[i].tangent =
             glm::vec4(glm::mat3(instance.world_from_object) * glm::vec3(vertex.tangent), vertex.tangent.w);
-        triangle.corners[i] = DVec3(glm::dvec3(world_from_object * glm::dvec4(glm::dvec3(vertex.position), 1.0)));
+        triangle.corners[i] = DVec3(positions[i]);
         triangle.normals[i] = Vec3(frames[i].normal);
       }
       if (triangle.normal_tilt > 0.0F && !keep_apart(frames)) triangle.normal_tilt = ANY_NORMAL;

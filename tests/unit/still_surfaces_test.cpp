@@ -12,6 +12,7 @@
 #include "scene/builtin.h"
 #include "scene/number_triangles.h"
 #include "scene/place_lights.h"
+#include "scene/triangles.h"
 
 namespace lamp::app {
 namespace {
