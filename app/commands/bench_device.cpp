@@ -94,9 +94,7 @@ std::uint32_t light_capacity(const BenchScene& scene, const Group& group) {
 }
 
 std::uint32_t standing_lights(const BenchScene& scene, const Group& group) {
-  const Request request = request_of(group, group.entries.front());
-  const std::vector<Light> generated(group.lights);
-  return still_lights(request, scene.scene, generated);
+  return still_lights(request_of(group, group.entries.front()), scene.scene, group.lights);
 }
 
 void check_views(std::span<const Group> groups) {
@@ -128,7 +126,7 @@ BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t numb
                                           .frame = frame,
                                           .frames = path_frames});
   made.lights = packed_lights(request, scene.scene, generated);
-  made.still = still_lights(request, scene.scene, generated);
+  made.still = still_lights(request, scene.scene, generated.size());
   return made;
 }
 

@@ -283,7 +283,7 @@ Setup make_setup(const Request& request) {
   setup.generated = place_lights(setup.scene, light_placement(request, setup.scene));
   setup.lights = packed_lights(request, setup.scene, setup.generated);
   setup.still_lists = request.still_lists != "off";
-  setup.still = still_lights(request, setup.scene, setup.generated);
+  setup.still = still_lights(request, setup.scene, setup.generated.size());
   setup.lights_note = fmt::format("{} generated{} + {} of the scene", setup.generated.size(),
                                   range_note(setup.generated), setup.scene.lights.size());
   setup.decals = requested_decals(request, setup.scene);

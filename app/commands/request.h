@@ -133,7 +133,7 @@ struct Setup {
 [[nodiscard]] std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene,
                                                        std::span<const Light> generated);
 /// How many of them stand still; 0 where nobody asks for it.
-[[nodiscard]] std::uint32_t still_lights(const Request& request, const Scene& scene, std::span<const Light> generated);
+[[nodiscard]] std::uint32_t still_lights(const Request& request, const Scene& scene, std::size_t generated);
 /// The decals. Throws Error for a capture, and for boxes that none can be.
 [[nodiscard]] std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene);
 /// The scene's lights and the generated ones are few enough, and as lights must be.

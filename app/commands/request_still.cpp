@@ -25,10 +25,6 @@ constexpr std::uint64_t LEAST_BYTES = 1U << 20;  // whatever few triangles a sce
 
 bool asks(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
 
-std::uint32_t still_generated(const Request& request, std::span<const Light> generated) {
-  return still_count({.count = static_cast<std::uint32_t>(generated.size()), .still = request.still});
-}
-
 /// m: of the farthest point of the scene that any view from within it, or these views, may see.
 float farthest(const Scene& scene, std::span<const View> views) {
   const Box box = bounds(scene);
@@ -70,9 +66,10 @@ void check_still(const Request& request) {
                     request.still_occlusion));
 }
 
-std::uint32_t still_lights(const Request& request, const Scene& scene, std::span<const Light> generated) {
+std::uint32_t still_lights(const Request& request, const Scene& scene, std::size_t generated) {
   if (!asks(request)) return 0;
-  return static_cast<std::uint32_t>(scene.lights.size()) + still_generated(request, generated);
+  return static_cast<std::uint32_t>(scene.lights.size()) +
+         still_count({.count = static_cast<std::uint32_t>(generated), .still = request.still});
 }
 
 std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene, std::span<const Light> generated) {

@@ -9,12 +9,6 @@
 #include "commands/stats.h"
 
 namespace lamp::app {
-namespace {
-
-double ratio(std::uint64_t walked, std::uint64_t needed) { return waste_of(walked, needed); }
-
-}  // namespace
-
 StillStats still_stats(const StillSetup& still) {
   return {.lights = still.lists.lights,
           .triangles = still.lists.triangles,
@@ -35,8 +29,7 @@ void add_still_walks(Session& session, std::vector<std::uint32_t>& walked) {
 std::string still_words(const StillStats& s) {
   return fmt::format(
       "{} lights in triangle lists: {:.2f} MB, {:.1f} bytes for each of {} triangles; {} patches, {} lists in {} "
-      "groups, "
-      "{:.1f} lights on average; left out {} hidden and {} behind; made in {:.0f} ms",
+      "groups, {:.1f} lights on average; left out {} hidden and {} behind; made in {:.0f} ms",
       s.lights, static_cast<double>(s.bytes) / 1e6,
       s.triangles == 0 ? 0.0 : static_cast<double>(s.bytes) / static_cast<double>(s.triangles), s.triangles,
       s.lists.patches, s.lists.lists, s.lists.groups,
@@ -61,8 +54,8 @@ nlohmann::json to_json(const StillStats& s) {
                        {"list_max", f.longest},
                        {"differing", f.differing},
                        {"verdict", name_of(f.verdict())}};
-    add_number(row, "waste", ratio(f.walked, f.reaching), NONE_USEFUL);
-    add_number(row, "waste_of_lighting", ratio(f.walked, f.lighting), NONE_USEFUL);
+    add_number(row, "waste", waste_of(f.walked, f.reaching), NONE_USEFUL);
+    add_number(row, "waste_of_lighting", waste_of(f.walked, f.lighting), NONE_USEFUL);
     json["checks"].push_back(std::move(row));
   }
   return json;
