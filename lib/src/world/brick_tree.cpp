@@ -13,18 +13,27 @@ namespace {
 
 std::uint32_t cell_bit(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + 4U * (y + 4U * z); }
 
-/// The cells of a brick's child: each of 8 cells is 2 x 2 x 2 of the child's.
-std::uint64_t cells_of_child(std::uint64_t cells, std::uint32_t child) {
-  if (cells == ALL_CELLS) return ALL_CELLS;
-  const std::uint32_t first = cell_bit(2U * (child & 1U), 2U * (child >> 1U & 1U), 2U * (child >> 2U));
-  std::uint64_t found = 0;
+/// Calls `visit(bit, first)` for the 8 cells of a brick that a child of it is made of: the cell's bit, and the first
+/// bit of the child's 2 x 2 x 2 cells in it.
+template <class Visit>
+void for_each_cell_of_child(std::uint32_t child, const Visit& visit) {
+  const std::uint32_t corner = cell_bit(2U * (child & 1U), 2U * (child >> 1U & 1U), 2U * (child >> 2U));
   for (std::uint32_t c = 0; c < 8; ++c) {
     const std::uint32_t x = c & 1U;
     const std::uint32_t y = c >> 1U & 1U;
     const std::uint32_t z = c >> 2U;
-    constexpr std::uint64_t TWO_CUBED = 0x330033ULL;
-    if ((cells >> (first + cell_bit(x, y, z)) & 1U) != 0) found |= TWO_CUBED << cell_bit(2 * x, 2 * y, 2 * z);
+    visit(corner + cell_bit(x, y, z), cell_bit(2 * x, 2 * y, 2 * z));
   }
+}
+
+/// The cells of a brick's child.
+std::uint64_t cells_of_child(std::uint64_t cells, std::uint32_t child) {
+  if (cells == ALL_CELLS) return ALL_CELLS;
+  constexpr std::uint64_t TWO_CUBED = 0x330033ULL;
+  std::uint64_t found = 0;
+  for_each_cell_of_child(child, [&](std::uint32_t bit, std::uint32_t first) {
+    if ((cells >> bit & 1U) != 0) found |= TWO_CUBED << first;
+  });
   return found;
 }
 
@@ -33,14 +42,10 @@ std::uint64_t cells_of_parent(std::uint64_t cells, std::uint32_t child) {
   cells |= cells >> 1U;
   cells |= cells >> 4U;
   cells |= cells >> 16U;
-  const std::uint32_t first = cell_bit(2U * (child & 1U), 2U * (child >> 1U & 1U), 2U * (child >> 2U));
   std::uint64_t found = 0;
-  for (std::uint32_t c = 0; c < 8; ++c) {
-    const std::uint32_t x = c & 1U;
-    const std::uint32_t y = c >> 1U & 1U;
-    const std::uint32_t z = c >> 2U;
-    if ((cells >> cell_bit(2 * x, 2 * y, 2 * z) & 1U) != 0) found |= 1ULL << (first + cell_bit(x, y, z));
-  }
+  for_each_cell_of_child(child, [&](std::uint32_t bit, std::uint32_t first) {
+    if ((cells >> first & 1U) != 0) found |= 1ULL << bit;
+  });
   return found;
 }
 
