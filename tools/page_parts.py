@@ -53,6 +53,16 @@ def results_of(name, suites):
     return data
 
 
+def bench_results(suite):
+    """Of a tool whose one argument is the results.json of this suite: the results, after the line that says whose."""
+    if len(sys.argv) != 2:
+        fail(f"expected one file, the results.json of `lamp bench {suite}`")
+    data = results_of(sys.argv[1], [suite])
+    run = data["run"]
+    print(f"{run['device']}, driver {run['driver']}, commit {run['commit']}\n")
+    return data["results"]
+
+
 def print_table(head, rows, texts=None):
     """Columns from `texts` on are numbers, on the right; none: all are texts."""
     texts = len(head) if texts is None else texts
