@@ -11,8 +11,6 @@
 namespace lamp::world {
 namespace {
 
-std::uint32_t cell_bit(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + 4U * (y + 4U * z); }
-
 /// Calls `visit(bit, first)` for the 8 cells of a brick that a child of it is made of: the cell's bit, and the first
 /// bit of the child's 2 x 2 x 2 cells in it.
 template <class Visit>

@@ -105,7 +105,7 @@ std::uint64_t LightCells::cells(std::uint32_t level, const glm::uvec3& brick) co
       const glm::uvec3 cell = child_of(c);
       const Cube part{.low = cube.low + glm::dvec3(cell) * (0.25 * side), .side = 0.25 * side};
       const glm::uvec3 at = 2U * octant + cell;
-      if (found == Lit::all || lit(part) != Lit::none) cells |= 1ULL << (at.x + 4U * (at.y + 4U * at.z));
+      if (found == Lit::all || lit(part) != Lit::none) cells |= 1ULL << cell_bit(at.x, at.y, at.z);
     }
   }
   return cells;

@@ -37,6 +37,11 @@ struct LitBrick {
 
 inline constexpr std::uint64_t ALL_CELLS = ~0ULL;
 
+/// The bit of a brick's cell.
+[[nodiscard]] constexpr std::uint32_t cell_bit(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return x + 4U * (y + 4U * z);
+}
+
 /// Bits of x, y and z in turn, x the lowest; 20 bits each.
 [[nodiscard]] std::uint64_t morton(const glm::uvec3& v);
 
