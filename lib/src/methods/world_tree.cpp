@@ -33,7 +33,7 @@ Method world_tree_method() {
       .name = "world-tree",
       .title = "World tree: still lights at any point, made ahead",
       .source = "Drobot, Improved Culling for Tiled and Clustered Rendering (2017), bonus slides",
-      .summary = "Lights that stand still are listed ahead in a tree over the world, if asked only where they are seen.",
+      .summary = "Lights that stand still, listed ahead in a tree over the world; if asked, where they are seen.",
       .result = "world_tree",
       .needs_depth = false,
       .any_depth = true,
