@@ -20,6 +20,7 @@ using gpu::SKY_CELL;
 
 constexpr float SKY_DIMMED = 0.7F;  // as heat maps over pictures have it
 constexpr float MAP_ALPHA = 0.6F;
+constexpr float SIGNAL_ALPHA = 0.8F;
 constexpr glm::u8vec3 SIGNAL{255, 0, 200};
 constexpr std::array<glm::u8vec3, 5> CIVIDIS{
     {{0, 34, 78}, {65, 77, 107}, {124, 123, 120}, {188, 175, 111}, {254, 232, 56}}};
@@ -67,29 +68,13 @@ std::vector<std::uint32_t> for_pixels(const Walked& walked, const Color& color) 
 }
 
 Overlaid heat(Palette palette, const Walked& walked) {
-  Legend legend{.overlay = Overlay::heat, .cells = cells_seen(walked)};
-  std::uint64_t seen = 0;
-  std::uint32_t most = 0;
-  for (const Visit& visit : walked.visits) {
-    if (visit.cell == SKY_CELL) continue;
-    legend.mean += visit.visited;
-    ++seen;
-    most = std::max(most, visit.visited);
-  }
-  if (seen != 0) legend.mean /= static_cast<double>(seen);
-  const std::uint32_t own = most > 1U << 31 ? most : std::bit_ceil(std::max(most, 2U));  // as `lamp render --heatmap`
-  const std::uint32_t top = walked.scale_max > 0.0 ? static_cast<std::uint32_t>(walked.scale_max) : own;
-  legend.low = 1.0;
-  legend.high = top;
-  legend.max = most;
-  return {.pixels = for_pixels(walked,
-                               [&](std::size_t i) {
-                                 const std::uint32_t count = walked.visits[i].visited;
-                                 const glm::u8vec3 color =
-                                     count == 0 ? glm::u8vec3(0) : palette_color(palette, heat_position(count, top));
-                                 return rgba(color, MAP_ALPHA);
-                               }),
-          .legend = legend};
+  std::vector<std::uint32_t> counts;
+  counts.reserve(walked.visits.size());
+  for (const Visit& visit : walked.visits) counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
+  Overlaid made = heat_over(palette, counts, walked.scale_max, [](std::uint32_t) { return std::nullopt; });
+  made.legend.overlay = Overlay::heat;
+  made.legend.cells = cells_seen(walked);
+  return made;
 }
 
 Overlaid cells(const Walked& walked) {
@@ -133,7 +118,8 @@ Overlaid overflow(const Walked& walked) {
   };
   for (const Visit& visit : walked.visits) legend.cells += walks_all(visit) ? 1 : 0;
   return {.pixels = for_pixels(
-              walked, [&](std::size_t i) { return walks_all(walked.visits[i]) ? rgba(SIGNAL, 0.8F) : rgba({}, 0.3F); }),
+              walked,
+              [&](std::size_t i) { return walks_all(walked.visits[i]) ? rgba(SIGNAL, SIGNAL_ALPHA) : rgba({}, 0.3F); }),
           .legend = legend};
 }
 
@@ -143,10 +129,11 @@ Overlaid missed(const Walked& walked) {
     legend.cells += visit.missed != 0 ? 1 : 0;
     legend.max += visit.missed;
   }
-  return {
-      .pixels = for_pixels(
-          walked, [&](std::size_t i) { return walked.visits[i].missed != 0 ? rgba(SIGNAL, 0.8F) : rgba({}, 0.3F); }),
-      .legend = legend};
+  return {.pixels = for_pixels(walked,
+                               [&](std::size_t i) {
+                                 return walked.visits[i].missed != 0 ? rgba(SIGNAL, SIGNAL_ALPHA) : rgba({}, 0.3F);
+                               }),
+          .legend = legend};
 }
 
 Overlaid difference(const Walked& walked) {
@@ -209,6 +196,36 @@ glm::u8vec3 palette_color(Palette palette, double position) {
   return between(GREY, position);
 }
 
+Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_max,
+                   const std::function<std::optional<glm::u8vec3>(std::uint32_t)>& special) {
+  Legend legend{.low = 1.0};
+  std::vector<std::uint32_t> pixels(counts.size(), SKY);
+  std::uint64_t seen = 0;
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == SKY_CELL) continue;
+    if (const auto color = special(counts[i])) {
+      pixels[i] = rgba(*color, SIGNAL_ALPHA);
+      ++legend.cells;
+      continue;
+    }
+    legend.mean += counts[i];
+    ++seen;
+    most = std::max(most, counts[i]);
+  }
+  if (seen != 0) legend.mean /= static_cast<double>(seen);
+  const std::uint32_t own = most > 1U << 31 ? most : std::bit_ceil(std::max(most, 2U));  // as `lamp render --heatmap`
+  const std::uint32_t top = scale_max > 0.0 ? static_cast<std::uint32_t>(scale_max) : own;
+  legend.high = top;
+  legend.max = most;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == SKY_CELL || special(counts[i])) continue;
+    const glm::u8vec3 color = counts[i] == 0 ? glm::u8vec3(0) : palette_color(palette, heat_position(counts[i], top));
+    pixels[i] = rgba(color, MAP_ALPHA);
+  }
+  return {.pixels = std::move(pixels), .legend = legend};
+}
+
 Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
   switch (overlay) {
     case Overlay::heat:
@@ -223,7 +240,9 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
       return app::missed(walked);
     case Overlay::difference:
       return difference(walked);
-    case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay
+    case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay, make_shadow_heat
+    case Overlay::shadow_age:
+    case Overlay::shadow_size:
     case Overlay::none:
       break;
   }

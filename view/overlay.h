@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,6 +60,11 @@ struct ListLengths {
 /// Colours of Overlay::difference: where the first walks more lights, and where the second does.
 inline constexpr glm::u8vec3 FIRST_WALKS_MORE{255, 150, 20};
 inline constexpr glm::u8vec3 SECOND_WALKS_MORE{50, 130, 255};
+
+/// The numbers of pixels on a logarithmic scale, as `lamp render --heatmap` has it; SKY_CELL is sky. `special` may
+/// give a colour to what is no number; such pixels count for the legend's `cells`.
+[[nodiscard]] Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_max,
+                                 const std::function<std::optional<glm::u8vec3>(std::uint32_t)>& special);
 
 /// A colour of the scale, at 0 .. 1.
 [[nodiscard]] glm::u8vec3 palette_color(Palette palette, double position);

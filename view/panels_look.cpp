@@ -33,7 +33,7 @@ void draw_scale(const Legend& legend, Palette palette) {
     if (share > 0.0) ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + x, 0.0F);
     ImGui::TextUnformatted(text.c_str());
   };
-  if (legend.overlay == Overlay::heat) {
+  if (legend.overlay != Overlay::depth_range) {
     const double middle = std::exp2(std::round(std::log2(legend.high) / 2.0));
     number(0.0, "1");
     number(heat_position(middle, static_cast<std::uint32_t>(legend.high)), fmt::format("{:.0f}", middle));
@@ -42,6 +42,16 @@ void draw_scale(const Legend& legend, Palette palette) {
     number(0.0, "0 m");
     number(1.0, fmt::format("{:.1f} m", legend.high));
   }
+}
+
+void shadow_heat_text(const char* what, const Legend& legend) {
+  ImGui::TextUnformatted(fmt::format("{}: mean {:.1f}, max {:.0f}", what, legend.mean, legend.max).c_str());
+  if (legend.cells != 0)
+    ImGui::TextUnformatted(
+        fmt::format("{} pixels are reached by a light without a shadow (magenta), or one whose shadow "
+                    "waits to be drawn anew (red)",
+                    legend.cells)
+            .c_str());
 }
 
 void legend_text(const Legend& legend) {
@@ -77,6 +87,12 @@ void legend_text(const Legend& legend) {
       ImGui::TextUnformatted(fmt::format("{} lights have a shadow map; {:.0f} texels a side are shown, near is bright",
                                          legend.cells, legend.max)
                                  .c_str());
+      break;
+    case Overlay::shadow_age:
+      shadow_heat_text("frames since the oldest map that a pixel looks up was drawn", legend);
+      break;
+    case Overlay::shadow_size:
+      shadow_heat_text("texels a side of the smallest map that a pixel looks up", legend);
       break;
     case Overlay::none:
       break;
@@ -114,12 +130,13 @@ void look_panel(PanelFrame& p) {
   p.widgets.choose_word(
       "overlay", p.state.overlay, overlay_names(),
       "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, those that did not "
-      "fit, what is missed, or how two methods differ.",
+      "fit, what is missed, how two methods differ, or how old and how large shadow maps are.",
       [&](std::string_view name) {
-        const bool needs_shadows = name == overlay_names()[static_cast<std::size_t>(Overlay::shadow_atlas)];
-        if (needs_shadows && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
-        const bool needs_two = name == overlay_names()[static_cast<std::size_t>(Overlay::difference)];
-        return needs_two && !p.state.against ? std::string("needs a second method: see A against B, or press B") : "";
+        const auto overlay = static_cast<Overlay>(std::ranges::find(overlay_names(), name) - overlay_names().begin());
+        if (is_of_shadows(overlay) && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
+        return overlay == Overlay::difference && !p.state.against
+                   ? std::string("needs a second method: see A against B, or press B")
+                   : "";
       });
   p.widgets.choose_word("palette", p.state.palette, palette_names(),
                         "Colours of the scale. Blue-yellow and grey can be read with any colour vision.");
@@ -140,8 +157,9 @@ void legend_window(const Shown& shown, const ScreenRect& picture) {
   if (ImGui::Begin("legend", nullptr, FIXED)) {
     const Legend& legend = shown.first.legend;
     legend_text(legend);
-    if (legend.overlay == Overlay::heat || legend.overlay == Overlay::depth_range)
-      draw_scale(legend, shown.state.palette);
+    const bool scaled = legend.overlay == Overlay::heat || legend.overlay == Overlay::depth_range ||
+                        legend.overlay == Overlay::shadow_age || legend.overlay == Overlay::shadow_size;
+    if (scaled) draw_scale(legend, shown.state.palette);
     if (legend.overlay == Overlay::difference) draw_sides();
     if (shown.picture_difference)
       ImGui::TextUnformatted(

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "commands/pictures.h"
+#include "render/shaders/shadow_heat_data.h"
+
 namespace lamp::app {
 namespace {
 
@@ -132,6 +135,16 @@ Overlaid make_shadow_overlay(Palette palette, const AtlasSeen& seen) {
   made.legend.overlay = Overlay::shadow_atlas;
   made.legend.cells = static_cast<std::uint64_t>(
       std::ranges::count_if(seen.maps, [](const ShadowMap& map) { return squares_of(map) != 0; }));
+  return made;
+}
+
+Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst, double scale_max) {
+  Overlaid made = heat_over(palette, worst, scale_max, [](std::uint32_t word) -> std::optional<glm::u8vec3> {
+    if (word == gpu::WITHOUT_SHADOW) return WITHOUT_COLOR;
+    if (word == gpu::WAITS_FOR_REDRAWING) return WAITS_COLOR;
+    return std::nullopt;
+  });
+  made.legend.overlay = overlay;
   return made;
 }
 

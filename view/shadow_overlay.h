@@ -23,4 +23,9 @@ struct AtlasSeen {
 /// drawn is black. The legend's `cells` are the lights with a map, `max` texels a side: of the atlas, or of the square.
 [[nodiscard]] Overlaid make_shadow_overlay(Palette palette, const AtlasSeen& seen);
 
+/// Of Overlay::shadow_age and Overlay::shadow_size, what `shadow_heat` says of each pixel. The legend's `cells` are
+/// pixels with a light that has no shadow, or whose shadow waits.
+[[nodiscard]] Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst,
+                                        double scale_max);
+
 }  // namespace lamp::app

@@ -41,7 +41,7 @@ std::string key_of(const LightingInfo& info, bool grow) {
 
 bool can_be_laid_over(const ViewState& state) {
   if (state.overlay == Overlay::difference) return state.against.has_value();
-  if (state.overlay == Overlay::shadow_atlas) return requested_shadows(state.request).has_value();
+  if (is_of_shadows(state.overlay)) return requested_shadows(state.request).has_value();
   return state.overlay != Overlay::none;
 }
 
@@ -201,8 +201,8 @@ Legend Stage::lay_over(const Overlaying& o) {
   if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
   visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
   const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
-  const Overlaid made = overlay == Overlay::shadow_atlas
-                            ? shadow_overlay(o.state)
+  const Overlaid made = is_of_shadows(overlay)
+                            ? shadow_overlay(o)
                             : make_overlay(overlay, o.state.palette,
                                            {.view = view,
                                             .visits = o.second && !other.empty() ? other : visits_,

@@ -74,7 +74,7 @@ class Stage {
     std::uint32_t end_x = 0;
   };
   [[nodiscard]] Legend lay_over(const Overlaying& o);
-  [[nodiscard]] Overlaid shadow_overlay(const ViewState& state);
+  [[nodiscard]] Overlaid shadow_overlay(const Overlaying& o);
   /// What the other of the two methods walks.
   [[nodiscard]] std::vector<Visit> visits_of_other(const Overlaying& o);
   /// The largest difference of the two methods' pictures.

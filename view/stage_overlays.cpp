@@ -5,6 +5,7 @@
 #include "gpu/transfer.h"
 #include "render/judgement.h"
 #include "render/pass_uses.h"
+#include "render/shadow_heat.h"
 #include "view/shadow_overlay.h"
 #include "view/stage.h"
 
@@ -17,7 +18,12 @@ std::vector<Visit> Stage::visits_of_other(const Overlaying& o) {
   return renderer_->visit_all(other.lighting);
 }
 
-Overlaid Stage::shadow_overlay(const ViewState& state) {
+Overlaid Stage::shadow_overlay(const Overlaying& o) {
+  const ViewState& state = o.state;
+  if (state.overlay != Overlay::shadow_atlas) {
+    const ShadowHeat of = state.overlay == Overlay::shadow_age ? ShadowHeat::age : ShadowHeat::size;
+    return make_shadow_heat(state.overlay, state.palette, shadow_heat(*renderer_, o.lighting, of), o.scale_max);
+  }
   const Shadows& shadows = *renderer_->shadows();
   const std::uint32_t side = shadows.settings().atlas_size;
   const std::size_t count = std::size_t{side} * side;

@@ -10,6 +10,7 @@
 #include "bench/suite.h"
 #include "commands/command_line.h"
 #include "commands/completion.h"
+#include "commands/pictures.h"
 #include "commands/request.h"
 #include "commands/view_state.h"
 #include "lamplight/method.h"
@@ -120,6 +121,7 @@ Words values_of(const Typed& typed, const std::string& name) {
   if (name == "--brdf") return copied(brdf_names());
   if (name == "--projection") return copied(projection_names());
   if (name == "--shadows") return copied(shadow_names());
+  if (name == "--heatmap-of") return copied(heat_names());
   if (name == "--still-lists") return copied(still_lists_names());
   if (name == "--point-shadows") return copied(point_shadow_names());
   if (name == "--depth") return copied(depth_names());

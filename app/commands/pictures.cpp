@@ -6,30 +6,67 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
+#include "commands/command_line.h"
 #include "error.h"
 #include "image/write_file.h"
 #include "render/heatmap.h"
+#include "render/shadow_heat.h"
 #include "system/temporary.h"
 
 namespace lamp::app {
 
 namespace fs = std::filesystem;
 
-std::vector<Visit> visit_all(Session& session, Lighting& lighting) {
-  Renderer& renderer = session.renderer();
+namespace {
+
+constexpr std::array<std::string_view, 3> HEAT_NAMES{"lights", "shadow-age", "shadow-size"};
+constexpr std::array<const char*, 3> HEAT_UNITS{"lights", "frames", "texels"};
+
+/// What `of_view` says of each pixel, views side by side. The first stays shown.
+template <class OfView>
+auto side_by_side(Renderer& renderer, const OfView& of_view) {
   const std::uint32_t views = renderer.depth().views;
-  if (views == 1) return renderer.visit_all(lighting);
+  if (views == 1) return of_view();
   const std::size_t width = renderer.targets().width;
-  std::vector<Visit> all(views * width * renderer.targets().height);
+  decltype(of_view()) all(views * width * renderer.targets().height);
   for (std::uint32_t view = views; view-- != 0;) {
     renderer.show({.view = view});
-    const std::vector<Visit> visits = renderer.visit_all(lighting);
-    for (std::size_t i = 0; i < visits.size(); ++i) all[(i / width * views + view) * width + i % width] = visits[i];
+    const auto pixels = of_view();
+    for (std::size_t i = 0; i < pixels.size(); ++i) all[(i / width * views + view) * width + i % width] = pixels[i];
   }
   return all;
+}
+
+}  // namespace
+
+std::span<const std::string_view> heat_names() { return HEAT_NAMES; }
+
+HeatOf parse_heat(const std::string& name, const Request& request) {
+  const auto found = std::ranges::find(HEAT_NAMES, name);
+  if (found == HEAT_NAMES.end()) throw unknown_name("--heatmap-of", name, HEAT_NAMES);
+  const auto of = static_cast<HeatOf>(found - HEAT_NAMES.begin());
+  if (of == HeatOf::lights) return of;
+  if (!requested_shadows(request))
+    throw Error(fmt::format("--heatmap-of {}: no light casts a shadow; expected --shadows with it", name));
+  if (request.still_lists != "off")
+    throw Error(
+        fmt::format("--heatmap-of {}: not together with --still-lists, whose lights no list of the picture has", name));
+  return of;
+}
+
+std::vector<Visit> visit_all(Session& session, Lighting& lighting) {
+  Renderer& renderer = session.renderer();
+  return side_by_side(renderer, [&] { return renderer.visit_all(lighting); });
+}
+
+std::vector<std::uint32_t> shadow_heat(Session& session, Lighting& lighting, HeatOf of) {
+  Renderer& renderer = session.renderer();
+  const ShadowHeat heat = of == HeatOf::shadow_age ? ShadowHeat::age : ShadowHeat::size;
+  return side_by_side(renderer, [&] { return shadow_heat(renderer, lighting, heat); });
 }
 
 std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {
@@ -41,12 +78,17 @@ std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {
 
 LdrImage heatmap_of(Session& session, std::span<const std::uint32_t> counts, const HeatmapRequest& request) {
   const Targets& targets = session.renderer().targets();
+  const std::array<HeatSignal, 2> of_shadows{
+      {{.count = gpu::WAITS_FOR_REDRAWING, .color = WAITS_COLOR, .meaning = "a shadow waits to be drawn anew"},
+       {.count = gpu::WITHOUT_SHADOW, .color = WITHOUT_COLOR, .meaning = "a light has no shadow"}}};
   return draw_heatmap({.width = static_cast<std::uint32_t>(counts.size() / targets.height),
                        .height = targets.height,
                        .counts = counts,
                        .scale_max = request.scale_max,
                        .title = request.title,
-                       .overlay = request.overlay});
+                       .overlay = request.overlay,
+                       .unit = HEAT_UNITS[static_cast<std::size_t>(request.of)],
+                       .signals = request.of == HeatOf::lights ? std::span<const HeatSignal>() : of_shadows});
 }
 
 std::optional<float> parse_exposure(const std::string& text) {

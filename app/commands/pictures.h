@@ -20,10 +20,28 @@ namespace lamp::app {
 /// Lights walked at each pixel; SKY_CELL for sky.
 [[nodiscard]] std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits);
 
+/// What a heat map counts.
+enum class HeatOf : std::uint8_t {
+  lights,       ///< that each pixel walks
+  shadow_age,   ///< frames since the oldest shadow map that is looked up there was drawn
+  shadow_size,  ///< texels a side of the smallest
+};
+/// "lights", "shadow-age", "shadow-size", in the order of HeatOf.
+[[nodiscard]] std::span<const std::string_view> heat_names();
+/// Throws Error, naming `--heatmap-of`, for what is no such name, or needs shadows that the request does not have.
+[[nodiscard]] HeatOf parse_heat(const std::string& name, const Request& request);
+/// As `shadow_heat` of a view (render/shadow_heat.h), of several views side by side. The first view stays shown.
+[[nodiscard]] std::vector<std::uint32_t> shadow_heat(Session& session, Lighting& lighting, HeatOf of);
+
+/// Colours of what is no number in heat maps of shadows.
+inline constexpr glm::u8vec3 WAITS_COLOR{255, 70, 40};
+inline constexpr glm::u8vec3 WITHOUT_COLOR{255, 0, 200};
+
 struct HeatmapRequest {
   std::string title;
   std::uint32_t scale_max = 0;        ///< 0: from the largest count
   const LdrImage* overlay = nullptr;  ///< lay the map over this picture
+  HeatOf of = HeatOf::lights;
 };
 [[nodiscard]] LdrImage heatmap_of(Session& session, std::span<const std::uint32_t> counts,
                                   const HeatmapRequest& request);

@@ -29,6 +29,7 @@ struct RenderOptions {
   std::string out = "lamp.png";
   std::string heatmap;
   std::string overlay;
+  std::string heatmap_of = "lights";
   std::string stats;
   std::string frames;
   bool json = false;
@@ -49,6 +50,8 @@ void check_outputs(const RenderOptions& o) {
   check_output("--out", o.out, PICTURES);
   if (!o.heatmap.empty()) check_output("--heatmap", o.heatmap, MAPS);
   if (!o.overlay.empty()) check_output("--overlay", o.overlay, MAPS);
+  if (parse_heat(o.heatmap_of, o.state.request) != HeatOf::lights && o.heatmap.empty() && o.overlay.empty())
+    throw Error(fmt::format("--heatmap-of {}: expected --heatmap or --overlay with it", o.heatmap_of));
   if (!o.stats.empty()) check_output("--stats", o.stats, NUMBERS);
   std::set<std::filesystem::path> files;
   for (const std::string& file : {o.out, o.heatmap, o.overlay, o.stats})
@@ -138,6 +141,34 @@ struct Drawing {
   Sampling sampling;
 };
 
+/// What heat maps are made of.
+struct Drawn {
+  const Stats& stats;
+  std::span<const Visit> visits;
+  const LdrImage& toned;
+};
+
+/// The heat map by itself and over the picture, as far as they were asked for.
+void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& drawn) {
+  if (o.heatmap.empty() && o.overlay.empty()) return;
+  Session& session = drawing.session;
+  const HeatOf of = parse_heat(o.heatmap_of, o.state.request);
+  std::vector<std::uint32_t> counts =
+      of == HeatOf::lights ? walked_lights(drawn.visits) : shadow_heat(session, drawing.lighting, of);
+  if (session.still() != nullptr && !session.renderer().depth().several()) add_still_walks(session, counts);
+  const std::string title =
+      of == HeatOf::lights
+          ? fmt::format("{}, {} lights", drawn.stats.method, drawn.stats.lights)
+          : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest", o.state.request.shadows);
+  const auto write_map = [&](const std::string& name, const LdrImage* below) {
+    if (name.empty()) return;
+    const LdrImage map = heatmap_of(session, counts, {.title = title, .overlay = below, .of = of});
+    write_output(name, [&](const auto& file) { write_png(file, map); });
+  };
+  write_map(o.heatmap, nullptr);
+  write_map(o.overlay, &drawn.toned);
+}
+
 /// Draws the session's frame, writes its pictures, and says what it took.
 Stats draw(const RenderOptions& o, const Drawing& drawing) {
   auto& [session, setup, chosen, lighting, sampling] = drawing;
@@ -151,16 +182,7 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
   write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
   Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), sampling.frames);
   set_walked(stats, visits);
-  std::vector<std::uint32_t> counts = walked_lights(visits);
-  if (session.still() != nullptr && !session.renderer().depth().several()) add_still_walks(session, counts);
-  const std::string title = fmt::format("{}, {} lights", stats.method, stats.lights);
-  const auto write_map = [&](const std::string& name, const LdrImage* below) {
-    if (name.empty()) return;
-    const LdrImage map = heatmap_of(session, counts, {.title = title, .overlay = below});
-    write_output(name, [&](const auto& file) { write_png(file, map); });
-  };
-  write_map(o.heatmap, nullptr);
-  write_map(o.overlay, &toned);
+  write_maps(o, drawing, {.stats = stats, .visits = visits, .toned = toned});
   return stats;
 }
 
@@ -249,6 +271,13 @@ Run add_render(CLI::App& app) {
   };
   add_output("--heatmap", o->heatmap, "write a heat map, .png: how many lights each pixel walks");
   add_output("--overlay", o->overlay, "write the heat map blended over the picture, .png");
+  command
+      ->add_option("--heatmap-of", o->heatmap_of,
+                   "what heat map and overlay show: lights that a pixel walks, or of the shadow maps that it looks up "
+                   "the age of the oldest (shadow-age) or the size of the smallest (shadow-size)")
+      ->type_name("WHAT")
+      ->group("Output")
+      ->capture_default_str();
   add_output("--stats", o->stats, "write the numbers, .json");
   add_json_flag(*command, o->json, "print the numbers as JSON");
   add_exposure_option(*command, o->state.exposure);

@@ -16,8 +16,9 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<std::string_view, 8> OVERLAYS{"none",     "heat",   "cells",      "depth-range",
-                                                   "overflow", "missed", "difference", "shadow-atlas"};
+constexpr std::array<std::string_view, 10> OVERLAYS{"none",       "heat",       "cells",      "depth-range",
+                                                    "overflow",   "missed",     "difference", "shadow-atlas",
+                                                    "shadow-age", "shadow-size"};
 constexpr std::array<std::string_view, 3> PALETTES{"rainbow", "blue-yellow", "grey"};
 constexpr std::array<std::string_view, 3> LIGHT_MARKS{"none", "cell", "all"};
 

@@ -25,9 +25,17 @@ enum class Overlay : std::uint8_t {
   missed,        ///< pixels whose list lacks a light that reaches them, likewise
   difference,    ///< lights that one of two methods walks and the other does not; of two methods alone
   shadow_atlas,  ///< the shadow maps of all lights, or of the light that is looked at; where lights cast shadows
+  shadow_age,    ///< frames since the oldest map that a pixel looks up was drawn; where lights cast shadows
+  shadow_size,   ///< texels a side of the smallest of them
 };
-/// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", "shadow-atlas", in the order of Overlay.
+/// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", "shadow-atlas", "shadow-age",
+/// "shadow-size", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
+
+/// Whether an overlay shows shadow maps: without a light that casts a shadow there is nothing to lay over.
+[[nodiscard]] inline bool is_of_shadows(Overlay overlay) {
+  return overlay == Overlay::shadow_atlas || overlay == Overlay::shadow_age || overlay == Overlay::shadow_size;
+}
 
 /// Colours of the heat map.
 enum class Palette : std::uint8_t { rainbow, blue_yellow, grey };

@@ -4,6 +4,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/heatmap.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -44,21 +46,36 @@ glm::u8vec4 lay_over(glm::u8vec3 heat, glm::u8vec4 below) {
   return {glm::u8vec3(glm::mix(glm::vec3(grey), glm::vec3(heat), OVERLAY_ALPHA) + 0.5F), 255};
 }
 
+const HeatSignal* signal_of(const Heatmap& map, std::uint32_t count) {
+  const auto found = std::ranges::find(map.signals, count, &HeatSignal::count);
+  return found == map.signals.end() ? nullptr : &*found;
+}
+
 glm::u8vec4 pixel_color(const Heatmap& map, std::size_t pixel, std::uint32_t top) {
   const std::uint32_t count = map.counts[pixel];
+  if (const HeatSignal* signal = signal_of(map, count)) return {signal->color, 255};
   if (map.overlay == nullptr) return {count == SKY_CELL ? SKY : heat_color(count, top), 255};
   const glm::u8vec4 below = map.overlay->pixels[pixel];
   if (count == SKY_CELL) return {glm::u8vec3(OVERLAY_SKY * glm::vec3(below)), 255};
   return lay_over(heat_color(count, top), below);
 }
 
+/// The signals that pixels have, and how many.
+void add_signals(const Heatmap& map, HeatSummary& summary) {
+  for (const HeatSignal& signal : map.signals) {
+    const auto pixels = std::ranges::count(map.counts, signal.count);
+    if (pixels != 0) summary.signals.emplace_back(signal.color, fmt::format("{}: {} px", signal.meaning, pixels));
+  }
+}
+
 /// Mean and maximum over the pixels that have a cell.
 HeatSummary summarize(const Heatmap& map) {
-  HeatSummary summary;
+  HeatSummary summary{.unit = map.unit};
+  add_signals(map, summary);
   std::uint64_t sum = 0;
   std::uint64_t pixels = 0;
   for (const std::uint32_t count : map.counts) {
-    if (count == SKY_CELL) continue;
+    if (count == SKY_CELL || signal_of(map, count) != nullptr) continue;
     sum += count;
     ++pixels;
     summary.max = std::max(summary.max, count);

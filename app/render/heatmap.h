@@ -16,6 +16,13 @@ namespace lamp::app {
 
 using gpu::SKY_CELL;
 
+/// A number that is none, but says something that shall be seen.
+struct HeatSignal {
+  std::uint32_t count = 0;
+  glm::u8vec3 color{0};
+  std::string meaning;  ///< stands in the legend if a pixel has it
+};
+
 struct Heatmap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -23,6 +30,8 @@ struct Heatmap {
   std::uint32_t scale_max = 0;            ///< lights at the top of the scale; 0: the next power of two over the largest
   std::string title;                      ///< drawn into the picture ("tiled, 4096 lights")
   const LdrImage* overlay = nullptr;      ///< not null: the map is laid over this picture
+  std::string unit = "lights";            ///< of what is counted
+  std::span<const HeatSignal> signals;    ///< neither mean nor maximum knows them
 };
 
 /// The colour of a count on the scale 1 .. scale_max (log2), 0 black.

@@ -27,6 +27,7 @@ constexpr std::int32_t BAR_HEIGHT = 7;
 constexpr std::int32_t TICK_HEIGHT = 2;
 constexpr std::int32_t LABEL_TOP = BAR_TOP + BAR_HEIGHT + TICK_HEIGHT + 1;
 constexpr std::int32_t STRIP_HEIGHT = LABEL_TOP + 7 + PAD;
+constexpr std::int32_t SIGNAL_HEIGHT = BAR_HEIGHT + PAD;
 
 std::int32_t text_width(std::string_view text, std::int32_t scale) {
   return static_cast<std::int32_t>(text_size(text, static_cast<std::uint32_t>(scale)).x);
@@ -53,7 +54,7 @@ struct Strip {
 std::string numbers_line(const HeatSummary& summary, std::int32_t room, std::int32_t scale) {
   const std::string numbers =
       fmt::format("mean {:.{}f}, max {}", summary.mean, summary.mean < 10.0 ? 2 : 1, summary.max);
-  const std::string sentence = numbers + " lights";
+  const std::string sentence = fmt::format("{} {}", numbers, summary.unit);
   return text_width(sentence, scale) <= room ? sentence : numbers;
 }
 
@@ -111,15 +112,27 @@ void draw_scale(const Strip& strip, const HeatSummary& summary) {
   }
 }
 
+/// A line for each colour beside the scale.
+void draw_signals(const Strip& strip, const HeatSummary& summary) {
+  std::int32_t at = STRIP_HEIGHT;
+  for (const auto& [color, meaning] : summary.signals) {
+    strip.rect(strip.left(), at, glm::ivec2(8, BAR_HEIGHT) * strip.scale, color);
+    strip.text(strip.left() + 12 * strip.scale, at, meaning, BRIGHT);
+    at += SIGNAL_HEIGHT;
+  }
+}
+
 }  // namespace
 
 void append_legend(LdrImage& image, const std::string& title, const HeatSummary& summary) {
   if (image.width < LEGEND_MIN_WIDTH) return;
   const Strip strip{image, static_cast<std::int32_t>(image.height), static_cast<std::int32_t>(1 + image.width / 640)};
-  image.height += static_cast<std::uint32_t>(STRIP_HEIGHT * strip.scale);
+  const std::int32_t signals = static_cast<std::int32_t>(summary.signals.size()) * SIGNAL_HEIGHT;
+  image.height += static_cast<std::uint32_t>((STRIP_HEIGHT + signals) * strip.scale);
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height, PANEL);
   draw_title(strip, title, summary);
   draw_scale(strip, summary);
+  draw_signals(strip, summary);
 }
 
 }  // namespace lamp::app

@@ -6,15 +6,19 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "image/image.h"
 
 namespace lamp::app {
 
 struct HeatSummary {
-  double mean = 0.0;      ///< lights per pixel, over the pixels that have a cell
-  std::uint32_t max = 0;  ///< lights
-  std::uint32_t top = 2;  ///< lights at the top of the scale
+  double mean = 0.0;                                         ///< lights per pixel, over the pixels that have a cell
+  std::uint32_t max = 0;                                     ///< lights
+  std::uint32_t top = 2;                                     ///< lights at the top of the scale
+  std::string unit;                                          ///< of the counts
+  std::vector<std::pair<glm::u8vec3, std::string>> signals;  ///< colours beside the scale, and what they mean
 };
 
 /// Where a count >= 1 stands on the scale 1 .. scale_max: 0 .. 1, by its logarithm. Larger counts stand at 1.

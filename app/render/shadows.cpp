@@ -147,6 +147,9 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
   without_.assign(frame.without.begin(), frame.without.end());
   maps_.assign(frame.maps.begin(), frame.maps.end());
   maps_.resize(lights.size());
+  ages_.resize(lights.size());
+  for (std::uint32_t& age : ages_) ++age;
+  for (const ShadowRedraw& redraw : frame.redraws) ages_[redraw.light] = 0;
   view_count_ = static_cast<std::uint32_t>(frame.views.size());
   clears_.clear();
   for (const ShadowRedraw& redraw : frame.redraws)

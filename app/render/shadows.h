@@ -65,6 +65,8 @@ class Shadows {
   [[nodiscard]] std::span<const std::uint32_t> waiting() const { return waiting_; }  ///< lights, as counted
   [[nodiscard]] std::span<const std::uint32_t> without() const { return without_; }
   [[nodiscard]] std::span<const shared::ShadowMap> maps() const { return maps_; }
+  /// Of each light that has a map, in how many frames it was not drawn.
+  [[nodiscard]] std::span<const std::uint32_t> ages() const { return ages_; }
   [[nodiscard]] const GpuImage& atlas() const { return atlas_; }
   /// Of vsm and evsm; else null.
   [[nodiscard]] const ShadowMoments* moments() const { return moments_ ? &*moments_ : nullptr; }
@@ -116,6 +118,7 @@ class Shadows {
   std::vector<std::uint32_t> waiting_;
   std::vector<std::uint32_t> without_;
   std::vector<shared::ShadowMap> maps_;
+  std::vector<std::uint32_t> ages_;
   std::vector<shared::Light> lights_;  ///< of the last `schedule`
   std::vector<VkClearRect> clears_;
   std::uint32_t view_count_ = 0;

@@ -57,6 +57,11 @@ TEST_F(Shadows, AreMeasuredWithLightsThatAreCut) {
 
 TEST_F(Shadows, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--shadows", "soft"}, {"--shadows 'soft'", "nearest are "});
+  expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "age"},
+               {"--heatmap-of 'age'", "nearest are"});
+  expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "shadow-age"}, {"expected --shadows"});
+  expect_error(BAD_INPUT, {"render", "--shadows", "pcf", "--heatmap-of", "shadow-age"},
+               {"expected --heatmap or --overlay"});
   expect_error(BAD_INPUT, {"render", "--shadow-lights", "many"}, {"--shadow-lights 'many'", "or all"});
   expect_error(BAD_INPUT, {"render", "--shadow-budget=-1"}, {"--shadow-budget '-1'", "or all"});
   expect_error(BAD_INPUT, {"render", "--point-shadows", "cube"}, {"--point-shadows 'cube'", "faces, octahedron"});

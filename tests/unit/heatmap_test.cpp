@@ -71,6 +71,24 @@ TEST(DrawHeatmap, PixelsHaveTheColorOfTheirCount) {
   EXPECT_LT(luminance(glm::u8vec3(image.pixels[3])), 0.05);
 }
 
+TEST(DrawHeatmap, WhatIsNoNumberHasItsColourAndALine) {
+  const HeatSignal signals[] = {{.count = 7, .color = {1, 2, 3}, .meaning = "late"},
+                                {.count = 9, .color = {4, 5, 6}, .meaning = "of no pixel"}};
+  std::vector<std::uint32_t> counts(std::size_t{240} * 2, 4);
+  counts[1] = 7;
+  const Heatmap plain{.width = 240, .height = 2, .counts = counts, .title = "t"};
+  Heatmap map = plain;
+  map.signals = signals;
+  const LdrImage image = draw_heatmap(map);
+  EXPECT_EQ(glm::u8vec3(image.pixels[1]), glm::u8vec3(1, 2, 3));
+  EXPECT_EQ(glm::u8vec3(image.pixels[0]), heat_color(4, 4)) << "7 is of no scale";
+  const std::uint32_t without = draw_heatmap(plain).height;
+  EXPECT_GT(image.height, without) << "one line more";
+  const std::vector<glm::u8vec4> rows = legend(image, 2);
+  EXPECT_NE(std::ranges::find(rows, glm::u8vec4(1, 2, 3, 255)), rows.end());
+  EXPECT_EQ(std::ranges::find(rows, glm::u8vec4(4, 5, 6, 255)), rows.end());
+}
+
 TEST(DrawHeatmap, AutomaticTopIsTheNextPowerOfTwo) {
   for (const auto& [max, top] : {std::pair{0U, 2U}, {1U, 2U}, {16U, 16U}, {17U, 32U}, {1000U, 1024U}}) {
     const std::array<std::uint32_t, 2> counts{1, max};

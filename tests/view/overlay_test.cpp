@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "commands/pictures.h"
 #include "render/heatmap.h"
+#include "render/shaders/shadow_heat_data.h"
 #include "view/overlay.h"
 #include "view/pace.h"
 #include "view/shadow_overlay.h"
@@ -109,6 +111,19 @@ TEST(Overlays, ShadowAtlasShowsWhoseSquareIsWhere) {
   EXPECT_EQ(at(one, 70, 60), half);
   seen.light = 0;  // has none: all are shown
   EXPECT_EQ(make_shadow_overlay(Palette::grey, seen).legend.max, 64.0);
+}
+
+TEST(Overlays, ShadowHeatTellsNumbersFromWhatIsNone) {
+  const std::vector<std::uint32_t> worst{0, 4, 16, gpu::WITHOUT_SHADOW, gpu::WAITS_FOR_REDRAWING, gpu::SKY_CELL};
+  const Overlaid made = make_shadow_heat(Overlay::shadow_age, Palette::grey, worst, 0.0);
+  EXPECT_EQ(made.legend.cells, 2);
+  EXPECT_EQ(made.legend.max, 16.0);
+  EXPECT_NEAR(made.legend.mean, 20.0 / 3.0, 1e-9);
+  EXPECT_EQ(color(made.pixels[0]), glm::u8vec3(0));
+  EXPECT_EQ(color(made.pixels[1]), palette_color(Palette::grey, 0.5));
+  EXPECT_EQ(color(made.pixels[2]), palette_color(Palette::grey, 1.0));
+  EXPECT_EQ(color(made.pixels[3]), WITHOUT_COLOR);
+  EXPECT_EQ(color(made.pixels[4]), WAITS_COLOR);
 }
 
 TEST(ListLengthsTest, CountCells) {
