@@ -143,6 +143,19 @@ TEST_F(Proxies, EachUseOfDepthLeavesMoreOut) {
   }
 }
 
+// The source's walk, which may end at a gap. How often it does is the device's; that it brings no more, and that the
+// plan owns up to it, is ours.
+TEST_F(Proxies, AWalkToTheFirstMarkBringsNoMoreAndSaysThatItMayMiss) {
+  const TestScene& scene = builtin_test_scene("posts");
+  const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, "camera");
+  Renderer renderer(test_context(), shader_library(), scene.gpu, WIDTH, HEIGHT, LIGHTS);
+  const LitCase dark = make_case(renderer, view, {});
+  const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
+  const auto walked = walked_with(renderer, lit, "drobot-raster-cluster", "quarter-msaa", "mark", {"farthest", "first"});
+  EXPECT_LE(walked[1], walked[0]);
+  EXPECT_GT(walked[1], 0U);
+}
+
 // Glass in the atrium lies before the depth buffer's surfaces, where an early end leaves lights out.
 TEST_F(Proxies, AnEarlyEndDoesNotDarkenGlass) {
   const TestScene& scene = builtin_test_scene("atrium");

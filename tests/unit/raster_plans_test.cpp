@@ -55,6 +55,18 @@ TEST(RasterisedCulling, DoesNotMergeAtomicsWhereTheDeviceCannotAndSaysSo) {
   }
 }
 
+TEST(RasterisedCulling, TheSourcesWalkIsApproximate) {
+  const Method& method = *lamp::find_method("drobot-raster-cluster").value();
+  for (const char* mark : {"farthest", "first"}) {
+    const auto options = lamp::resolve_options(method, {std::string("mark=") + mark}).value();
+    const Plan plan =
+        lamp::make_plan(
+            method, {.width = 65, .height = 64, .light_capacity = 100, .options = options, .traits = SOFTWARE_DEVICE})
+            .value();
+    EXPECT_EQ(plan.approximate, std::string_view(mark) == "first");
+  }
+}
+
 // Devices with the 4 bits that Vulkan guarantees; most have 8.
 TEST(RasterisedCulling, ReachesFartherWhereCornersAreSnappedFarther) {
   for (const char* name : {"drobot-raster-tile", "drobot-raster-cluster"}) {

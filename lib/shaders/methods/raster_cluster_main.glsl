@@ -1,8 +1,9 @@
 // A fragment of a light's proxy: sets the light's bit in clusters of its tile.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Cluster Rasterizer".
 // Promise: the bits of a tile reach from the nearest front to the farthest back without a gap, as far as there are surfaces
-// where the depth pre-pass ends them early. A walk looks for the
-// farthest mark of its tile first, because marks may have gaps where a sliver of the back lies between two pixels.
+// where the depth pre-pass ends them early. A walk looks for the farthest mark of its tile first, because marks may have
+// gaps where a sliver of the back lies between two pixels. TO_FIRST_MARK is the source's walk, which may miss what lies
+// behind a gap.
 // Needs: set_bit(word, bit).
 // SPDX-License-Identifier: Apache-2.0
 #include "common/atomic_load.glsl"
@@ -13,6 +14,7 @@ layout(constant_id = 7) const uint MODE = 0;
 #include "common/slice_constants.glsl"
 layout(constant_id = 12) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
 layout(constant_id = 13) const bool RADIAL = false;
+layout(constant_id = 14) const bool TO_FIRST_MARK = false;
 #define RADIAL_BINDING 7
 #include "common/radial_bounds.glsl"
 #include "common/tile_volume.glsl"
@@ -42,6 +44,14 @@ uint farthest_mark(uvec2 tile, uint bit, uint first, uint last) {
   return last;
 }
 
+// The first slice of the tile, from `first` to `last`, that holds the bit; `last` if none does. Walks that begin farther
+// back set bits meanwhile: who ends at those goes on where they went.
+uint first_mark(uvec2 tile, uint bit, uint first, uint last) {
+  for (uint slice = first; slice < last; ++slice)
+    if ((LOAD_OF_DEVICE(bits[cluster_word(tile, slice)]) & bit) != 0u) return slice;
+  return last;
+}
+
 // Whether anything of a cluster is lit, as far as the light's radial bound tells.
 bool is_lit_in(uvec2 tile, uint slice, LightProxy proxy) {
   if (!RADIAL) return true;
@@ -64,8 +74,10 @@ void main() {
   uvec2 slices = slices_of(depths.x, depths.y);
   const uvec2 tile = pixel / TILE_PX;
   const uint bit = 1u << (in_light % 32u);
-  if (MODE == CLUSTERS_WALK && slices.x <= surface.y)
-    slices.y = farthest_mark(tile, bit, slices.x, slices_of(proxy.z_far, proxy.z_far).y);
+  if (MODE == CLUSTERS_WALK && slices.x <= surface.y) {
+    const uint last = slices_of(proxy.z_far, proxy.z_far).y;
+    slices.y = TO_FIRST_MARK ? first_mark(tile, bit, slices.x, last) : farthest_mark(tile, bit, slices.x, last);
+  }
   if (MODE == CLUSTERS_FROM_EYE) slices.x = 0u;
   // Marks stay where they are: a walk must not take one that is left out for a back too thin to see.
   if (MODE != CLUSTERS_MARK) slices = uvec2(max(slices.x, surface.x), min(slices.y, surface.y));

@@ -220,6 +220,7 @@ Plan plan_raster_cluster(const Problem& problem) {
   b.bits = plan.add(parts::zeroed_cells(
       "cluster bits", problem, {.px = o.integer("tile"), .layers = o.integer("slices")}, std::uint64_t{words} * 4));
   plan.any_depth = o.word("early") == "off";
+  plan.approximate = o.word("mark") == "first";
   const std::uint32_t early_px = o.word("early") == "on" ? std::min(o.integer("tile"), LARGEST_RANGE_PX) : 0;
   if (early_px != 0) {
     const std::uint64_t squares = parts::tile_count(problem, early_px);
@@ -235,7 +236,8 @@ Plan plan_raster_cluster(const Problem& problem) {
     Pass pass = draw_pass(problem, raster, b, draw);
     pass.constants.push_back(mode);
     pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
-    pass.constants.insert(pass.constants.end(), {early_px, parts::is_radial(problem.options) ? 1U : 0U});
+    pass.constants.insert(pass.constants.end(),
+                          {early_px, parts::is_radial(problem.options) ? 1U : 0U, plan.approximate ? 1U : 0U});
     pass.bindings.insert(pass.bindings.end(), {{b.bits, Access::read_write},
                                                {early_px != 0 ? b.ranges : INPUT_LIGHTS},
                                                parts::radial_binding(problem, INPUT_LIGHTS)});
@@ -311,20 +313,26 @@ Method drobot_raster_cluster_method() {
       .result = "cluster_bits",
       .needs_depth = false,
       .any_depth = true,
-      .options = {{.key = "tile", .help = "tile size, pixels", .fallback = "32", .choices = {"16", "32", "64"}},
-                  {.key = "slices", .help = "slices of depth", .fallback = "32", .min = 1, .max = 256},
-                  parts::slice_scale_option("scale", "log"),
-                  parts::slice_near_option(),
-                  parts::slice_far_option(),
-                  raster_option(),
-                  {.key = "early",
-                   .help = "walks end at the surfaces of a depth pre-pass; then only its depths are looked up right",
-                   .fallback = "off",
-                   .choices = {"on", "off"}},
-                  compact_option(),
-                  proxy_option(),
-                  parts::occlusion_option(),
-                  parts::walk_option("scalar-entity")},
+      .options =
+          {{.key = "tile", .help = "tile size, pixels", .fallback = "32", .choices = {"16", "32", "64"}},
+           {.key = "slices", .help = "slices of depth", .fallback = "32", .min = 1, .max = 256},
+           parts::slice_scale_option("scale", "log"),
+           parts::slice_near_option(),
+           parts::slice_far_option(),
+           raster_option(),
+           {.key = "early",
+            .help = "walks end at the surfaces of a depth pre-pass; then only its depths are looked up right",
+            .fallback = "off",
+            .choices = {"on", "off"}},
+           {.key = "mark",
+            .help = "walks end at the farthest mark of the tile; or, as the source's, at the first one, and may miss "
+                    "lights behind a gap",
+            .fallback = "farthest",
+            .choices = {"farthest", "first"}},
+           compact_option(),
+           proxy_option(),
+           parts::occlusion_option(),
+           parts::walk_option("scalar-entity")},
       .plan = plan_raster_cluster,
       .check = check_raster_walk};
 }
