@@ -151,7 +151,8 @@ TEST_F(Proxies, AWalkToTheFirstMarkBringsNoMoreAndSaysThatItMayMiss) {
   Renderer renderer(test_context(), shader_library(), scene.gpu, WIDTH, HEIGHT, LIGHTS);
   const LitCase dark = make_case(renderer, view, {});
   const LitCase lit = make_case(renderer, view, slight_lights(view, seen_points(view, dark.depth)));
-  const auto walked = walked_with(renderer, lit, "drobot-raster-cluster", "quarter-msaa", "mark", {"farthest", "first"});
+  const auto walked =
+      walked_with(renderer, lit, "drobot-raster-cluster", "quarter-msaa", "mark", {"farthest", "first"});
   EXPECT_LE(walked[1], walked[0]);
   EXPECT_GT(walked[1], 0U);
 }
