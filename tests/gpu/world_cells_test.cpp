@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
@@ -115,6 +117,17 @@ TEST_F(WorldCells, KnowLightsOfEveryRange) {
   for (const float range : {0.0F, 1e18F, 3e38F, INF}) lights.push_back({.position{}, .range = range});
   const Answered answered = ask({.lights = pack(lights), .points = points});
   EXPECT_GT(answered.findings.useful, 3 * points.size());
+}
+
+// More levels at a point than a walk keeps, with more lights of each than a word of bits.
+TEST_F(WorldCells, MergeManyLevelsOfManyLights) {
+  std::vector<shared::Light> lights;
+  for (const float range : {0.5F, 1.0F, 2.0F, 4.0F, 8.0F, 16.0F, 32.0F})
+    for (const shared::Light& light : lights_around({}, 0.4F * range, range, 1.9F * range, 150))
+      lights.push_back(light);
+  std::ranges::shuffle(lights, std::mt19937(9));
+  const Answered answered = ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.0F), glm::vec3(1.0F))});
+  EXPECT_GT(answered.findings.useful, 300 * 100);
 }
 
 // A brick's own coordinate of such a position rounds up to the next brick's.

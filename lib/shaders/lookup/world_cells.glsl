@@ -18,17 +18,27 @@ LOOKUP_VIEW_WORDS(4, LOOKUP_LEVELS_VIEW);
 
 void lookup_prepare() {}
 
-LAMP_CONST LOOKUP_STREAMS = WORLD_LEVELS + 1u;
+// Levels whose cells a walk keeps in registers; lists of further ones are searched for each light anew.
+LAMP_CONST LOOKUP_STREAMS = 4u;
+LAMP_CONST LOOKUP_NO_LIGHT = 0xffffffffu;
 
-// A stream is a level's cell with lights left.
+// A level's cell with lights left.
+struct LookupStream {
+  uint light;  // the next; LOOKUP_NO_LIGHT: none is left
+  uint place;  // the entry that the light's block begins with
+  uint left;   // entries of the bucket from there on
+  uint bits;   // lights of the block that come behind it
+  uint cell;
+};
+
 struct Walk {
-  uint lights[LOOKUP_STREAMS];  // the stream's next
-  uint cells[LOOKUP_STREAMS];   // bucket, and the cell in its lowest bits
-  uint blocks[LOOKUP_STREAMS];  // where in the bucket the block of that light begins
-  uint bits[LOOKUP_STREAMS];    // lights of the block that come behind it
-  uint streams;
+  LookupStream streams[LOOKUP_STREAMS];
+  uint further;        // bit l: level l has no stream,
+  uint further_light;  // and this is the next of such levels
+  vec3 position;
   uint view;
-  uint at;  // with `all`: the next light
+  uint last;  // light that was named
+  uint at;    // with `all`: the next light
   bool all;
 };
 
@@ -43,85 +53,117 @@ WorldBucket lookup_bucket(uint view, uint bucket) {
   return lookup_buckets[view * (LOOKUP_BUCKETS_VIEW / 2u) + bucket];
 }
 
-uint lookup_block(Walk walk, WorldBucket bucket, uint cell, uint block) {
-  const uint first = walk.view * LOOKUP_BITS_VIEW + 2u * (bucket.first + block);
-  return lookup_field(first, cell % BRICK_CELLS, min(bucket.count - block, 32u));
+uint lookup_entry_light(uint view, uint place) {
+  return lookup_entries[view * LOOKUP_ENTRIES_VIEW + place] >> ENTRY_BRICK_BITS;
 }
 
-// To the stream's next light; false if there is none.
-bool lookup_advance(inout Walk walk, uint stream) {
-  const uint cell = walk.cells[stream];
-  const WorldBucket bucket = lookup_bucket(walk.view, cell / BRICK_CELLS);
-  uint block = walk.blocks[stream];
-  uint bits = walk.bits[stream];
-  while (bits == 0u) {
-    block += 32u;
-    if (block >= bucket.count) return false;
-    bits = lookup_block(walk, bucket, cell, block);
+uint lookup_block(uint view, LookupStream stream) {
+  return lookup_field(view * LOOKUP_BITS_VIEW + 2u * stream.place, stream.cell, min(stream.left, 32u));
+}
+
+// To the stream's next light.
+void lookup_advance(uint view, inout LookupStream stream) {
+  while (stream.bits == 0u && stream.left > 32u) {
+    stream.place += 32u;
+    stream.left -= 32u;
+    stream.bits = lookup_block(view, stream);
   }
-  const uint entry = walk.view * LOOKUP_ENTRIES_VIEW + bucket.first + block + LAMP_FIRST_BIT(bits);
-  walk.lights[stream] = lookup_entries[entry] >> ENTRY_BRICK_BITS;
-  walk.blocks[stream] = block;
-  walk.bits[stream] = bits & (bits - 1u);
-  return true;
+  stream.light = LOOKUP_NO_LIGHT;
+  if (stream.bits == 0u) return;
+  stream.light = lookup_entry_light(view, stream.place + LAMP_FIRST_BIT(stream.bits));
+  stream.bits &= stream.bits - 1u;
 }
 
-// False: the level's bucket did not fit.
-bool lookup_add_stream(inout Walk walk, WorldPlace place) {
-  const WorldBucket bucket = lookup_bucket(walk.view, place.bucket);
-  if (bucket.count == WORLD_ALL) return false;
-  if (bucket.count == 0u) return true;
-  const uint stream = walk.streams;
-  walk.cells[stream] = place.bucket * BRICK_CELLS + place.cell;
-  walk.blocks[stream] = 0u;
-  walk.bits[stream] = lookup_block(walk, bucket, place.cell, 0u);
-  if (lookup_advance(walk, stream)) ++walk.streams;
-  return true;
+// Of a bucket that has lights, before the first; or with `light`, before the first that is not less.
+LookupStream lookup_stream(uint view, WorldBucket bucket, uint cell, uint light) {
+  uint begin = 0u;
+  for (uint end = light == 0u ? 0u : bucket.count; begin < end;) {
+    const uint middle = (begin + end) / 2u;
+    if (lookup_entry_light(view, bucket.first + middle) < light)
+      begin = middle + 1u;
+    else
+      end = middle;
+  }
+  LookupStream stream;
+  stream.light = LOOKUP_NO_LIGHT;
+  stream.place = bucket.first + begin / 32u * 32u;
+  stream.left = bucket.count - begin / 32u * 32u;
+  stream.bits = 0u;
+  stream.cell = cell;
+  if (begin == bucket.count) return stream;
+  stream.bits = lookup_block(view, stream) & 0xffffffffu << begin % 32u;
+  return stream;
+}
+
+// The least light of the levels without a stream that is not less than `light`.
+uint lookup_further(Walk walk, uint light) {
+  uint least = LOOKUP_NO_LIGHT;
+  for (uint levels = walk.further; levels != 0u; levels &= levels - 1u) {
+    const WorldPlace place = lookup_place(walk.position, LAMP_FIRST_BIT(levels));
+    LookupStream stream = lookup_stream(walk.view, lookup_bucket(walk.view, place.bucket), place.cell, light);
+    lookup_advance(walk.view, stream);
+    least = min(least, stream.light);
+  }
+  return least;
 }
 
 Walk world_walk_begin(uint view, vec3 position) {
   Walk walk;
-  walk.streams = 0u;
+  LAMP_UNROLL for (uint i = 0u; i < LOOKUP_STREAMS; ++i) {
+    walk.streams[i].light = LOOKUP_NO_LIGHT;
+    walk.streams[i].place = 0u;
+    walk.streams[i].left = 0u;
+    walk.streams[i].bits = 0u;
+    walk.streams[i].cell = 0u;
+  }
+  walk.further = 0u;
+  walk.further_light = LOOKUP_NO_LIGHT;
+  walk.position = position;
   walk.view = view;
+  walk.last = LOOKUP_NO_LIGHT;
   walk.at = 0u;
   walk.all = false;
-  for (uint levels = lookup_levels(view); levels != 0u && !walk.all; levels &= levels - 1u) {
-    const WorldPlace place = lookup_place(position, LAMP_FIRST_BIT(levels));
-    if (place.lies) walk.all = !lookup_add_stream(walk, place);
+  uint used = 0u;
+  for (uint levels = lookup_levels(view); levels != 0u; levels &= levels - 1u) {
+    const uint level = LAMP_FIRST_BIT(levels);
+    const WorldPlace place = lookup_place(position, level);
+    if (!place.lies) continue;
+    const WorldBucket bucket = lookup_bucket(view, place.bucket);
+    if (bucket.count == WORLD_ALL) walk.all = true;  // it did not fit
+    if (bucket.count == 0u || walk.all) continue;
+    LookupStream stream = lookup_stream(view, bucket, place.cell, 0u);
+    lookup_advance(view, stream);
+    if (stream.light == LOOKUP_NO_LIGHT) continue;
+    if (used == LOOKUP_STREAMS) walk.further |= 1u << level;
+    LAMP_UNROLL for (uint i = 0u; i < LOOKUP_STREAMS; ++i)
+      if (used == i) walk.streams[i] = stream;
+    used = min(used + 1u, LOOKUP_STREAMS);
   }
+  if (walk.further != 0u) walk.further_light = lookup_further(walk, 0u);
   return walk;
 }
 Walk world_walk_begin(vec3 position) { return world_walk_begin(LOOKUP_VIEW, position); }
 
-uint lookup_least(Walk walk) {
-  uint least = walk.lights[0];
-  for (uint stream = 1u; stream < walk.streams; ++stream) least = min(least, walk.lights[stream]);
-  return least;
-}
-
-// The last stream takes the place of one that has ended.
-void lookup_end_stream(inout Walk walk, uint stream) {
-  const uint last = --walk.streams;
-  walk.lights[stream] = walk.lights[last];
-  walk.cells[stream] = walk.cells[last];
-  walk.blocks[stream] = walk.blocks[last];
-  walk.bits[stream] = walk.bits[last];
-}
-
-// Where bricks of two levels share a bucket, two streams can name one light: both move on.
+// Where bricks of two levels share a bucket, two streams can name one light: the second time it is passed over.
 bool world_walk_next(inout Walk walk, out uint light) {
   light = walk.at;
   if (walk.all) return walk.at++ < lookup_light_count();
-  if (walk.streams == 0u) return false;
-  light = lookup_least(walk);
-  for (uint stream = 0u; stream < walk.streams;) {
-    bool has_ended = false;
-    if (walk.lights[stream] == light) has_ended = !lookup_advance(walk, stream);
-    if (has_ended)
-      lookup_end_stream(walk, stream);
-    else
-      ++stream;
-  }
+  do {
+    LookupStream stream = walk.streams[0];
+    uint which = 0u;
+    LAMP_UNROLL for (uint i = 1u; i < LOOKUP_STREAMS; ++i)
+      if (walk.streams[i].light < stream.light) {
+        stream = walk.streams[i];
+        which = i;
+      }
+    light = min(stream.light, walk.further_light);
+    if (light == LOOKUP_NO_LIGHT) return false;
+    if (light == walk.further_light) walk.further_light = lookup_further(walk, light + 1u);
+    if (light == stream.light) lookup_advance(walk.view, stream);
+    LAMP_UNROLL for (uint i = 0u; i < LOOKUP_STREAMS; ++i)
+      if (which == i) walk.streams[i] = stream;
+  } while (light == walk.last);
+  walk.last = light;
   return true;
 }
 
