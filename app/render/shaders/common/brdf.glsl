@@ -116,22 +116,28 @@ vec3 reflect_light(Reflector r, vec3 halfway, float n_l, float arriving) {
   return reflected;
 }
 
-// Radiance towards the eye, of a surface on which the same radiance arrives from everywhere, `irradiance` in all: the
-// integral of reflect_light over all directions. Specular light is f0 * scale + bias, by Hirvonen et al.'s fit (theirs
-// for GGX; Blinn-Phong takes it too); diffuse light is what f0 leaves, as above, without the 3 % at most that Schlick's
-// term takes of it at grazing angles.
-vec3 reflect_surroundings(Reflector r, vec3 irradiance) {
-  precise const float x = min(abs(r.half_n_eye) * 2.0, 1.0);
+// The integral of specular light over all directions, where the same radiance arrives from everywhere: f0 times the
+// first, and the second. Hirvonen et al.'s fit, for GGX. `x`: the cosine between normal and eye; `a`: alpha, `a2`: its
+// square.
+vec2 surroundings_split(float x, float a, float a2) {
   precise const float x3 = x * x * x;
-  precise const float a = sqrt(r.a2);
-  precise const float a3 = a * r.a2;
+  precise const float a3 = a * a2;
   precise const float bias = fma(a, fma(x, -0.755907, 1.29678), fma(x, -1.28514, 0.99044)) /
       fma(a3, fma(x3, 316.627, fma(x, 626.13, 121.563)),
           fma(a, fma(x3, 222.592, fma(x, -27.0302, 20.3225)), fma(x3, 59.4188, fma(x, 2.92338, 1.0))));
   precise const float scale = fma(a, fma(x, -9.04756, 9.0632), fma(x, 3.32707, 0.0365463)) /
       fma(a3, fma(x3, -20.2123, fma(x * x, 19.7886, 5.56589)),
           fma(a, fma(x3, 9.22949, fma(x * x, -16.3174, 9.04401)), fma(x3, -1.36772, fma(x * x, 3.59685, 1.0))));
-  precise const vec3 specular = fma(r.f0, vec3(scale), vec3(max(bias, 0.0)));
+  return vec2(scale, max(bias, 0.0));
+}
+
+// Radiance towards the eye, of a surface on which the same radiance arrives from everywhere, `irradiance` in all: the
+// integral of reflect_light over all directions. Specular light is as above (Blinn-Phong takes GGX's fit too); diffuse
+// light is what f0 leaves, without the 3 % at most that Schlick's term takes of it at grazing angles.
+vec3 reflect_surroundings(Reflector r, vec3 irradiance) {
+  precise const float x = min(abs(r.half_n_eye) * 2.0, 1.0);
+  const vec2 split = surroundings_split(x, sqrt(r.a2), r.a2);
+  precise const vec3 specular = fma(r.f0, vec3(split.x), vec3(split.y));
   precise const vec3 reflected = irradiance * fma(specular, vec3(1.0 / PI), r.diffuse);
   return reflected;
 }

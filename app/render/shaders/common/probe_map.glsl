@@ -1,0 +1,67 @@
+// Directions on the octahedral squares of a probe, and where the squares of its levels lie.
+// Based on: octahedral maps: Praun, Hoppe, Spherical Parametrization and Remeshing, SIGGRAPH (2003).
+// Promise: the same bits wherever a direction is looked up.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_PROBE_MAP
+#define LAMP_PROBE_MAP
+#include "../probe_atlas_data.h"
+
+vec2 signs_of(vec2 p) { return vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0); }
+
+// -1 .. 1 on the square. Of a direction of any length.
+vec2 probe_place(vec3 direction) {
+  precise const float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
+  precise const vec2 p = direction.xy / sum;
+  precise const vec2 folded = (1.0 - abs(p.yx)) * signs_of(p);
+  return direction.z >= 0.0 ? p : folded;
+}
+
+// The point of the octahedron |x| + |y| + |z| = 1. The solid angle of an area there is the area over the cube of the
+// point's distance, up to a factor.
+vec3 probe_point(vec2 place) {
+  const float z = 1.0 - abs(place.x) - abs(place.y);
+  return vec3(z >= 0.0 ? place : (1.0 - abs(place.yx)) * signs_of(place), z);
+}
+
+// Texels beyond the edges of a square are others of it: the octahedron goes on there.
+ivec2 probe_folded(ivec2 texel, int side) {
+  if (texel.x < 0 || texel.x >= side) texel = ivec2(texel.x < 0 ? -1 - texel.x : 2 * side - 1 - texel.x, side - 1 - texel.y);
+  if (texel.y < 0 || texel.y >= side) texel = ivec2(side - 1 - texel.x, texel.y < 0 ? -1 - texel.y : 2 * side - 1 - texel.y);
+  return texel;
+}
+
+// Where a level's square lies in the block, without its border.
+uvec2 probe_level_origin(uint level) {
+  if (level == 0u) return uvec2(1u, 1u);
+  if (level == 1u) return uvec2(131u, 1u);
+  if (level == 2u) return uvec2(131u, 67u);
+  if (level == 3u) return uvec2(165u, 67u);
+  return level == 4u ? uvec2(165u, 85u) : uvec2(131u, 101u);
+}
+
+// A face of the cube looks along an axis: +x, -x, +y, -y, +z, -z.
+vec3 face_forward(uint face) {
+  const float way = (face & 1u) == 0u ? 1.0 : -1.0;
+  return vec3(face < 2u ? way : 0.0, face >> 1u == 1u ? way : 0.0, face >= 4u ? way : 0.0);
+}
+vec3 face_up(uint face) { return face >> 1u == 1u ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0); }
+
+uint face_of(vec3 direction) {
+  const vec3 size = abs(direction);
+  if (size.x >= size.y && size.x >= size.z) return direction.x >= 0.0 ? 0u : 1u;
+  if (size.y >= size.z) return direction.y >= 0.0 ? 2u : 3u;
+  return direction.z >= 0.0 ? 4u : 5u;
+}
+
+// The pixel of all faces, one behind the other, that a direction meets.
+uint face_pixel(vec3 direction) {
+  const uint face = face_of(direction);
+  const vec3 forward = face_forward(face);
+  const vec3 up = face_up(face);
+  const vec3 right = cross(forward, up);
+  const vec2 place = vec2(dot(direction, right), -dot(direction, up)) / dot(direction, forward);
+  const uvec2 pixel = uvec2(clamp((place * 0.5 + 0.5) * float(PROBE_SIDE), vec2(0.0), vec2(float(PROBE_SIDE) - 1.0)));
+  return (face * PROBE_SIDE + pixel.y) * PROBE_SIDE + pixel.x;
+}
+
+#endif
