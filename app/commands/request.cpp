@@ -253,6 +253,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_depth(request.depth, request.depth_samples));
   static_cast<void>(requested_shadows(request));
   check_still(request);
+  check_mirror(request);
 }
 
 Scene load_scene(const std::string& name) {
@@ -329,6 +330,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
     renderer_->light_still(still_lists_.get());
   }
   if (shadows_) renderer_->cast_shadows(*shadows_);
+  if (const auto mirror = requested_mirror(request, setup.scene)) renderer_->mirror(*mirror);
   renderer_->set_frame(setup.views, setup.lights, setup.decals);
 }
 

@@ -39,15 +39,17 @@ struct Request {
   std::vector<std::string> options;
   std::string path = "deferred";
   std::string brdf = "ggx";
-  float still = 0.0F;                   ///< part of the generated lights that stand still; the scene's own do
-  std::string still_lists = "off";      ///< or what they are looked up in
-  std::uint32_t still_occlusion = 0;    ///< texels a side of what each looks around with; 0: walls hide nothing
-  float still_bytes = 16.0F;            ///< that their lists take, for each triangle
-  std::string shadows = "off";          ///< filter
-  std::string point_shadows = "faces";  ///< or octahedron
-  std::string shadow_lights = "all";    ///< how many of the first lights
-  std::string shadow_budget = "all";    ///< texels drawn in a frame
-  std::uint32_t atlas = 4096;           ///< texels a side
+  float still = 0.0F;                        ///< part of the generated lights that stand still; the scene's own do
+  std::string still_lists = "off";           ///< or what they are looked up in
+  std::uint32_t still_occlusion = 0;         ///< texels a side of what each looks around with; 0: walls hide nothing
+  float still_bytes = 16.0F;                 ///< that their lists take, for each triangle
+  float mirror = 0.0F;                       ///< roughness from which on surfaces mirror nothing; 0: none does
+  std::string mirror_lists = "world-cells";  ///< of what mirror rays meet
+  std::string shadows = "off";               ///< filter
+  std::string point_shadows = "faces";       ///< or octahedron
+  std::string shadow_lights = "all";         ///< how many of the first lights
+  std::string shadow_budget = "all";         ///< texels drawn in a frame
+  std::uint32_t atlas = 4096;                ///< texels a side
   std::string camera;
   int frame = -1;                         ///< of the flight; -1: the camera
   int light_frame = -1;                   ///< of the generated lights' paths; -1: as the flight's
@@ -86,6 +88,8 @@ void add_grow_option(CLI::App& command, Request& request);
 void add_auto_options(CLI::App& command, Request& request);
 /// Adds `--shadows` and what goes with it.
 void add_shadow_options(CLI::App& command, Request& request);
+/// Adds `--mirror` and `--mirror-lists`.
+void add_mirror_options(CLI::App& command, Request& request);
 /// Adds `--still-lists` and what goes with it.
 void add_still_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
@@ -155,6 +159,10 @@ void check_scene_lights(const Request& request, const Scene& scene);
 /// What `--shadows`, `--point-shadows` and `--depth` take.
 [[nodiscard]] std::span<const std::string_view> shadow_names();
 [[nodiscard]] std::span<const std::string_view> point_shadow_names();
+/// Of `--mirror`; nothing where no surface mirrors. Throws Error for what it does not go with.
+[[nodiscard]] std::optional<MirrorSettings> requested_mirror(const Request& request, const Scene& scene);
+/// The same, as far as it is known before a scene is loaded.
+void check_mirror(const Request& request);
 /// What `--still-lists` takes.
 [[nodiscard]] std::span<const std::string_view> still_lists_names();
 /// Throws Error for `--still-lists` and what goes with it, as far as it is known before a scene is loaded.

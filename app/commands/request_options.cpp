@@ -122,6 +122,7 @@ void add_picture_options(CLI::App& command, Request& r) {
   add_decal_option(command, r);
   add_still_options(command, r);
   add_shadow_options(command, r);
+  add_mirror_options(command, r);
 }
 
 void add_option_option(CLI::App& command, Request& r) {

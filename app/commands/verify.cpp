@@ -355,6 +355,7 @@ Run add_verify(CLI::App& app) {
   add_decal_option(*command, o->request);
   add_still_options(*command, o->request);
   add_shadow_options(*command, o->request);
+  add_mirror_options(*command, o->request);
   add_method_option(*command, o->methods, "method to check");
   add_option_option(*command, o->request);
   add_grow_option(*command, o->request);

@@ -24,22 +24,6 @@ gpu::TextureData texture_data(const Texture& t) {
           .uv = t.uv};
 }
 
-gpu::MaterialData material_data(const Material& m) {
-  return {.base_color = m.base_color,
-          .emissive = m.emissive,
-          .metallic = m.metallic,
-          .roughness = m.roughness,
-          .normal_scale = m.normal_texture.image < 0 ? 0.0F : m.normal_scale,
-          .occlusion_strength = m.occlusion_strength,
-          .alpha_cutoff = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0F,
-          .least_alpha = m.alpha_mode == AlphaMode::blend ? 0.0F : 1.0F,
-          .base_color_texture = texture_data(m.base_color_texture),
-          .metallic_roughness_texture = texture_data(m.metallic_roughness_texture),
-          .normal_texture = texture_data(m.normal_texture),
-          .occlusion_texture = texture_data(m.occlusion_texture),
-          .emissive_texture = texture_data(m.emissive_texture)};
-}
-
 gpu::InstanceData instance_data(const Instance& instance, std::uint32_t first_triangle) {
   const glm::mat3 normal = glm::transpose(glm::inverse(glm::mat3(instance.world_from_object)));
   return {.world_from_object = instance.world_from_object,
@@ -90,6 +74,22 @@ glm::vec3 mesh_center(const Scene& scene, const Instance& instance) {
 }
 
 }  // namespace
+
+gpu::MaterialData material_data(const Material& m) {
+  return {.base_color = m.base_color,
+          .emissive = m.emissive,
+          .metallic = m.metallic,
+          .roughness = m.roughness,
+          .normal_scale = m.normal_texture.image < 0 ? 0.0F : m.normal_scale,
+          .occlusion_strength = m.occlusion_strength,
+          .alpha_cutoff = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0F,
+          .least_alpha = m.alpha_mode == AlphaMode::blend ? 0.0F : 1.0F,
+          .base_color_texture = texture_data(m.base_color_texture),
+          .metallic_roughness_texture = texture_data(m.metallic_roughness_texture),
+          .normal_texture = texture_data(m.normal_texture),
+          .occlusion_texture = texture_data(m.occlusion_texture),
+          .emissive_texture = texture_data(m.emissive_texture)};
+}
 
 std::vector<VkVertexInputAttributeDescription> vertex_attributes() {
   const auto at = [](std::uint32_t location, VkFormat format, std::size_t offset) {

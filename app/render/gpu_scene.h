@@ -62,6 +62,9 @@ class GpuScene {
   std::optional<CapturedSurfaces> captured_;
 };
 
+/// A material as shaders read it, without its images.
+[[nodiscard]] gpu::MaterialData material_data(const Material& material);
+
 /// The vertex attributes of mesh.vert.
 [[nodiscard]] std::vector<VkVertexInputAttributeDescription> vertex_attributes();
 

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "gpu/check.h"
+#include "render/mirror_pass.h"
 #include "render/still_lists.h"
 
 namespace lamp::app {
@@ -140,7 +141,7 @@ void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
 }
 
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  if (info_.path == ShadingPath::forward)
+  if (info_.path == ShadingPath::forward && frame.mirror == nullptr)
     frame.geometry.record_depth(recorder, frame.scene, frame.data, frame.targets);
   else if (!frame.surfaces_drawn || decals_)
     record_surfaces(recorder, frame);
@@ -157,6 +158,7 @@ void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
   else
     shade_compute(recorder, frame);
   if (info_.path == ShadingPath::standard_deferred) add_volumes(recorder, frame);
+  if (frame.mirror != nullptr) frame.mirror->record(recorder, frame);
   if (info_.transparency) add_transparent(recorder, frame);
 }
 

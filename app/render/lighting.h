@@ -15,6 +15,8 @@
 
 namespace lamp::app {
 
+class MirrorPass;
+
 /// What a frame is lit with.
 struct LightingFrame {
   const GpuScene& scene;
@@ -26,9 +28,10 @@ struct LightingFrame {
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   std::span<const View> views;             ///< all that are culled
   glm::vec3 eye{0.0F};
-  ShadowBound shadows{};        ///< what look-ups of shadows bind
-  vulkan::Resource still{};     ///< and those of lights that stand still
-  bool surfaces_drawn = false;  ///< the targets hold them: deferred paths without decals draw none
+  ShadowBound shadows{};         ///< what look-ups of shadows bind
+  vulkan::Resource still{};      ///< and those of lights that stand still
+  MirrorPass* mirror = nullptr;  ///< adds mirrored light, if there
+  bool surfaces_drawn = false;   ///< the targets hold them: deferred paths without decals draw none
 };
 
 class Lighting {

@@ -72,6 +72,16 @@ void Renderer::cast_shadows(const ShadowSettings& settings) {
   shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : decal_capacity_));
 }
 
+void Renderer::mirror(const MirrorSettings& settings) {
+  assert(!mirror_ && "once");
+  mirror_.emplace(context_, shaders_, scene_,
+                  MirrorInfo{.settings = settings,
+                             .width = targets_->width,
+                             .height = targets_->height,
+                             .light_capacity = light_capacity_ + decal_capacity_,
+                             .shadows = shadows_ ? std::optional(shadows_->settings().filter) : std::nullopt});
+}
+
 void Renderer::set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
   assert(views.size() == depth_.views && "make a Renderer for another number of views");
@@ -166,7 +176,8 @@ LightingFrame Renderer::lighting_frame() const {
           .views = all_pictures_ ? std::span<const View>(views_) : std::span<const View>(&shown_view_, 1),
           .eye = glm::vec3(glm::dmat4(shown_view_.world_from_view())[3]),
           .shadows = shadow_bound(),
-          .still = (still_ == nullptr ? no_still_ : *still_).words()};
+          .still = (still_ == nullptr ? no_still_ : *still_).words(),
+          .mirror = nullptr};
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
@@ -175,6 +186,7 @@ void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuff
                       lighting->info().options);
   context_.submit(record);
   if (lighting != nullptr) lighting->finish();
+  if (mirror_) mirror_->finish();
 }
 
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
@@ -183,6 +195,7 @@ void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool
   record_meshes(recorder, lighting);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
+  if (mirror_) frame.mirror = &*mirror_;
   lighting.record(recorder, frame);
   // Forward paths leave the G-buffer as it was, decals are painted into it.
   if (lighting.info().path != ShadingPath::forward) surfaces_drawn_ = !lighting.info().decals;
@@ -209,6 +222,7 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
       if (!last) return;
       record_readback(recorder, targets_->hdr, picture);
       lighting.record_counts(recorder);
+      if (mirror_) mirror_->record_counts(recorder);
     });
     if (i >= warm_up) times.add(timestamps_.read(), lighting);
   }

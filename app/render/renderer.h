@@ -13,6 +13,7 @@
 #include "oracle/reference.h"
 #include "render/frame_times.h"
 #include "render/lighting.h"
+#include "render/mirror_pass.h"
 #include "render/sample_depth.h"
 #include "render/still_lists.h"
 #include "render/still_tree.h"
@@ -70,6 +71,11 @@ class Renderer {
   void cast_shadows(const ShadowSettings& settings);
   /// Null: no light casts a shadow.
   [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
+  /// Surfaces below a roughness mirror what is around them, in all frames. Once, behind `cast_shadows`. Throws Error
+  /// for what the device cannot do.
+  void mirror(const MirrorSettings& settings);
+  /// Null: none does.
+  [[nodiscard]] const MirrorPass* mirrored() const { return mirror_ ? &*mirror_ : nullptr; }
   /// The last lights of the next frames stand still, as many as `lists` has, and are looked up in it by lightings that
   /// were made for it. Null: none do. It must live on, and be told before `set_frame`.
   void light_still(const StillLists* lists) { still_ = lists; }
@@ -216,6 +222,7 @@ class Renderer {
   NoShadows no_shadows_;
   StillTree still_tree_;
   std::optional<Shadows> shadows_;
+  std::optional<MirrorPass> mirror_;
   StillLists no_still_;
   const StillLists* still_ = nullptr;
   std::uint32_t light_capacity_;

@@ -62,23 +62,37 @@ bool is_there(const Scene& scene, const Origin& origin, double u, double v) {
   return alpha >= material.alpha_cutoff;
 }
 
+template <class Use>
+void for_each_occluder(const Scene& scene, Use use) {
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
+    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) use(mesh, t, world_triangle<double>(scene, instance, t));
+  }
+}
+
 }  // namespace
 
 Occluders scene_occluders(const Scene& scene) {
   std::vector<Triangle> triangles;
   std::vector<Origin> origins;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
-    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
-      triangles.push_back({world_triangle<double>(scene, instance, t)});
-      origins.push_back({&mesh, t});
-    }
-  }
+  for_each_occluder(scene, [&](const Mesh& mesh, std::uint32_t t, const std::array<glm::dvec3, 3>& corners) {
+    triangles.push_back({corners});
+    origins.push_back({&mesh, t});
+  });
   return Occluders(std::move(triangles),
                    [&scene, origins = std::move(origins)](std::uint32_t triangle, double u, double v) {
                      return is_there(scene, origins[triangle], u, v);
                    });
+}
+
+std::vector<DrawnSides> drawn_sides(const Scene& scene) {
+  std::vector<DrawnSides> sides;
+  for_each_occluder(scene, [&](const Mesh& mesh, std::uint32_t, const std::array<glm::dvec3, 3>& c) {
+    sides.push_back(
+        {.normal = glm::cross(c[1] - c[0], c[2] - c[0]), .both = scene.materials[mesh.material].double_sided});
+  });
+  return sides;
 }
 
 }  // namespace lamp::app

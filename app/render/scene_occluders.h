@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "oracle/occluders.h"
 #include "scene/scene.h"
 
@@ -10,5 +12,13 @@ namespace lamp::app {
 
 /// Refers to the scene, which must outlive it.
 [[nodiscard]] Occluders scene_occluders(const Scene& scene);
+
+/// Which sides of a triangle are drawn.
+struct DrawnSides {
+  glm::dvec3 normal{0.0};  ///< of its front, m^2
+  bool both = false;
+};
+/// Of each of their triangles.
+[[nodiscard]] std::vector<DrawnSides> drawn_sides(const Scene& scene);
 
 }  // namespace lamp::app

@@ -1,0 +1,59 @@
+// Mirrored light: the options, and what they do not go with.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "commands/command_line.h"
+#include "commands/request.h"
+
+namespace lamp::app {
+
+void add_mirror_options(CLI::App& command, Request& r) {
+  CLI::Option* mirror =
+      command
+          .add_option("--mirror", r.mirror,
+                      "surfaces less rough than this mirror what is around them, with one ray a pixel; 0: none do")
+          ->check(number_between(0.0, 1.0))
+          ->type_name("ROUGHNESS")
+          ->group("Lights")
+          ->capture_default_str();
+  command
+      .add_option("--mirror-lists", r.mirror_lists,
+                  "what the points that rays meet look lights up in: world-cells or brute-force")
+      ->needs(mirror)
+      ->type_name("NAME")
+      ->group("Lights")
+      ->capture_default_str();
+}
+
+void check_mirror(const Request& request) {
+  if (std::ranges::find(mirror_list_names(), request.mirror_lists) == mirror_list_names().end())
+    throw unknown_name("--mirror-lists", request.mirror_lists, mirror_list_names());
+  if (request.mirror == 0.0F) return;
+  if (request.still_lists != "off")
+    throw Error(
+        fmt::format("--mirror: with --still-lists {} still lights are in no list that a ray's hit can ask, "
+                    "expected --still-lists off",
+                    request.still_lists));
+  if (request.decals != 0 && request.path == "forward")
+    throw Error(
+        "--mirror: with --decals on path forward no G-buffer holds what decals paint, expected --path deferred");
+}
+
+std::optional<MirrorSettings> requested_mirror(const Request& request, const Scene& scene) {
+  check_mirror(request);
+  if (request.mirror == 0.0F) return std::nullopt;
+  if (scene.captured)
+    throw Error(
+        fmt::format("--mirror: the capture {} has no triangles that a ray could meet, expected a scene with "
+                    "meshes",
+                    request.scene));
+  const auto list = std::ranges::find(mirror_list_names(), request.mirror_lists);
+  return MirrorSettings{.roughness = request.mirror,
+                        .lists = static_cast<MirrorLists>(list - mirror_list_names().begin()),
+                        .brdf = parse_brdf(request.brdf)};
+}
+
+}  // namespace lamp::app

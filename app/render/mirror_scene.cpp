@@ -1,0 +1,160 @@
+// Uploads what rays read.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/mirror_scene.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/check.h"
+#include "render/gpu_scene.h"
+#include "render/pass_uses.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr VkBufferUsageFlags STORAGE = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+std::uint32_t wrap_of(Wrap wrap) {
+  return wrap == Wrap::repeat   ? gpu::MIRROR_WRAP_REPEAT
+         : wrap == Wrap::mirror ? gpu::MIRROR_WRAP_MIRROR
+                                : gpu::MIRROR_WRAP_CLAMP;
+}
+
+gpu::MirrorTexture mirror_texture(const gpu::TextureData& place, const Texture& texture) {
+  return {.place = place,
+          .image = texture.image < 0 ? gpu::MIRROR_NO_IMAGE : static_cast<std::uint32_t>(texture.image),
+          .wrap_u = wrap_of(texture.wrap_u),
+          .wrap_v = wrap_of(texture.wrap_v)};
+}
+
+gpu::MirrorMaterial mirror_material(const Material& m) {
+  const gpu::MaterialData factors = material_data(m);
+  return {.factors = factors,
+          .base_color = mirror_texture(factors.base_color_texture, m.base_color_texture),
+          .metallic_roughness = mirror_texture(factors.metallic_roughness_texture, m.metallic_roughness_texture),
+          .normal = mirror_texture(factors.normal_texture, m.normal_texture),
+          .occlusion = mirror_texture(factors.occlusion_texture, m.occlusion_texture),
+          .emissive = mirror_texture(factors.emissive_texture, m.emissive_texture)};
+}
+
+std::uint32_t side_at(std::uint32_t side, std::uint32_t level) { return std::max(side >> level, 1U); }
+
+/// Of a level and all coarser ones.
+std::uint64_t texel_count(const Image& image, std::uint32_t first) {
+  std::uint64_t count = 0;
+  for (std::uint32_t level = first;; ++level) {
+    const std::uint32_t width = side_at(image.width, level);
+    const std::uint32_t height = side_at(image.height, level);
+    count += std::uint64_t{width} * height;
+    if (width == 1 && height == 1) return count;
+  }
+}
+
+/// The first level that each image is read from, so that all fit: the largest ones lose a level, one by one.
+std::vector<std::uint32_t> first_levels(std::span<const Image> images, std::uint64_t most_texels) {
+  std::vector<std::uint32_t> firsts(images.size(), 0);
+  std::uint64_t sum = 0;
+  for (const Image& image : images) sum += texel_count(image, 0);
+  while (sum > most_texels) {
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < images.size(); ++i)
+      if (texel_count(images[i], firsts[i]) > texel_count(images[largest], firsts[largest])) largest = i;
+    if (texel_count(images[largest], firsts[largest]) == 1) break;
+    sum -= texel_count(images[largest], firsts[largest]);
+    sum += texel_count(images[largest], ++firsts[largest]);
+  }
+  return firsts;
+}
+
+}  // namespace
+
+MirrorScene::MirrorScene(Context& context, const Scene& scene) : bvh_(make_bvh(scene)) {
+  upload_bvh(context);
+  vertices_ = upload_buffer(context, "vertices of rays", bytes_of(scene.vertices), STORAGE);
+  indices_ = upload_buffer(context, "indices of rays", bytes_of(scene.indices), STORAGE);
+  std::vector<gpu::MirrorMaterial> materials;
+  for (const Material& material : scene.materials) materials.push_back(mirror_material(material));
+  materials_ = upload_buffer(context, "materials of rays", bytes_of(materials), STORAGE);
+  upload_images(context, scene);
+}
+
+void MirrorScene::upload_bvh(Context& context) {
+  triangles_ = upload_buffer(context, "triangles of rays", bytes_of(bvh_.triangles), STORAGE);
+  nodes_ = upload_buffer(context, "nodes of rays", bytes_of(bvh_.nodes), STORAGE | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  instances_ =
+      upload_buffer(context, "instances of rays", bytes_of(bvh_.instances), STORAGE | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+}
+
+void MirrorScene::upload_images(Context& context, const Scene& scene) {
+  const std::uint64_t most = context.device().traits.max_storage_buffer_bytes / sizeof(std::uint32_t);
+  const std::vector<std::uint32_t> firsts = first_levels(scene.images, most);
+  std::vector<std::vector<std::uint32_t>> texels(scene.images.size());
+  std::vector<gpu::MirrorImage> images(scene.images.size());
+  tbb::parallel_for(std::size_t{0}, texels.size(), [&](std::size_t i) {
+    const Image& image = scene.images[i];
+    images[i] = {.width = side_at(image.width, firsts[i]),
+                 .height = side_at(image.height, firsts[i]),
+                 .is_srgb = image.srgb ? 1U : 0U};
+    texels[i] = texels_of(image, firsts[i], images[i].levels);
+  });
+  std::vector<std::uint32_t> all;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    images[i].first = static_cast<std::uint32_t>(all.size());
+    all.insert(all.end(), texels[i].begin(), texels[i].end());
+  }
+  if (const auto coarser = std::ranges::count_if(firsts, [](std::uint32_t first) { return first != 0; }); coarser != 0)
+    notes_.push_back(fmt::format("{} images of {} do not fit the device's largest buffer: mirrors show them coarser",
+                                 coarser, scene.images.size()));
+  images_ = upload_buffer(context, "images of rays", bytes_of(images), STORAGE);
+  texels_ = upload_buffer(context, "texels of rays", bytes_of(all), STORAGE);
+}
+
+void MirrorScene::move(Context& context, const Scene& scene) {
+  if (!refit(bvh_, scene)) return upload_bvh(context);
+  const std::span<const std::byte> instances = bytes_of(bvh_.instances);
+  const std::span<const std::byte> nodes = std::as_bytes(std::span(bvh_.nodes).subspan(bvh_.first_upper));
+  if (staging_.bytes() < instances.size() + nodes.size())
+    staging_ = take(vulkan::Buffer::create(context.device(), {.name = "moved instances",
+                                                              .bytes = instances.size() + nodes.size(),
+                                                              .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                              .memory = vulkan::MemoryUse::upload}));
+  if (instances.empty()) return;
+  std::memcpy(staging_.mapped().data(), instances.data(), instances.size());
+  if (!nodes.empty()) std::memcpy(staging_.mapped().subspan(instances.size()).data(), nodes.data(), nodes.size());
+  moved_ = true;
+}
+
+void MirrorScene::record_upload(vulkan::Recorder& recorder) {
+  if (!std::exchange(moved_, false)) return;
+  recorder.barrier({copies_to(vulkan::Resource::storage(instances_.handle())),
+                    copies_to(vulkan::Resource::storage(nodes_.handle()))});
+  const std::uint64_t instances = bvh_.instances.size() * sizeof(gpu::BvhInstance);
+  const std::uint64_t first = bvh_.first_upper * sizeof(gpu::BvhNode);
+  const std::uint64_t nodes = bvh_.nodes.size() * sizeof(gpu::BvhNode) - first;
+  const VkBufferCopy of_instances{.size = instances};
+  const VkBufferCopy of_nodes{.srcOffset = instances, .dstOffset = first, .size = nodes};
+  vkCmdCopyBuffer(recorder.commands(), staging_.handle(), instances_.handle(), 1, &of_instances);
+  if (nodes != 0) vkCmdCopyBuffer(recorder.commands(), staging_.handle(), nodes_.handle(), 1, &of_nodes);
+}
+
+std::uint64_t MirrorScene::bytes() const {
+  std::uint64_t sum = 0;
+  for (const vulkan::Buffer* buffer :
+       {&nodes_, &triangles_, &instances_, &vertices_, &indices_, &materials_, &images_, &texels_})
+    sum += buffer->bytes();
+  return sum;
+}
+
+std::vector<vulkan::Bound> MirrorScene::bound() const {
+  std::vector<vulkan::Bound> bound;
+  std::uint32_t binding = 8;
+  for (const vulkan::Buffer* buffer :
+       {&nodes_, &triangles_, &instances_, &vertices_, &indices_, &materials_, &images_, &texels_})
+    bound.push_back({binding++, vulkan::Resource::storage(buffer->handle())});
+  return bound;
+}
+
+}  // namespace lamp::app

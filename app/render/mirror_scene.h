@@ -1,0 +1,45 @@
+// A scene as rays read it on the GPU: its hierarchy, vertices, materials, and images as plain texels.
+// Promise: no more texels than a buffer of the device holds; images that do not fit are read from a coarser level on,
+// and a note says so. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/transfer.h"
+#include "lamplight/vulkan.h"
+#include "render/bvh.h"
+#include "render/shaders/mirror_data.h"
+
+namespace lamp::app {
+
+class MirrorScene {
+ public:
+  MirrorScene(Context& context, const Scene& scene);
+
+  /// Its instances have moved: they are uploaded anew with the next `record_upload`, and boxes of the upper level.
+  void move(Context& context, const Scene& scene);
+  void record_upload(vulkan::Recorder& recorder);
+
+  [[nodiscard]] const Bvh& bvh() const { return bvh_; }
+  [[nodiscard]] std::uint64_t bytes() const;
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// At the bindings of common/bvh_scene.glsl.
+  [[nodiscard]] std::vector<vulkan::Bound> bound() const;
+
+ private:
+  void upload_bvh(Context& context);
+  void upload_images(Context& context, const Scene& scene);
+
+  Bvh bvh_;
+  std::vector<std::string> notes_;
+  vulkan::Buffer nodes_, triangles_, instances_, vertices_, indices_, materials_, images_, texels_;
+  vulkan::Buffer staging_;  ///< of instances, then of the upper level's nodes
+  bool moved_ = false;      ///< since the last upload
+};
+
+/// An image's levels, one behind the other, from the level that is `first` on: eight bits each of red, green, blue,
+/// alpha. A texel of a level is the mean of those that it covers, in linear light.
+[[nodiscard]] std::vector<std::uint32_t> texels_of(const Image& image, std::uint32_t first, std::uint32_t& levels);
+
+}  // namespace lamp::app

@@ -1,0 +1,186 @@
+// Mirrored light: rays meet what a reference in double precision meets, the lists of hits miss no light, and the
+// picture is the same whatever finds them. SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "gpu/method_check.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "render/mirror_check.h"
+#include "scene/flight.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::uint32_t WIDTH = 96;
+constexpr std::uint32_t HEIGHT = 64;
+constexpr std::uint32_t COUNT = 100;
+constexpr float ALL = 0.9F;  // most surfaces mirror
+
+struct Shown {
+  const GpuScene& gpu;
+  View view;
+  std::vector<shared::Light> lights;
+  MirrorSettings settings{.roughness = ALL};
+  ShadingPath path = ShadingPath::deferred;
+  std::optional<ShadowSettings> shadows;
+};
+
+class Mirror : public GpuTest {
+ protected:
+  static std::unique_ptr<Renderer> renderer_of(const Shown& shown) {
+    auto renderer = std::make_unique<Renderer>(test_context(), shader_library(), shown.gpu, WIDTH, HEIGHT,
+                                               static_cast<std::uint32_t>(shown.lights.size()));
+    if (shown.shadows) renderer->cast_shadows(*shown.shadows);
+    if (shown.settings.roughness > 0.0F) renderer->mirror(shown.settings);
+    renderer->set_frame(shown.view, shown.lights);
+    return renderer;
+  }
+
+  static HdrImage picture(Renderer& renderer, const Shown& shown) {
+    Lighting lighting(renderer.device(), shader_library(),
+                      {.method = &brute_force(),
+                       .options = take(resolve_options(brute_force(), {})),
+                       .width = WIDTH,
+                       .height = HEIGHT,
+                       .light_capacity = static_cast<std::uint32_t>(shown.lights.size()),
+                       .path = shown.path,
+                       .transparency = !shown.gpu.blended().empty(),
+                       .shadows = shown.shadows ? std::optional(shown.shadows->filter) : std::nullopt});
+    return renderer.render(lighting).image;
+  }
+
+  static HdrImage picture(const Shown& shown) {
+    const std::unique_ptr<Renderer> renderer = renderer_of(shown);
+    return picture(*renderer, shown);
+  }
+};
+
+class MirrorInScene : public Mirror, public ::testing::WithParamInterface<std::string_view> {};
+
+/// Instances, masked leaves, glass, back faces; far from the eye, too.
+TEST_P(MirrorInScene, RaysMeetWhatTheReferenceMeets) {
+  const TestScene& scene = builtin_test_scene(GetParam());
+  const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, "camera");
+  const Shown shown{.gpu = scene.gpu, .view = view, .lights = test_lights(scene.air, view, {.count = COUNT})};
+  const std::unique_ptr<Renderer> renderer = renderer_of(shown);
+  static_cast<void>(picture(*renderer, shown));
+  const MirrorFindings found = check_mirror(*renderer, shader_library(), scene.scene, shown.lights, 4000);
+  EXPECT_EQ(found.reason(), "");
+  EXPECT_GT(found.checked, 1000U);
+  EXPECT_GT(found.hits, found.checked / 4);
+  EXPECT_LT(found.unclear, found.checked / 50);
+  ASSERT_TRUE(found.lists);
+  EXPECT_GT(found.lists->useful, 0U);
+  const gpu::MirrorCounts counts = renderer->mirrored()->counts();
+  EXPECT_EQ(counts.rays, found.rays);
+  EXPECT_EQ(counts.ended, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, MirrorInScene, ::testing::Values("corridor", "atrium", "posts", "blocks"),
+                         [](const auto& test) { return test_name(test.param); });
+
+TEST_F(Mirror, PictureIsTheSameWhateverFindsTheLights) {
+  const TestScene& scene = builtin_test_scene("corridor");
+  const View view = view_of(find_camera(scene.scene, ""), WIDTH, HEIGHT, "camera");
+  Shown shown{
+      .gpu = scene.gpu, .view = view, .lights = test_lights(scene.air, view, {.count = COUNT, .mix = Mix::both})};
+  for (const bool has_shadows : {false, true}) {
+    SCOPED_TRACE(has_shadows);
+    if (has_shadows) shown.shadows = ShadowSettings{.atlas_size = 1024};
+    shown.settings.lists = MirrorLists::brute_force;
+    const HdrImage reference = picture(shown);
+    shown.settings.lists = MirrorLists::world_cells;
+    EXPECT_EQ(max_abs_difference(picture(shown), reference), 0.0F);
+    Shown without = shown;
+    without.settings.roughness = 0.0F;
+    EXPECT_GT(max_abs_difference(picture(without), reference), 0.01F) << "something is mirrored";
+  }
+}
+
+TEST_F(Mirror, EveryPathMirrorsTheSame) {
+  const TestScene& scene = builtin_test_scene("atrium");
+  const View view = view_of(find_camera(scene.scene, "close"), WIDTH, HEIGHT, "camera");
+  Shown shown{.gpu = scene.gpu, .view = view, .lights = test_lights(scene.air, view, {.count = COUNT})};
+  const auto added_by = [&](ShadingPath path) {
+    shown.path = path;
+    shown.settings.roughness = ALL;
+    HdrImage with = picture(shown);
+    shown.settings.roughness = 0.0F;
+    const HdrImage without = picture(shown);
+    for (std::size_t i = 0; i < with.pixels.size(); ++i) with.pixels[i] -= without.pixels[i];
+    return with;
+  };
+  const HdrImage reference = added_by(ShadingPath::deferred);
+  const float size = largest_value(reference);
+  EXPECT_GT(size, 0.01F);
+  for (const ShadingPath path : {ShadingPath::tiled_deferred, ShadingPath::forward, ShadingPath::standard_deferred}) {
+    SCOPED_TRACE(static_cast<int>(path));
+    // Sums that begin elsewhere are rounded otherwise.
+    EXPECT_LT(max_abs_difference(added_by(path), reference), 1e-4F * size);
+  }
+}
+
+/// Corners of a quad in the plane y = height, front up or down.
+void add_quad(Scene& scene, float height, float half, bool front_up, std::uint32_t material) {
+  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+  const glm::vec3 normal(0.0F, front_up ? 1.0F : -1.0F, 0.0F);
+  for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)})
+    scene.vertices.push_back({.position = {half * at.x, height, half * at.y}, .normal = normal});
+  scene.meshes.push_back({.first_index = static_cast<std::uint32_t>(scene.indices.size()),
+                          .index_count = 6,
+                          .vertex_offset = first,
+                          .material = material});
+  for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) scene.indices.push_back(front_up ? i : (4U - i) % 4U);
+  scene.instances.push_back({.mesh = static_cast<std::uint32_t>(scene.meshes.size()) - 1});
+}
+
+/// A mirror for a floor below a glowing ceiling, seen from 1 m above the floor.
+Scene hall(float half_ceiling) {
+  Scene scene{.name = "hall"};
+  scene.materials = {Material{.base_color = {1.0F, 1.0F, 1.0F, 1.0F}, .metallic = 1.0F, .roughness = 0.05F},
+                     Material{.base_color = {0.0F, 0.0F, 0.0F, 1.0F}, .emissive = {0.0F, 2.0F, 0.0F}}};
+  add_quad(scene, 0.0F, 50.0F, true, 0);
+  add_quad(scene, 3.0F, half_ceiling, false, 1);
+  scene.sky = {0.5F, 0.0F, 0.0F};
+  Camera camera{.name = "down", .far_m = 0.0F};
+  camera.world_from_camera = glm::mat4(1.0F);
+  const float tilt = 0.8F;  // radians below the horizon
+  camera.world_from_camera[1] = {0.0F, std::cos(tilt), -std::sin(tilt), 0.0F};
+  camera.world_from_camera[2] = {0.0F, std::sin(tilt), std::cos(tilt), 0.0F};
+  camera.world_from_camera[3] = {0.0F, 1.0F, 0.0F, 1.0F};
+  camera.fov_y = 0.5F;
+  scene.cameras = {camera};
+  return scene;
+}
+
+glm::vec3 middle_of(const HdrImage& image) {
+  return glm::vec3(image.pixels[std::size_t{HEIGHT / 2} * WIDTH + WIDTH / 2]);
+}
+
+TEST_F(Mirror, ShowsWhatIsKnownToBeThere) {
+  const TestScene scene(hall(50.0F));
+  Shown shown{.gpu = scene.gpu, .view = view_of(scene.scene.cameras[0], WIDTH, HEIGHT, "camera"), .lights = {}};
+  const glm::vec3 mirrored = middle_of(picture(shown));
+  EXPECT_NEAR(mirrored.g, 2.0F, 0.01F) << "a white metal reflects all";
+  EXPECT_NEAR(mirrored.r, 0.0F, 1e-6F);
+  const TestScene open(hall(0.01F));
+  const Shown sky{.gpu = open.gpu, .view = shown.view, .lights = {}};
+  EXPECT_NEAR(middle_of(picture(sky)).r, 0.5F, 0.01F);
+  shown.settings.roughness = 0.05F;
+  EXPECT_EQ(middle_of(picture(shown)), glm::vec3(0.0F)) << "the floor is as rough as the limit";
+}
+
+TEST_F(Mirror, OfAnEmptySceneIsSky) {
+  Scene empty{.name = "empty"};
+  empty.materials = {Material{}};
+  empty.sky = {0.25F, 0.5F, 0.75F};
+  empty.cameras = {Camera{.name = "any"}};
+  const TestScene scene(std::move(empty));
+  const Shown shown{.gpu = scene.gpu, .view = view_of(scene.scene.cameras[0], WIDTH, HEIGHT, "camera"), .lights = {}};
+  const std::unique_ptr<Renderer> renderer = renderer_of(shown);
+  EXPECT_EQ(middle_of(picture(*renderer, shown)), scene.scene.sky);
+  EXPECT_EQ(renderer->mirrored()->counts().rays, 0U);
+}
+
+}  // namespace
+}  // namespace lamp::app
