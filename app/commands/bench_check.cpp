@@ -54,7 +54,7 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
           .transparency = !scene.gpu->blended().empty(),
           .captured = scene.scene.captured.has_value(),
           .shadows = filter_of(shadows_of(group)),
-          .still = listed ? gpu::STILL_TRIANGLES : gpu::STILL_OFF};
+          .still = still_kind(entry.still_lists)};
 }
 
 Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, const BenchFrame& frame)

@@ -217,7 +217,7 @@ void make_still_lists(const MeasureInfo& info, const BenchScene& scene, const Be
                    {.scene = scene.scene, .views = frame.views, .lights = std::span(frame.lights).last(frame.still)},
                    context.device().traits);
     candidate.still_lists =
-        std::make_unique<StillLists>(context, gpu::STILL_TRIANGLES, frame.still, candidate.still->lists.words);
+        std::make_unique<StillLists>(context, candidate.still->kind(), frame.still, candidate.still->words());
   }
 }
 

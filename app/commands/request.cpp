@@ -278,7 +278,7 @@ Setup make_setup(const Request& request) {
   Setup setup;
   setup.scene = load_scene(request.scene);
   check_scene_lights(request, setup.scene);
-  if (request.still_lists != "off") number_triangles(setup.scene);
+  if (still_kind(request.still_lists) == gpu::STILL_TRIANGLES) number_triangles(setup.scene);
   setup.views = requested_views(request, setup.scene);
   setup.view = setup.views.front();
   setup.generated = place_lights(setup.scene, light_placement(request, setup.scene));
@@ -326,7 +326,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
         request,
         {.scene = setup.scene, .views = setup.views, .lights = setup.standing(), .painted = !setup.decals.empty()},
         context_->device().traits);
-    still_lists_ = std::make_unique<StillLists>(*context_, gpu::STILL_TRIANGLES, setup.still, still_->lists.words);
+    still_lists_ = std::make_unique<StillLists>(*context_, still_->kind(), setup.still, still_->words());
     renderer_->light_still(still_lists_.get());
   }
   if (shadows_) renderer_->cast_shadows(*shadows_);

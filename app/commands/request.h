@@ -12,6 +12,7 @@
 
 #include "error.h"
 #include "lamplight/triangle_lists.h"
+#include "lamplight/world_tree.h"
 #include "render/renderer.h"
 #include "render/verification.h"
 #include "scene/free_camera.h"
@@ -201,9 +202,19 @@ struct MethodWord {
 /// Lists of the lights that stand still, and what they were made of.
 struct StillSetup {
   std::vector<StillTriangle> triangles;
-  TriangleLists lists;
+  TriangleLists lists;            ///< of `triangles`, or
+  std::optional<WorldTree> tree;  ///< of the world
   double build_ms = 0.0;
+
+  [[nodiscard]] std::uint32_t kind() const { return tree ? gpu::STILL_TREE : gpu::STILL_TRIANGLES; }
+  [[nodiscard]] std::span<const std::uint32_t> words() const { return tree ? tree->words() : lists.words; }
+  /// The list that a look-up finds.
+  [[nodiscard]] std::vector<std::uint32_t> lights_at(const gpu::StillPoint& point) const {
+    return tree ? tree->lights_at(point.position) : lamp::lights_at(lists, point.triangle, point.position);
+  }
 };
+/// Of `--still-lists`.
+[[nodiscard]] std::uint32_t still_kind(const std::string& lists);
 struct StillInfo {
   const Scene& scene;
   std::span<const View> views;

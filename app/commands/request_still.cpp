@@ -20,8 +20,9 @@ namespace lamp::app {
 namespace {
 
 constexpr std::string_view OFF = "off";
-constexpr std::array<std::string_view, 2> LISTS{OFF, "triangle-lists"};
+constexpr std::array<std::string_view, 3> LISTS{OFF, "triangle-lists", "world-tree"};  // in the order of gpu::STILL_OFF
 constexpr std::uint64_t LEAST_BYTES = 1U << 20;  // whatever few triangles a scene has
+constexpr std::uint64_t LEAST_TREE_BYTES = 16U << 20;
 
 bool asks(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
 
@@ -49,20 +50,53 @@ float slack_of(const Scene& scene, std::span<const View> views, std::uint32_t su
   return slack;
 }
 
+TriangleLists make_lists(const Request& request, const StillInfo& of, const DeviceTraits& traits,
+                         std::span<const StillTriangle> triangles, std::uint64_t budget,
+                         const StillOccluders* occluders) {
+  TriangleListsInfo info{.triangles = triangles,
+                         .lights = of.lights,
+                         .slack_m = slack_of(of.scene, of.views, traits.sub_pixel_bits),
+                         .budget_bytes = budget};
+  if (occluders != nullptr) info.hides = hidden_by(*occluders, of.lights, request.still_occlusion);
+  return take(make_triangle_lists(info));
+}
+
+/// Eyes may go where they like, as long as it is not very much farther than the scene is large.
+WorldTree make_tree(const Request& request, const StillInfo& of, std::uint64_t budget,
+                    std::shared_ptr<const StillOccluders> occluders) {
+  const Box box = bounds(of.scene);
+  const float corner = std::max(glm::length(box.min), glm::length(box.max));
+  WorldTreeInfo info{.lights = of.lights,
+                     .occluders = std::move(occluders),
+                     .budget = budget,
+                     .eyes_m = 2.0F * (corner + farthest(of.scene, of.views))};
+  if (request.still_occlusion != 0) info.texels = request.still_occlusion;
+  return take(WorldTree::build(info));
+}
+
 }  // namespace
 
 std::span<const std::string_view> still_lists_names() { return LISTS; }
 
+std::uint32_t still_kind(const std::string& lists) {
+  return static_cast<std::uint32_t>(std::ranges::find(LISTS, lists) - LISTS.begin());
+}
+
 void check_still(const Request& request) {
   if (std::ranges::find(LISTS, request.still_lists) == LISTS.end())
     throw unknown_name("--still-lists", request.still_lists, LISTS);
-  if (request.still_lists != OFF && request.path != "forward")
-    throw Error(fmt::format("--still-lists {}: on path {} a pixel does not know its triangle, expected --path forward",
-                            request.still_lists, request.path));
+  if (still_kind(request.still_lists) == gpu::STILL_TRIANGLES && request.path != "forward")
+    throw Error(
+        fmt::format("--still-lists {}: on path {} a pixel does not know its triangle, expected --path forward, or "
+                    "--still-lists world-tree",
+                    request.still_lists, request.path));
+  if (request.still_lists != OFF && request.path == "standard-deferred")
+    throw Error(fmt::format("--still-lists {}: path standard-deferred walks no lists, expected another --path",
+                            request.still_lists));
   if (request.still_lists == OFF && request.still_occlusion != 0)
     throw Error(
         fmt::format("--still-occlusion {}: there are no lists to leave lights out of, expected --still-lists "
-                    "triangle-lists",
+                    "triangle-lists or world-tree",
                     request.still_occlusion));
 }
 
@@ -86,25 +120,28 @@ StillSetup make_still(const Request& request, const StillInfo& of, const DeviceT
                             request.scene));
   const auto begin = std::chrono::steady_clock::now();
   StillSetup made{.triangles = still_surfaces(of.scene, of.painted)};
-  TriangleListsInfo info{
-      .triangles = made.triangles, .lights = of.lights, .slack_m = slack_of(of.scene, of.views, traits.sub_pixel_bits)};
-  if (request.still_bytes > 0.0F)
-    info.budget_bytes = std::max(LEAST_BYTES, static_cast<std::uint64_t>(double{request.still_bytes} *
-                                                                         static_cast<double>(made.triangles.size())));
-  std::optional<StillOccluders> occluders;
-  if (request.still_occlusion != 0) {
-    occluders.emplace(still_triangles(of.scene));
-    info.hides = hidden_by(*occluders, of.lights, request.still_occlusion);
-  }
-  made.lists = take(make_triangle_lists(info));
+  const bool is_tree = still_kind(request.still_lists) == gpu::STILL_TREE;
+  const std::uint64_t budget = request.still_bytes > 0.0F
+                                   ? std::max(is_tree ? LEAST_TREE_BYTES : LEAST_BYTES,
+                                              static_cast<std::uint64_t>(double{request.still_bytes} *
+                                                                         static_cast<double>(made.triangles.size())))
+                                   : UINT64_MAX;
+  std::shared_ptr<const StillOccluders> occluders;
+  if (request.still_occlusion != 0) occluders = std::make_shared<StillOccluders>(still_triangles(of.scene));
+  if (is_tree)
+    made.tree = make_tree(request, of, budget, std::move(occluders));
+  else
+    made.lists = make_lists(request, of, traits, made.triangles, budget, occluders.get());
   made.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return made;
 }
 
 void add_still_options(CLI::App& command, Request& r) {
   command
-      .add_option("--still-lists", r.still_lists,
-                  "lists made ahead for lights that stand still: off, or triangle-lists (with --path forward)")
+      .add_option(
+          "--still-lists", r.still_lists,
+          "lists made ahead for lights that stand still: off; triangle-lists, by a pixel's triangle, with --path "
+          "forward; or world-tree, by its position")
       ->type_name("NAME")
       ->group("Lights")
       ->capture_default_str();
@@ -117,8 +154,10 @@ void add_still_options(CLI::App& command, Request& r) {
       ->group("Lights")
       ->capture_default_str();
   command
-      .add_option("--still-bytes", r.still_bytes,
-                  "bytes for each triangle that lists of still lights may take, or 1 MiB in all; 0: without limit")
+      .add_option(
+          "--still-bytes", r.still_bytes,
+          "bytes for each triangle that lists of still lights may take, or 1 MiB in all (16 in a tree) where that "
+          "is more; 0: without limit")
       ->check(number_between(0.0, 1e9))
       ->type_name("BYTES")
       ->group("Lights")

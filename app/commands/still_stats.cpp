@@ -7,9 +7,18 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/stats.h"
+#include "render/heatmap.h"
+#include "render/still_tree.h"
 
 namespace lamp::app {
 StillStats still_stats(const StillSetup& still) {
+  if (still.tree)
+    return {.lights = still.tree->lights().size(),
+            .triangles = still.triangles.size(),
+            .bytes = still.words().size_bytes(),
+            .build_ms = still.build_ms,
+            .tree = still.tree->counts(),
+            .notes = notes_of(still.tree->counts(), WorldTreeInfo().detail)};
   return {.lights = still.lists.lights,
           .triangles = still.lists.triangles,
           .bytes = still.lists.bytes(),
@@ -19,14 +28,26 @@ StillStats still_stats(const StillSetup& still) {
 }
 
 void add_still_walks(Session& session, std::vector<std::uint32_t>& walked) {
+  const StillSetup& still = *session.still();
+  if (still.tree) {
+    const std::vector<float> depth = session.renderer().read_depth();
+    const View& view = session.renderer().view();
+    for (std::uint32_t i = 0; i < walked.size(); ++i) {
+      if (walked[i] == SKY_CELL) continue;
+      const Vec3 position{DVec3(view.world_position(i % view.width(), i / view.width(), depth[i]))};
+      walked[i] += static_cast<std::uint32_t>(still.tree->lights_at(position).size());
+    }
+    return;
+  }
   const std::vector<gpu::StillPoint> points = pixel_points(session.renderer(), session.gpu_scene(), session.shaders());
   for (std::size_t i = 0; i < walked.size(); ++i)
-    if (points[i].triangle != NO_TRIANGLE)
-      walked[i] +=
-          static_cast<std::uint32_t>(lights_at(session.still()->lists, points[i].triangle, points[i].position).size());
+    if (points[i].triangle != NO_TRIANGLE) walked[i] += static_cast<std::uint32_t>(still.lights_at(points[i]).size());
 }
 
 std::string still_words(const StillStats& s) {
+  if (s.tree)
+    return fmt::format("{} lights in a world tree: {:.2f} MB; {} leaves with {} entries; made in {:.0f} ms", s.lights,
+                       static_cast<double>(s.bytes) / 1e6, s.tree->leaves, s.tree->entries, s.build_ms);
   return fmt::format(
       "{} lights in triangle lists: {:.2f} MB, {:.1f} bytes for each of {} triangles; {} patches, {} lists in {} "
       "groups, {:.1f} lights on average; left out {} hidden and {} behind; made in {:.0f} ms",
@@ -37,12 +58,24 @@ std::string still_words(const StillStats& s) {
       s.lists.hidden, s.lists.behind, s.build_ms);
 }
 
-nlohmann::json to_json(const StillStats& s) {
-  nlohmann::json json{
+namespace {
+
+nlohmann::json numbers_of(const StillStats& s) {
+  if (s.tree)
+    return {{"lights", s.lights},         {"triangles", s.triangles}, {"bytes", s.bytes},
+            {"build_ms", s.build_ms},     {"leaves", s.tree->leaves}, {"entries", s.tree->entries},
+            {"coarser", s.tree->coarser}, {"notes", s.notes}};
+  return {
       {"lights", s.lights},         {"triangles", s.triangles}, {"bytes", s.bytes},         {"build_ms", s.build_ms},
       {"patches", s.lists.patches}, {"tables", s.lists.tables}, {"groups", s.lists.groups}, {"lists", s.lists.lists},
       {"listed", s.lists.listed},   {"hidden", s.lists.hidden}, {"behind", s.lists.behind}, {"patch", s.lists.patch},
       {"merged", s.lists.merged},   {"notes", s.notes}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const StillStats& s) {
+  nlohmann::json json = numbers_of(s);
   for (const auto& [kind, f] : s.findings) {
     nlohmann::json row{{"points", kind},
                        {"count", f.points},

@@ -18,6 +18,7 @@ struct StillStats {
   std::uint64_t bytes = 0;
   double build_ms = 0.0;
   TriangleListsStats lists;
+  std::optional<WorldTreeCounts> tree;  ///< instead of `lists`
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, StillFindings>> findings;  ///< where they were checked: kind of points
 };

@@ -56,13 +56,15 @@ std::optional<StillStats> check_still_lists(const Request& request, Session& ses
   if (request.still_occlusion != 0) occluders = scene_occluders(setup.scene);
   const StillCheck check{.context = session.context(),
                          .shaders = session.shaders(),
-                         .triangles = still.triangles,
+                         .triangles = still.tree ? std::span<const StillTriangle>() : still.triangles,
                          .lights = setup.standing(),
-                         .lists = still.lists,
+                         .list = [&](const gpu::StillPoint& point) { return still.lights_at(point); },
                          .on_gpu = *session.renderer().still(),
                          .occluders = occluders ? &*occluders : nullptr};
   show_progress("verify still lights: pixels");
-  std::vector<gpu::StillPoint> pixels = points_of_pixels(session.renderer(), session.gpu_scene(), session.shaders());
+  std::vector<gpu::StillPoint> pixels =
+      still.tree ? positions_of_pixels(session.renderer())
+                 : points_of_pixels(session.renderer(), session.gpu_scene(), session.shaders());
   if (occluders && pixels.size() > MOST_SEEN) pixels = thinned(pixels, MOST_SEEN);
   stats.findings.emplace_back("pixels", check_all(check, pixels));
   show_progress("verify still lights: points on surfaces");

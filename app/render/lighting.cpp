@@ -210,13 +210,15 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
   append(bound, {{0, frame.data.frame_constants()},
                  {2, frame.targets.hdr.storage()},
                  {3, frame.data.lights()},
-                 {4, frame.scene.surroundings()}});
+                 {4, frame.scene.surroundings()},
+                 {BINDING_STILL, frame.still}});
   std::vector<vulkan::Use> uses{{.resource = frame.targets.hdr.storage(),
                                  .stages = COMPUTE,
                                  .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                                  .discard = true},
                                 reads(frame.data.frame_constants(), COMPUTE),
-                                reads(frame.data.lights(), COMPUTE)};
+                                reads(frame.data.lights(), COMPUTE),
+                                reads(frame.still, COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
   if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, walked.buffer_uses(COMPUTE));

@@ -84,7 +84,9 @@ vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLib
                         {CONSTANT_WALK, walks ? 1U : 0U},
                         {CONSTANT_FIRST_ROW, info.shaded.first},
                         {CONSTANT_BOXES, info.decals ? 1U : 0U},
-                        shown_view_constant(plan)};
+                        shown_view_constant(plan),
+                        {CONSTANT_STILL, info.still}};
+  pipeline.bindings.push_back({BINDING_STILL, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
   append(pipeline.constants, vulkan::lookup_constants(lookup));
   append(pipeline.bindings, vulkan::lookup_bindings(lookup));

@@ -57,7 +57,8 @@ struct LightingInfo {
   bool captured = false;                ///< the scene is a captured frame
   bool decals = false;                  ///< the frames have decals
   std::optional<ShadowFilter> shadows;  ///< lights cast shadows, filtered so
-  std::uint32_t still = 0;  ///< how lights that stand still are looked up (still_data.h): forward path alone
+  std::uint32_t still =
+      0;  ///< how lights that stand still are looked up (still_data.h); triangles on the forward path alone
   /// Of the options, those that room was made with, for what did not fit with the ones asked for.
   std::vector<std::pair<std::string, std::string>> grown;
   /// What is shaded: a reference picture may need a part alone. `first` is a multiple of 8; not with a fused look-up.

@@ -52,6 +52,9 @@ class PipelineLister {
     info.decals = false;
     info.still = gpu::STILL_TRIANGLES;
     add_path(info, ShadingPath::forward, plan);
+    info.still = gpu::STILL_TREE;
+    add_path(info, ShadingPath::forward, plan);
+    add_path(info, ShadingPath::deferred, plan);
     add_passes_of_many_lights(method, {});
   }
 
@@ -87,7 +90,8 @@ class PipelineLister {
     if (info.brdf == Brdf::blinn_phong) use += ", Blinn-Phong";
     if (info.captured) use += ", captured";
     if (info.decals) use += ", decals";
-    if (info.still != gpu::STILL_OFF) use += ", triangle lists";
+    if (info.still == gpu::STILL_TRIANGLES) use += ", triangle lists";
+    if (info.still == gpu::STILL_TREE) use += ", world tree";
     return use;
   }
 

@@ -61,11 +61,11 @@ struct Met {
 };
 
 Met meet(const StillCheck& check, const gpu::StillPoint& point, std::span<const std::uint32_t> reaching) {
-  Met met{.list = lights_at(check.lists, point.triangle, point.position)};
+  Met met{.list = check.list(point)};
   const glm::dvec3 position(point.position);
   for (const std::uint32_t light : reaching) {
     const glm::dvec3 from(check.lights[light].position);
-    if (!may_face(check.triangles[point.triangle], position, from)) continue;
+    if (!check.triangles.empty() && !may_face(check.triangles[point.triangle], position, from)) continue;
     if (check.occluders != nullptr && check.occluders->any_hit({.from = from, .to = position, .last = RAY_END}))
       continue;
     ++met.lighting;
@@ -83,6 +83,17 @@ Verdict StillFindings::verdict() const {
 std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene& scene, const ShaderLibrary& shaders) {
   std::vector<gpu::StillPoint> points = pixel_points(renderer, scene, shaders);
   std::erase_if(points, [](const gpu::StillPoint& point) { return point.triangle == NO_TRIANGLE; });
+  return points;
+}
+
+std::vector<gpu::StillPoint> positions_of_pixels(Renderer& renderer) {
+  const std::vector<float> depth = renderer.draw_depth();
+  const View& view = renderer.view();
+  std::vector<gpu::StillPoint> points;
+  for (std::uint32_t i = 0; i < depth.size(); ++i)
+    if (depth[i] != renderer.depth().sky())
+      points.push_back({.position = Vec3(DVec3(view.world_position(i % view.width(), i / view.width(), depth[i]))),
+                        .triangle = NO_TRIANGLE});
   return points;
 }
 
@@ -159,10 +170,12 @@ std::vector<gpu::StillWalk> walk_still_points(Context& context, std::span<const 
                                               const StillLists& lists, std::span<const gpu::StillPoint> points) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const vulkan::Device& device = context.device();
-  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(
-      device,
-      {.name = "still walk", .bindings = {{0}, {1}, {BINDING_STILL}}, .push_constant_bytes = sizeof(std::uint32_t)},
-      spirv));
+  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::compute(device,
+                                                                   {.name = "still walk",
+                                                                    .constants = {{CONSTANT_STILL, lists.kind()}},
+                                                                    .bindings = {{0}, {1}, {BINDING_STILL}},
+                                                                    .push_constant_bytes = sizeof(std::uint32_t)},
+                                                                   spirv));
   const vulkan::Buffer from =
       upload_buffer(context, "still points", std::as_bytes(points), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer to = readback_buffer(device, "still walks", points.size() * sizeof(gpu::StillWalk));

@@ -1,7 +1,8 @@
-// Triangle lists held against the oracle: at pixels, and at random points of surfaces.
+// Lists of still lights held against the oracle: at pixels, and at random points of surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,15 @@ inline constexpr std::uint32_t NO_TRIANGLE = ~0U;
 /// The point that each pixel shows, row by row, and its triangle; of one view, with one sample a pixel.
 [[nodiscard]] std::vector<gpu::StillPoint> pixel_points(Renderer& renderer, const GpuScene& scene,
                                                         const ShaderLibrary& shaders);
+/// The same of a scene whose triangles have no numbers: NO_TRIANGLE, and the sky left out.
+[[nodiscard]] std::vector<gpu::StillPoint> positions_of_pixels(Renderer& renderer);
 /// Without those of the sky.
 [[nodiscard]] std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene& scene,
                                                             const ShaderLibrary& shaders);
 [[nodiscard]] std::vector<gpu::StillPoint> random_points_on(std::span<const StillTriangle> triangles, std::size_t count,
                                                             std::uint64_t seed);
 
-/// What walks of triangle lists were found to hold.
+/// What walks of lists were found to hold.
 struct StillFindings {
   std::size_t points = 0;
   std::uint64_t missed = 0;          ///< pairs of point and light that must be listed and are not
@@ -48,9 +51,9 @@ struct StillFindings {
 struct StillCheck {
   Context& context;
   const ShaderLibrary& shaders;
-  std::span<const StillTriangle> triangles;
+  std::span<const StillTriangle> triangles;  ///< lists leave out lights behind them; none: lists know no surface
   std::span<const shared::Light> lights;
-  const TriangleLists& lists;
+  std::function<std::vector<std::uint32_t>(const gpu::StillPoint&)> list;  ///< on the host
   const StillLists& on_gpu;
   const Occluders* occluders = nullptr;  ///< null: lists leave out nothing that is hidden
 };

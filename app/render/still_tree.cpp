@@ -35,15 +35,17 @@ std::vector<std::string> notes_of(const WorldTree& tree, const TimeTaken& time, 
                   "cells in a light's range",
                   time.seconds, time.cpu_seconds, static_cast<double>(tree.words().size_bytes()) / (1 << 20),
                   counts.leaves, counts.entries, counts.detail)};
-  const std::uint32_t detail = options.integer("detail");
-  if (counts.every_light)
-    notes.emplace_back("the budget holds no list: every point walks every light");
-  else if (counts.coarser > 1.0 || counts.detail < detail)
-    notes.push_back(
-        fmt::format("to keep the budget, cells are coarser than detail={} asks for, and were merged: walks are {:.2f} "
-                    "times as long as without that",
-                    detail, counts.coarser));
+  for (std::string& note : notes_of(counts, options.integer("detail"))) notes.push_back(std::move(note));
   return notes;
+}
+
+std::vector<std::string> notes_of(const WorldTreeCounts& counts, std::uint32_t detail) {
+  if (counts.every_light) return {"the budget holds no list: every point walks every light"};
+  if (counts.coarser <= 1.0 && counts.detail >= detail) return {};
+  return {
+      fmt::format("to keep the budget, cells are coarser than detail={} asks for, and were merged: walks are {:.2f} "
+                  "times as long as without that",
+                  detail, counts.coarser)};
 }
 
 void StillTree::bring(Context& context, FrameData& data, const Plan& plan, const Options& options) {

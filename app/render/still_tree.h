@@ -22,6 +22,8 @@ struct TimeTaken {
   double cpu_seconds = 0.0;  ///< of all cores together
 };
 
+/// What its budget cost; one line each. `detail`: that was asked for.
+[[nodiscard]] std::vector<std::string> notes_of(const WorldTreeCounts& counts, std::uint32_t detail);
 /// How large a tree is, how long it took, and what its budget cost; one line each.
 [[nodiscard]] std::vector<std::string> notes_of(const WorldTree& tree, const TimeTaken& time, const Options& options);
 

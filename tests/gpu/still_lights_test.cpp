@@ -1,6 +1,5 @@
-// Lights that stand still, in lists of their triangles: the same picture as with all lights in the picture's lists, and
-// nothing missed at pixels and on surfaces.
-// SPDX-License-Identifier: Apache-2.0
+// Lights that stand still, in lists of their triangles or in a tree: the same picture as with all lights in the
+// picture's lists, and nothing missed at pixels and on surfaces. SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +41,15 @@ class StillLights : public GpuTest, public ::testing::WithParamInterface<std::st
     on_gpu_.emplace(test_context(), gpu::STILL_TRIANGLES, STILL, lists_.words);
   }
 
-  HdrImage picture(Renderer& renderer, const Method& method, std::span<const gpu::DecalData> decals) {
+  void make_tree(std::uint64_t budget = WorldTreeInfo().budget) {
+    triangles_ = still_surfaces(scene_.scene, false);
+    tree_.emplace(
+        take(WorldTree::build({.lights = std::span(lights_).last(STILL), .budget = budget, .eyes_m = 100.0F})));
+    on_gpu_.emplace(test_context(), gpu::STILL_TREE, STILL, tree_->words());
+  }
+
+  HdrImage picture(Renderer& renderer, const Method& method, std::span<const gpu::DecalData> decals,
+                   ShadingPath path = ShadingPath::forward) {
     renderer.set_frame(view_, lights_, decals);
     const StillLists* still = renderer.still();
     const std::uint32_t listed = COUNT - (still == nullptr ? 0 : still->lights());
@@ -52,7 +59,7 @@ class StillLights : public GpuTest, public ::testing::WithParamInterface<std::st
                        .width = WIDTH,
                        .height = HEIGHT,
                        .light_capacity = listed + static_cast<std::uint32_t>(decals.size()),
-                       .path = ShadingPath::forward,
+                       .path = path,
                        .transparency = !scene_.gpu.blended().empty(),
                        .decals = !decals.empty(),
                        .still = still == nullptr ? gpu::STILL_OFF : still->kind()});
@@ -64,6 +71,7 @@ class StillLights : public GpuTest, public ::testing::WithParamInterface<std::st
   std::vector<shared::Light> lights_;
   std::vector<StillTriangle> triangles_;
   TriangleLists lists_;
+  std::optional<WorldTree> tree_;
   std::optional<StillLists> on_gpu_;
 };
 
@@ -89,7 +97,7 @@ TEST_P(StillLights, NothingIsMissed) {
                          .shaders = shader_library(),
                          .triangles = triangles_,
                          .lights = std::span(lights_).last(STILL),
-                         .lists = lists_,
+                         .list = [&](const gpu::StillPoint& p) { return lights_at(lists_, p.triangle, p.position); },
                          .on_gpu = *on_gpu_};
   const std::vector<gpu::StillPoint> pixels = points_of_pixels(renderer, scene_.gpu, shader_library());
   EXPECT_GT(pixels.size(), 1000U);
@@ -115,6 +123,44 @@ TEST_P(StillLights, HlslWalksAsGlslDoes) {
   }
 }
 
+/// On every path that walks lists; with a picture's list that is a tree itself.
+TEST_P(StillLights, PictureOfATreeEqualsThatOfOneList) {
+  make_tree();
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+  for (const ShadingPath path : {ShadingPath::forward, ShadingPath::deferred, ShadingPath::tiled_deferred}) {
+    SCOPED_TRACE(path_names()[static_cast<std::size_t>(path)]);
+    renderer.light_still(nullptr);
+    const HdrImage reference = picture(renderer, brute_force(), {}, path);
+    renderer.light_still(&*on_gpu_);
+    for (const char* method : {"lamplight", "world-tree"})
+      EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method(method)), {}, path), reference), 0.0F) << method;
+  }
+}
+
+/// In GLSL and in HLSL; also where the budget holds no list, and every point walks every light.
+TEST_P(StillLights, NothingIsMissedInATree) {
+  for (const std::uint64_t budget : {WorldTreeInfo().budget, std::uint64_t{64}}) {
+    make_tree(budget);
+    EXPECT_EQ(tree_->counts().every_light, budget == 64);
+    const Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+    const StillCheck check{.context = test_context(),
+                           .shaders = shader_library(),
+                           .triangles = {},
+                           .lights = std::span(lights_).last(STILL),
+                           .list = [&](const gpu::StillPoint& p) { return tree_->lights_at(p.position); },
+                           .on_gpu = *on_gpu_};
+    const std::vector<gpu::StillPoint> points = random_points_on(triangles_, 2000, 4);
+    const StillFindings found = check_still_points(check, points);
+    EXPECT_EQ(found.verdict(), Verdict::ok)
+        << found.missed << " missed: " << found.first_miss << "; " << found.differing << " differ";
+    EXPECT_GT(found.lighting, 0U);
+    const auto hlsl = std::ranges::find(test_shaders(), "still_walk.hlsl", &ShaderCode::name);
+    const auto in_hlsl = walk_still_points(test_context(), hlsl->spirv, *on_gpu_, points);
+    const auto in_glsl = walk_still_points(test_context(), shader_library().spirv("still_walk"), *on_gpu_, points);
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(in_hlsl[i].hash, in_glsl[i].hash);
+  }
+}
+
 /// The check finds what lists lack, and walks of other lists.
 TEST_P(StillLights, TheCheckSeesFaults) {
   make({});
@@ -126,7 +172,7 @@ TEST_P(StillLights, TheCheckSeesFaults) {
                          .shaders = shader_library(),
                          .triangles = triangles_,
                          .lights = still,
-                         .lists = fewer,
+                         .list = [&](const gpu::StillPoint& p) { return lights_at(fewer, p.triangle, p.position); },
                          .on_gpu = *on_gpu_};
   const StillFindings found = check_still_points(check, random_points_on(triangles_, 500, 2));
   EXPECT_GT(found.missed, 0U);

@@ -22,6 +22,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
 #include "common/shade_group.glsl"
+#include "common/shade_still.glsl"
 #include "common/surroundings.glsl"
 
 void main() {
@@ -40,5 +41,6 @@ void main() {
     sum = shade_surroundings(s, r, texelFetch(emission_image, pixel, 0).rgb);
   }
   if (WALK) add_group(sum, r, lit, uvec2(pixel), z_view);
+  if (lit) add_still(sum, r, STILL_NO_TRIANGLE);
   if (inside) imageStore(hdr_image, pixel, vec4(sum, lit ? 1.0 : 0.0));  // alpha: where surfaces are
 }

@@ -44,7 +44,8 @@ struct Walk {
 
 #include "lookup/parts/world_place.glsl"
 
-#define LOOKUP_CELL_WORD(word) lookup_bits[word]
+#define CELL_FIELD lookup_field
+#define CELL_FIELD_WORD(word) lookup_bits[word]
 #include "lookup/parts/cell_field.glsl"
 
 uint lookup_levels(uint view) { return lookup_level_bits[view * LOOKUP_LEVELS_VIEW]; }

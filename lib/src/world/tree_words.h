@@ -23,6 +23,7 @@ class TreeWords {
 
   [[nodiscard]] std::span<const std::uint32_t> words() const { return words_; }
   void reserve(std::uint64_t words) { words_.reserve(words); }
+  void set_lights(std::uint32_t count) { words_[shared::TREE_LIGHTS] = count; }
   /// Calls `found(place of the node's word, level, brick)` for all leaves in bricks that `enter(level, brick)` says yes
   /// of.
   using Enter = std::function<bool(std::uint32_t level, const glm::uvec3& brick)>;

@@ -148,6 +148,7 @@ void WorldTree::State::build() {
     words = TreeWords(grid, tree, pruned, outside);
     counts.coarser = whole.walked > 0.0 ? pruned.walked / whole.walked : 1.0;
   }
+  words.set_lights(static_cast<std::uint32_t>(lights.size()));
   words.leaves([](std::uint32_t, const glm::uvec3&) { return true; },
                [&](std::uint64_t node, std::uint32_t level, const glm::uvec3&) {
                  const std::uint64_t lights_of_leaf = counts.every_light ? 0 : words.count(node);
@@ -215,7 +216,11 @@ Result<std::vector<ChangedWords>> WorldTree::change(std::uint32_t id, const shar
     return Error{"light " + std::to_string(id), "expected an id up to " + std::to_string(state.lights.size())};
   if (auto error = check(id, light)) return *error;
   std::vector<ChangedWords> changed;
-  if (id == state.lights.size()) state.lights.push_back({});  // it reaches nothing
+  if (id == state.lights.size()) {
+    state.lights.push_back({});  // it reaches nothing
+    state.words.set_lights(id + 1);
+    changed.push_back({.first = shared::TREE_LIGHTS, .count = 1});
+  }
   if (!state.counts.every_light) state.change_leaves(id, light, changed);
   state.lights[id] = light;
   if (state.words.words().size() <= state.capacity) return changed;

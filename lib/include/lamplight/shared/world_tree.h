@@ -18,6 +18,7 @@ LAMP_CONST TREE_SCALE = 3u;    // float, cells a metre: a power of two
 LAMP_CONST TREE_LEVELS = 4u;   // halvings of the root, at most
 LAMP_CONST TREE_ROOT = 5u;     // node
 LAMP_CONST TREE_OUTSIDE = 6u;  // node, a plain leaf: of points outside of the root
+LAMP_CONST TREE_LIGHTS = 7u;   // how many there are
 LAMP_CONST TREE_HEADER = 8u;   // words
 
 // A node is a word: a kind, and the place of words. An inner node's words are its 8 children, child x + 2 y + 4 z. A
