@@ -106,6 +106,7 @@ bool Lighting::is_cull_pass(std::string_view name) const {
 }
 
 void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {
+  if (frame.culled) return;
   if (culler_) return culler_->record(recorder, frame);
   static_cast<void>(take(runner_.record(recorder, frame.inputs)));
 }

@@ -32,6 +32,9 @@ struct LightingFrame {
   vulkan::Resource still{};      ///< and those of lights that stand still
   MirrorPass* mirror = nullptr;  ///< adds mirrored light, if there
   bool surfaces_drawn = false;   ///< the targets hold them: deferred paths without decals draw none
+  /// The method's lists are those of an earlier picture, with the same lights seen from the same eye: of methods that
+  /// look up by position, which know no other direction.
+  bool culled = false;
 };
 
 class Lighting {

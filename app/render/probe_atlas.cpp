@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 
 #include "gpu/check.h"
 #include "gpu/transfer.h"
@@ -51,19 +52,25 @@ vulkan::OwnedSampler make_sampler(const vulkan::Device& device) {
 }
 
 vulkan::Buffer device_buffer(const vulkan::Device& device, const char* name, std::uint64_t bytes) {
-  return take(vulkan::Buffer::create(
-      device,
-      {.name = name, .bytes = bytes, .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT}));
+  return take(
+      vulkan::Buffer::create(device, {.name = name,
+                                      .bytes = bytes,
+                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT}));
 }
 
 void clear(Context& context, const GpuImage& image) {
   context.submit([&](VkCommandBuffer commands) {
     vulkan::AccessTracker tracker;
     vulkan::Recorder recorder(context.device(), commands, tracker);
-    recorder.barrier({copies_to(image.transfer_target())});
+    recorder.barrier({{.resource = image.transfer_target(),
+                       .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                       .access = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       .discard = true}});
     const VkClearColorValue black{};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vkCmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &all);
+    recorder.barrier({reads(image.sampled(), COMPUTE | GRAPHICS_SHADERS)});
   });
 }
 
@@ -118,14 +125,43 @@ void ProbeAtlas::record_pass(vulkan::Recorder& recorder, const vulkan::Pipeline&
   recorder.end_pass();
 }
 
+glm::uvec2 ProbeAtlas::origin_of(std::uint32_t slot) const {
+  return glm::uvec2(slot % columns_, slot / columns_) * glm::uvec2(gpu::PROBE_BLOCK_WIDTH, gpu::PROBE_BLOCK_HEIGHT);
+}
+
 void ProbeAtlas::record(vulkan::Recorder& recorder, std::uint32_t slot) const {
-  gpu::ProbePush push{.origin_x = slot % columns_ * gpu::PROBE_BLOCK_WIDTH,
-                      .origin_y = slot / columns_ * gpu::PROBE_BLOCK_HEIGHT};
+  const glm::uvec2 origin = origin_of(slot);
+  gpu::ProbePush push{.origin_x = origin.x, .origin_y = origin.y};
   record_pass(recorder, fold_, faces_, push, gpu::PROBE_SIDE + 2 * gpu::PROBE_BORDER);
   record_pass(recorder, source_, faces_, push, gpu::PROBE_SOURCE_SIDE);
   for (push.level = 1; push.level < gpu::PROBE_LEVELS; ++push.level)
     record_pass(recorder, filter_, sources_, push, gpu::probe_level_side(push.level) + 2 * gpu::PROBE_BORDER);
-  recorder.barrier({host_reads(vulkan::Resource::storage(clipped_.handle()))});
+  recorder.barrier(
+      {host_reads(vulkan::Resource::storage(clipped_.handle())), reads(image_.sampled(), COMPUTE | GRAPHICS_SHADERS)});
+}
+
+HdrImage ProbeAtlas::read_level(Context& context, std::uint32_t slot, std::uint32_t level) const {
+  const std::uint32_t side = gpu::probe_level_side(level);
+  const vulkan::Buffer texels =
+      readback_buffer(context.device(), "probe level", std::uint64_t{side} * side * sizeof(glm::u16vec4));
+  const glm::uvec2 at = origin_of(slot) + glm::uvec2(gpu::probe_level_x(level), gpu::probe_level_y(level));
+  context.submit([&](VkCommandBuffer commands) {
+    vulkan::AccessTracker tracker;
+    tracker.assume(image_.sampled());
+    vulkan::Recorder recorder(context.device(), commands, tracker);
+    const vulkan::Resource to = vulkan::Resource::storage(texels.handle());
+    recorder.barrier({copies_from(image_.transfer_source()), copies_to(to)});
+    VkBufferImageCopy square = image_.whole();
+    square.imageOffset = {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), 0};
+    square.imageExtent = {side, side, 1};
+    vkCmdCopyImageToBuffer(commands, image_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, texels.handle(), 1,
+                           &square);
+    recorder.barrier({host_reads(to), reads(image_.sampled(), COMPUTE | GRAPHICS_SHADERS)});
+  });
+  HdrImage image{side, side, {}};
+  for (const glm::u16vec4& texel : first_values<glm::u16vec4>(texels, std::size_t{side} * side))
+    image.pixels.push_back(glm::unpackHalf(texel));
+  return image;
 }
 
 std::uint32_t ProbeAtlas::clipped() const { return slots_ == 0 ? 0 : first_values<std::uint32_t>(clipped_, 1).front(); }

@@ -6,9 +6,11 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 #include "gpu/context.h"
 #include "gpu/image.h"
+#include "image/image.h"
 #include "lamplight/vulkan.h"
 #include "render/pass_uses.h"
 #include "render/shader_library.h"
@@ -31,20 +33,24 @@ class ProbeAtlas {
 
   [[nodiscard]] std::uint32_t slots() const { return slots_; }
   [[nodiscard]] const GpuImage& image() const { return image_; }
-  /// What shading binds, and reads in its stages.
+  /// What shading binds, and reads in its stages. Between two captures the image is always as this says: who reads it
+  /// tells its tracker so (`assume`).
   [[nodiscard]] ProbeBound bound() const { return {{{BINDING_PROBE_ATLAS, image_.combined(sampler_.get())}}}; }
 
   /// Radiance and inverse distance of the six faces of the capture that is made, PROBE_SIDE x PROBE_SIDE each.
   [[nodiscard]] const vulkan::Buffer& faces() const { return faces_; }
   /// What its rough levels were filtered from (gpu::ProbeSource).
   [[nodiscard]] const vulkan::Buffer& sources() const { return sources_; }
-  /// Folds and filters the faces into a slot's block.
+  /// Folds and filters the faces into a slot's block. The recorder's tracker knows how the image was left.
   void record(vulkan::Recorder& recorder, std::uint32_t slot) const;
+  /// What a slot holds of a level, without its border: radiance, and in level 0 the inverse distance as alpha. Waits.
+  [[nodiscard]] HdrImage read_level(Context& context, std::uint32_t slot, std::uint32_t level) const;
   /// Texels of level 0 since the beginning that were brighter than a half float can say, and are stored as the
   /// brightest. Waits for nothing: of what has been submitted and waited for.
   [[nodiscard]] std::uint32_t clipped() const;
 
  private:
+  [[nodiscard]] glm::uvec2 origin_of(std::uint32_t slot) const;
   void record_pass(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline, const vulkan::Buffer& from,
                    const gpu::ProbePush& push, std::uint32_t side) const;
 

@@ -35,12 +35,14 @@ struct ProbeSource {
 };
 
 #ifdef __cplusplus
-constexpr
+#define LAMP_CONSTANT constexpr
+#else
+#define LAMP_CONSTANT
 #endif
-    uint
-    probe_level_side(uint level) {
-  return PROBE_SIDE >> (level < 3u ? level : 3u);
-}
+LAMP_CONSTANT uint probe_level_side(uint level) { return PROBE_SIDE >> (level < 3u ? level : 3u); }
+// Where a level's square lies in the block, without its border.
+LAMP_CONSTANT uint probe_level_x(uint level) { return level == 0u ? 1u : level == 3u || level == 4u ? 165u : 131u; }
+LAMP_CONSTANT uint probe_level_y(uint level) { return level < 2u ? 1u : level < 4u ? 67u : level == 4u ? 85u : 101u; }
 
 // What a pass over a capture is told.
 struct ProbePush {

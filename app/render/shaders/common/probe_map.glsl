@@ -30,14 +30,7 @@ ivec2 probe_folded(ivec2 texel, int side) {
   return texel;
 }
 
-// Where a level's square lies in the block, without its border.
-uvec2 probe_level_origin(uint level) {
-  if (level == 0u) return uvec2(1u, 1u);
-  if (level == 1u) return uvec2(131u, 1u);
-  if (level == 2u) return uvec2(131u, 67u);
-  if (level == 3u) return uvec2(165u, 67u);
-  return level == 4u ? uvec2(165u, 85u) : uvec2(131u, 101u);
-}
+uvec2 probe_level_origin(uint level) { return uvec2(probe_level_x(level), probe_level_y(level)); }
 
 // A face of the cube looks along an axis: +x, -x, +y, -y, +z, -z.
 vec3 face_forward(uint face) {
