@@ -83,6 +83,8 @@ Group base_of(const Series& series, const Limits& limits) {
             .stereo_m = series.stereo_m,
             .shadows = series.shadows,
             .atlas = series.atlas,
+            .mirror = series.mirror,
+            .mirror_lists = series.mirror_lists,
             .still = series.still,
             .seed = series.seed,
             .frame = series.frame,
@@ -98,6 +100,8 @@ Group base_of(const Series& series, const Limits& limits) {
           .stereo_m = series.stereo_m,
           .shadows = series.shadows,
           .atlas = series.atlas,
+          .mirror = series.mirror,
+          .mirror_lists = series.mirror_lists,
           .still = series.still,
           .seed = series.seed,
           .frame = series.frame,
@@ -185,7 +189,8 @@ std::string depth_words(const Group& group) {
 
 /// Likewise.
 std::string shadow_words(const Group& group) {
-  return group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas);
+  return (group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas)) +
+         (group.mirror == 0.0 ? "" : fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists));
 }
 
 std::string host_words(const GroupEntry& entry) {

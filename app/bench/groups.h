@@ -29,6 +29,8 @@ struct Group {
   double stereo_m = 0.0;
   std::string shadows = "off";
   std::uint32_t atlas = 4096;
+  double mirror = 0.0;
+  std::string mirror_lists = "world-cells";
   std::uint32_t lights = 0;  ///< the most, in a flight
   double spots = 0.0;
   double still = 0.0;

@@ -16,6 +16,7 @@
 #include "files/read_file.h"
 #include "files/read_json.h"
 #include "lamplight/method.h"
+#include "render/mirror_pass.h"
 
 namespace lamp::app {
 namespace {
@@ -180,6 +181,10 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("stereo", series.stereo_m, 0.0, 1000.0);
   object.read("shadows", series.shadows);
   object.read("atlas", series.atlas, 16, 32768);
+  object.read("mirror", series.mirror, 0.0, 1.0);
+  object.read("mirror_lists", series.mirror_lists);
+  if (std::ranges::find(mirror_list_names(), series.mirror_lists) == mirror_list_names().end())
+    object.wrong("mirror_lists", joined(mirror_list_names()));
   object.read("seed", series.seed);
   std::uint32_t frame = ~0U;
   object.read("frame", frame, 0, MAX_FRAMES);

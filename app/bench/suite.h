@@ -69,11 +69,13 @@ struct Series {
   std::vector<std::string> projections{"camera"};
   std::vector<std::string> paths{"deferred"};
   std::string brdf = "ggx";
-  std::string depth = "reversed";   ///< or "standard"
-  std::uint32_t depth_samples = 1;  ///< a pixel, of the depth that lights are culled with
-  double stereo_m = 0.0;            ///< between two eyes, each with half of the size's width; 0: one eye
-  std::string shadows = "off";      ///< or a filter
-  std::uint32_t atlas = 4096;       ///< of shadow maps, texels a side
+  std::string depth = "reversed";            ///< or "standard"
+  std::uint32_t depth_samples = 1;           ///< a pixel, of the depth that lights are culled with
+  double stereo_m = 0.0;                     ///< between two eyes, each with half of the size's width; 0: one eye
+  std::string shadows = "off";               ///< or a filter
+  std::uint32_t atlas = 4096;                ///< of shadow maps, texels a side
+  double mirror = 0.0;                       ///< as `--mirror`
+  std::string mirror_lists = "world-cells";  ///< as `--mirror-lists`
   std::uint64_t seed = 1;
   int frame = -1;                  ///< of the scene's flight, for the camera and for when the lights begin; -1: camera
   std::uint32_t frames = 60;       ///< timed ones

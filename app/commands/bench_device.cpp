@@ -70,6 +70,12 @@ std::optional<ShadowSettings> shadows_of(const Group& group) {
   return requested_shadows(request_of(group, group.entries.front()));
 }
 
+std::optional<MirrorSettings> mirror_of(const Group& group, const Scene& scene) {
+  std::optional<MirrorSettings> settings = requested_mirror(request_of(group, group.entries.front()), scene);
+  if (settings) settings->walks_apart = true;
+  return settings;
+}
+
 BenchDevice::BenchDevice(const Request& request)
     : shaders_(request.shader_dir),
       context_(std::make_unique<Context>(
@@ -144,6 +150,8 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .still = static_cast<float>(group.still),
           .still_lists = entry.still_lists,
           .still_occlusion = entry.still_occlusion,
+          .mirror = static_cast<float>(group.mirror),
+          .mirror_lists = group.mirror_lists,
           .shadows = group.shadows,
           .atlas = group.atlas,
           .camera = group.camera,

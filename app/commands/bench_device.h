@@ -65,6 +65,8 @@ void check_views(std::span<const Group> groups);
 [[nodiscard]] HostDepth host_depth_of(const Group& group);
 /// Nothing: lights cast none.
 [[nodiscard]] std::optional<ShadowSettings> shadows_of(const Group& group);
+/// Mirrored light, whose look-ups have a time of their own.
+[[nodiscard]] std::optional<MirrorSettings> mirror_of(const Group& group, const Scene& scene);
 
 /// The request of one group's entry, for the checks that every command makes.
 [[nodiscard]] Request request_of(const Group& group, const GroupEntry& entry);

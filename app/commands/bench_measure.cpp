@@ -110,6 +110,8 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
   if (group.shadows != "off") parameters["shadows"] = group.shadows;
   if (group.shadows != "off") parameters["atlas"] = group.atlas;
+  if (group.mirror != 0.0) parameters["mirror"] = group.mirror;
+  if (group.mirror != 0.0) parameters["mirror_lists"] = group.mirror_lists;
   if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];
   for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
   return parameters;
@@ -345,6 +347,7 @@ std::vector<json> measure(const MeasureInfo& info) {
                      frame.view().height(), light_capacity(scene, info.group), /*decal_capacity=*/0,
                      host_depth_of(info.group));
     if (const auto shadows = shadows_of(info.group)) renderer->cast_shadows(*shadows);
+    if (const auto mirror = mirror_of(info.group, scene.scene)) renderer->mirror(*mirror);
     checker.emplace(info.device, info.group, *renderer, frame);
     candidates = make_candidates(info, scene, choose_for(info, scene, *renderer, frame));
   } catch (const Error& error) {
@@ -358,6 +361,8 @@ std::vector<json> measure(const MeasureInfo& info) {
   std::vector<json> results;
   for (Candidate& candidate : candidates) {
     results.push_back(result_json(info, candidate, frame));
+    if (const auto mirror = mirror_stats(renderer ? renderer->mirrored() : nullptr); mirror && candidate.lighting)
+      results.back()["stats"]["mirror"] = to_json(*mirror);
     const std::string label = full_label(*candidate.entry);
     if (pictures.contains(label)) results.back()["pictures"] = pictures[label];
   }

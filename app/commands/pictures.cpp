@@ -58,6 +58,14 @@ HeatOf parse_heat(const std::string& name, const Request& request) {
   return of;
 }
 
+void for_each_picture(Renderer& renderer, const std::function<void(std::span<const float>)>& use) {
+  if (!renderer.depth().several()) return use(renderer.read_depth());
+  for (const FramePicture& picture : renderer.all_pictures()) {
+    renderer.show(picture);
+    use(renderer.draw_depth());
+  }
+}
+
 std::vector<Visit> visit_all(Session& session, Lighting& lighting) {
   Renderer& renderer = session.renderer();
   return side_by_side(renderer, [&] { return renderer.visit_all(lighting); });

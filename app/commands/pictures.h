@@ -17,6 +17,9 @@ namespace lamp::app {
 /// Visits of the whole picture, of several views side by side, checked against nothing. The first view stays shown.
 [[nodiscard]] std::vector<Visit> visit_all(Session& session, Lighting& lighting);
 
+/// Calls `use` with the depth of each of the frame's pictures, which the renderer then draws.
+void for_each_picture(Renderer& renderer, const std::function<void(std::span<const float>)>& use);
+
 /// Lights walked at each pixel; SKY_CELL for sky.
 [[nodiscard]] std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits);
 

@@ -90,6 +90,9 @@ void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& c
 /// What one frame took, and where its picture is.
 void print_numbers(const RenderOptions& o, const Stats& stats) {
   if (stats.shadows) line("shadows", shadow_words(*stats.shadows));
+  if (stats.mirror) line("mirror", mirror_words(*stats.mirror));
+  if (stats.mirror)
+    for (const std::string& note : stats.mirror->notes) line("note", note);
   if (stats.findings)
     line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",
                                stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
@@ -199,6 +202,7 @@ void draw_flight(const RenderOptions& o, const Drawing& drawing, const FrameRang
   for (std::uint32_t frame = range.first; frame <= range.last; ++frame) {
     if (frame != range.first) {
       frames.go_to(frame);
+      if (!drawing.setup.at_rest.empty()) drawing.session.move_instances();
       drawing.session.renderer().set_frame(drawing.setup.views, drawing.setup.lights, drawing.setup.decals);
     }
     RenderOptions of_frame = o;

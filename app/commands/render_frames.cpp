@@ -48,6 +48,7 @@ std::string numbered(const std::string& file, std::uint32_t frame) {
 FlightFrames::FlightFrames(const ViewState& state, Setup& setup) : state_(state), setup_(setup) {}
 
 void FlightFrames::go_to(std::uint32_t frame) {
+  if (!setup_.at_rest.empty()) setup_.scene.instances = setup_.at_rest;
   if (!air_) air_ = find_open_air(setup_.scene);
   state_.request.frame = static_cast<int>(frame);
   state_.request.light_frame = -1;
@@ -56,6 +57,7 @@ void FlightFrames::go_to(std::uint32_t frame) {
   setup_.generated = requested_lights(state_.request, setup_.scene, *air_);
   setup_.lights = packed_lights(state_.request, setup_.scene, setup_.generated);
   apply_edits(state_, setup_.lights);
+  move_instances(state_.request, setup_);
 }
 
 }  // namespace lamp::app

@@ -290,6 +290,7 @@ Setup make_setup(const Request& request) {
   setup.decals = requested_decals(request, setup.scene);
   const std::size_t own = std::min(setup.decals.size(), setup.scene.decals.size());
   setup.decals_note = fmt::format("{} of the scene + {} generated", own, setup.decals.size() - own);
+  move_instances(request, setup);  // lights and decals are placed where all is at rest
   return setup;
 }
 
@@ -338,6 +339,8 @@ void Session::split_still(bool splits) {
   renderer_->light_still(splits ? still_lists_.get() : nullptr);
   renderer_->set_frame(setup_.views, setup_.lights, setup_.decals);
 }
+
+void Session::move_instances() { renderer_->move_instances(gpu_scene_->move(*context_)); }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
   const StillLists* still = renderer_->still();

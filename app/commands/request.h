@@ -44,6 +44,7 @@ struct Request {
   std::string still_lists = "off";           ///< or what they are looked up in
   std::uint32_t still_occlusion = 0;         ///< texels a side of what each looks around with; 0: walls hide nothing
   float still_bytes = 16.0F;                 ///< that their lists take, for each triangle
+  bool moving = false;                       ///< small instances move with the frames
   float mirror = 0.0F;                       ///< roughness from which on surfaces mirror nothing; 0: none does
   std::string mirror_lists = "world-cells";  ///< of what mirror rays meet
   std::string shadows = "off";               ///< filter
@@ -110,6 +111,7 @@ void check_request(const Request& request, const std::string& method);
 /// A request made concrete on the host: nothing of it needs a device.
 struct Setup {
   Scene scene;
+  std::vector<Instance> at_rest;      ///< the scene's instances, where they move; else empty
   View view;                          ///< the first of these
   std::vector<View> views;            ///< of the frame, all of one size
   std::vector<Light> generated;       ///< besides the scene's own
@@ -160,6 +162,8 @@ void check_scene_lights(const Request& request, const Scene& scene);
 /// What `--shadows`, `--point-shadows` and `--depth` take.
 [[nodiscard]] std::span<const std::string_view> shadow_names();
 [[nodiscard]] std::span<const std::string_view> point_shadow_names();
+/// Where instances move: puts the setup's where they are in its frame.
+void move_instances(const Request& request, Setup& setup);
 /// Of `--mirror`; nothing where no surface mirrors. Throws Error for what it does not go with.
 [[nodiscard]] std::optional<MirrorSettings> requested_mirror(const Request& request, const Scene& scene);
 /// The same, as far as it is known before a scene is loaded.
@@ -239,6 +243,8 @@ class Session {
   /// Whether the next frames look up still lights in their lists, which they do at first, or have all lights in the
   /// picture's, for comparison. Shows the setup's frame anew; lightings are made for one of them.
   void split_still(bool splits);
+  /// The setup's instances are elsewhere. Before the frame is set.
+  void move_instances();
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
 

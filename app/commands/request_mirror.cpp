@@ -7,6 +7,7 @@
 
 #include "commands/command_line.h"
 #include "commands/request.h"
+#include "scene/moving.h"
 
 namespace lamp::app {
 
@@ -26,9 +27,16 @@ void add_mirror_options(CLI::App& command, Request& r) {
       ->type_name("NAME")
       ->group("Lights")
       ->capture_default_str();
+  command.add_flag("--moving", r.moving, "small things of the scene move with the frames of the flight, as lights do")
+      ->group("Lights");
 }
 
 void check_mirror(const Request& request) {
+  if (request.moving && request.still_lists != "off")
+    throw Error(fmt::format("--moving: --still-lists {} are made for triangles that stand still, expected off",
+                            request.still_lists));
+  if (request.moving && std::ranges::find(request.options, "occlusion=ahead") != request.options.end())
+    throw Error("--moving: --option occlusion=ahead knows what hides lights only where it stands still, expected off");
   if (std::ranges::find(mirror_list_names(), request.mirror_lists) == mirror_list_names().end())
     throw unknown_name("--mirror-lists", request.mirror_lists, mirror_list_names());
   if (request.mirror == 0.0F) return;
@@ -54,6 +62,18 @@ std::optional<MirrorSettings> requested_mirror(const Request& request, const Sce
   return MirrorSettings{.roughness = request.mirror,
                         .lists = static_cast<MirrorLists>(list - mirror_list_names().begin()),
                         .brdf = parse_brdf(request.brdf)};
+}
+
+void move_instances(const Request& request, Setup& setup) {
+  if (!request.moving) return;
+  if (setup.scene.captured)
+    throw Error(fmt::format("--moving: the capture {} has no instances, expected a scene with meshes", request.scene));
+  if (setup.at_rest.empty()) setup.at_rest = setup.scene.instances;
+  setup.scene.instances = setup.at_rest;
+  const int frame = request.light_frame >= 0 ? request.light_frame : std::max(0, request.frame);
+  constexpr std::uint32_t FRAMES = 300;  // as lights have, without a flight
+  setup.scene.instances = moved_instances(setup.scene, static_cast<std::uint32_t>(frame),
+                                          setup.scene.flight ? setup.scene.flight->frames : FRAMES);
 }
 
 }  // namespace lamp::app

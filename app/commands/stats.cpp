@@ -83,6 +83,7 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
                            lighting, std::move(rendered));
   stats.views = setup.views.size();
   stats.shadows = shadow_stats(session.renderer().shadows());
+  stats.mirror = mirror_stats(session.renderer().mirrored());
   if (session.still() != nullptr) stats.still = still_stats(*session.still());
   return stats;
 }
@@ -160,6 +161,7 @@ nlohmann::json to_json(const Stats& s) {
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
   if (s.shadows) json["shadows"] = to_json(*s.shadows);
+  if (s.mirror) json["mirror"] = to_json(*s.mirror);
   if (s.still) json["still"] = to_json(*s.still);
   if (s.judgement) json.update({{"verdict", name_of(s.judgement->verdict)}, {"reason", s.judgement->reason}});
   if (s.decal_findings)

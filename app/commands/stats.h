@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/mirror_stats.h"
 #include "commands/request.h"
 #include "commands/still_stats.h"
 #include "render/judgement.h"
@@ -34,6 +35,7 @@ struct Stats {
   std::size_t decals = 0;
   std::uint32_t frames = 0;
   std::optional<ShadowStats> shadows;  ///< where lights cast them
+  std::optional<MirrorStats> mirror;   ///< where surfaces mirror
   std::optional<StillStats> still;     ///< where lights that stand still have lists of their own
   Rendered rendered;                   ///< its picture is not kept
   std::vector<std::pair<std::string, std::uint64_t>> bytes;

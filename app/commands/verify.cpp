@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 
 #include "commands/auto_method.h"
@@ -12,6 +11,7 @@
 #include "commands/commands.h"
 #include "commands/miss_map.h"
 #include "commands/pictures.h"
+#include "commands/verify_mirror.h"
 #include "commands/verify_points.h"
 #include "commands/verify_rows.h"
 #include "commands/verify_shadows.h"
@@ -68,15 +68,6 @@ std::vector<std::string> wanted_methods(const VerifyOptions& o) {
     throw Error("--option: belongs to one method; name it with --method");
   for (const std::string& method : wanted) check_request(o.request, method);
   return wanted;
-}
-
-/// Calls `use` with the depth of each of the frame's pictures, which the renderer then draws.
-void for_each_picture(Renderer& renderer, const std::function<void(std::span<const float>)>& use) {
-  if (!renderer.depth().several()) return use(renderer.read_depth());
-  for (const FramePicture& picture : renderer.all_pictures()) {
-    renderer.show(picture);
-    use(renderer.draw_depth());
-  }
 }
 
 /// Lights that are cut by what their maps hold need not be where these leave no light.
@@ -255,6 +246,7 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
         pairs);
   print_table(rows);
   if (rows.front().still) print_still(*rows.front().still);
+  if (rows.front().mirror) print_mirror(*rows.front().mirror);
   if (const auto& shadows = rows.front().shadows) print_out("shadows: {}\n", shadow_words(*shadows));
   if (const auto& shadows = rows.front().shadows; shadows && shadows->truth)
     print_out("shadows: {}\nshadows: {}\n", truth_words(*shadows->truth), cut_words(*shadows->truth));
@@ -313,6 +305,7 @@ Exit verify(const VerifyOptions& o) {
   find_decals(session, setup, candidates);
   const std::optional<ShadowFindings> shadows = shadow_findings(session, setup);
   const std::optional<StillStats> still = check_still_lists(o.request, session, setup);
+  const std::optional<MirrorStats> mirror = verify_mirror(session, setup, candidates.front().lighting);
 
   std::vector<Stats> rows;
   for (Candidate& candidate : candidates) {
@@ -320,6 +313,7 @@ Exit verify(const VerifyOptions& o) {
     rows.back().verifier = verifier;
     if (rows.back().shadows) rows.back().shadows->truth = shadows;
     rows.back().still = still;
+    if (mirror) rows.back().mirror = mirror;
   }
   rows.insert(rows.end(), refused.begin(), refused.end());
   show_progress("");
@@ -330,6 +324,7 @@ Exit verify(const VerifyOptions& o) {
   for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
   if (shadows && shadows->lost + shadows->lost_outside != 0) worst = Verdict::failed;
   if (still) worst = std::max(worst, verdict_of(*still));
+  if (mirror) worst = std::max(worst, mirror->findings->verdict());
   return exit_of(worst);
 }
 

@@ -61,16 +61,28 @@ bool filters_anisotropically(const vulkan::Device& device) {
   return features.samplerAnisotropy == VK_TRUE && properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
 }
 
-glm::vec3 mesh_center(const Scene& scene, const Instance& instance) {
-  const Mesh& mesh = scene.meshes[instance.mesh];
-  glm::vec3 low(std::numeric_limits<float>::max());
-  glm::vec3 high(std::numeric_limits<float>::lowest());
+Box mesh_box(const Scene& scene, const Mesh& mesh) {
+  Box box{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
   for (std::uint32_t i = 0; i < mesh.index_count; ++i) {
     const glm::vec3 p = scene.vertices[scene.indices[mesh.first_index + i] + mesh.vertex_offset].position;
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    box.min = glm::min(box.min, p);
+    box.max = glm::max(box.max, p);
   }
-  return glm::vec3(instance.world_from_object * glm::vec4((low + high) * 0.5F, 1.0F));
+  return box;
+}
+
+glm::vec3 mesh_center(const Scene& scene, const Instance& instance) {
+  const Box box = mesh_box(scene, scene.meshes[instance.mesh]);
+  return glm::vec3(instance.world_from_object * glm::vec4((box.min + box.max) * 0.5F, 1.0F));
+}
+
+/// In the world.
+shared::LightSphere sphere_around(const Scene& scene, const Mesh& mesh, const glm::mat4& m) {
+  const Box box = mesh_box(scene, mesh);
+  const glm::vec3 half = (box.max - box.min) * 0.5F;
+  const float radius = glm::length(glm::vec3(m[0])) * half.x + glm::length(glm::vec3(m[1])) * half.y +
+                       glm::length(glm::vec3(m[2])) * half.z;
+  return {.center = glm::vec3(m * glm::vec4((box.min + box.max) * 0.5F, 1.0F)), .radius = radius};
 }
 
 }  // namespace
@@ -168,17 +180,16 @@ VkSampler GpuScene::sampler(const vulkan::Device& device, const Texture& texture
 }
 
 void GpuScene::make_draws(Context& context) {
-  std::vector<std::uint32_t> order(scene_->instances.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {}, [&](std::uint32_t i) {
+  order_.resize(scene_->instances.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::ranges::sort(order_, {}, [&](std::uint32_t i) {
     const std::uint32_t mesh = scene_->instances[i].mesh;
     return std::tuple(scene_->meshes[mesh].material, mesh, i);
   });
-  std::vector<gpu::InstanceData> instances;
   const std::vector<std::uint32_t> firsts = first_triangles(*scene_);
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const Instance& instance = scene_->instances[order[i]];
-    instances.push_back(instance_data(instance, firsts[order[i]] - scene_->meshes[instance.mesh].vertex_offset));
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    const Instance& instance = scene_->instances[order_[i]];
+    instance_data_.push_back(instance_data(instance, firsts[order_[i]] - scene_->meshes[instance.mesh].vertex_offset));
     if (scene_->materials[scene_->meshes[instance.mesh].material].alpha_mode == AlphaMode::blend) {
       blended_.push_back(
           {.mesh = instance.mesh, .first_instance = i, .instances = 1, .center = mesh_center(*scene_, instance)});
@@ -188,7 +199,23 @@ void GpuScene::make_draws(Context& context) {
       opaque_.push_back({.mesh = instance.mesh, .first_instance = i, .instances = 1});
     }
   }
-  instances_ = upload_buffer(context, "instances", bytes_of(instances), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  instances_ = upload_buffer(context, "instances", bytes_of(instance_data_), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+std::vector<shared::LightSphere> GpuScene::move(Context& context) {
+  std::vector<shared::LightSphere> moved;
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Instance& instance = scene_->instances[order_[i]];
+    const glm::mat4 before = glm::mat4(instance_data_[i].world_from_object);
+    if (before == instance.world_from_object) continue;
+    const Mesh& mesh = scene_->meshes[instance.mesh];
+    moved.push_back(sphere_around(*scene_, mesh, before));
+    moved.push_back(sphere_around(*scene_, mesh, instance.world_from_object));
+    instance_data_[i] = instance_data(instance, instance_data_[i].first_triangle);
+  }
+  for (Draw& draw : blended_) draw.center = mesh_center(*scene_, scene_->instances[order_[draw.first_instance]]);
+  instances_ = upload_buffer(context, "instances", bytes_of(instance_data_), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  return moved;
 }
 
 const Material& GpuScene::material_of(const Draw& draw) const {

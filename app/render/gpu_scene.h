@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/transfer.h"
+#include "lamplight/shared/light.h"
 #include "render/captured_surfaces.h"
 #include "render/shaders/scene_data.h"
 #include "scene/scene.h"
@@ -38,6 +39,9 @@ class GpuScene {
   /// A material: its uniform block at binding 1, its five textures at bindings 5 .. 9.
   [[nodiscard]] std::array<vulkan::Bound, 6> material_bound(std::uint32_t material) const;
 
+  /// The scene's instances have moved: uploads them, waiting. Spheres around where each was and is.
+  std::vector<shared::LightSphere> move(Context& context);
+
   void bind_geometry(VkCommandBuffer commands) const;
   void draw(VkCommandBuffer commands, const Draw& draw) const;
 
@@ -52,6 +56,8 @@ class GpuScene {
   vulkan::Buffer indices_;
   vulkan::Buffer materials_;
   std::uint64_t material_stride_ = 0;  ///< bytes from one uniform block to the next
+  std::vector<std::uint32_t> order_;   ///< of the scene's instances, as they are drawn
+  std::vector<gpu::InstanceData> instance_data_;
   vulkan::Buffer instances_;
   vulkan::Buffer surroundings_;
   std::vector<GpuImage> images_;  ///< the scene's, then one white texel

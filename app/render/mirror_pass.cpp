@@ -19,6 +19,7 @@ constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT
 constexpr std::uint32_t GROUP_PX = 8;
 constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_STACK = 30;
+constexpr std::uint32_t CONSTANT_WALKS_ALONE = 31;
 constexpr VkDescriptorType STORAGE = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 
 constexpr std::array<std::string_view, 2> LISTS{"world-cells", "brute-force"};
@@ -99,16 +100,20 @@ MirrorPipelines mirror_pipelines(const vulkan::Device& device, const ShaderLibra
                              .push_constant_bytes = sizeof(gpu::MirrorPush)};
   shade.constants.push_back({CONSTANT_BRDF, static_cast<std::uint32_t>(info.settings.brdf)});
   shade.bindings.push_back({2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  for (const std::uint32_t binding : {3U, 4U, 8U, 9U}) shade.bindings.push_back({binding, STORAGE});
+  for (const std::uint32_t binding : {3U, 4U, 8U, 9U, 10U}) shade.bindings.push_back({binding, STORAGE});
   add_shadows(shade, info.shadows);
   for (const vulkan::DescriptorBinding& binding : vulkan::lookup_bindings(plan.lookup))
     shade.bindings.push_back(binding);
+  vulkan::PipelineInfo walk = shade;
+  walk.name = "mirror look-ups";
+  walk.constants.push_back({CONSTANT_WALKS_ALONE, 1});
   const auto make = [&](const vulkan::PipelineInfo& of, const std::string& shader) {
     return take(vulkan::Pipeline::compute(device, of, shaders.spirv(shader)));
   };
   return {.trace = make(rays, "mirror_trace"),
           .surfaces = make(surfaces, "mirror_surfaces"),
-          .shade = make(shade, "mirror_shade_" + std::string(plan.lookup.name))};
+          .shade = make(shade, "mirror_shade_" + std::string(plan.lookup.name)),
+          .walk = make(walk, "mirror_shade_" + std::string(plan.lookup.name))};
 }
 
 MirrorPass::MirrorPass(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const MirrorInfo& info)
@@ -116,6 +121,10 @@ MirrorPass::MirrorPass(Context& context, const ShaderLibrary& shaders, const Gpu
   const vulkan::Device& device = context.device();
   hits_ = pixel_buffer(device, info, "mirror hits", sizeof(gpu::MirrorHit));
   surfaces_ = pixel_buffer(device, info, "mirrored surfaces", sizeof(gpu::MirrorSurface));
+  if (info.settings.walks_apart)
+    walked_ = pixel_buffer(device, info, "walked lights", sizeof(std::uint32_t));
+  else
+    walked_ = readback_buffer(device, "walked lights", 0);  // something to bind
   counts_ = take(
       vulkan::Buffer::create(device, {.name = "mirror counts",
                                       .bytes = sizeof(gpu::MirrorCounts),
@@ -128,6 +137,7 @@ MirrorPass::MirrorPass(Context& context, const ShaderLibrary& shaders, const Gpu
   trace_ = std::move(pipelines.trace);
   find_surfaces_ = std::move(pipelines.surfaces);
   shade_ = std::move(pipelines.shade);
+  walk_ = std::move(pipelines.walk);
   runner_ = take(vulkan::PlanRunner::create(device, std::move(plan), shaders.source()));
 }
 
@@ -144,7 +154,8 @@ void MirrorPass::record(vulkan::Recorder& recorder, const LightingFrame& frame) 
   static_cast<void>(take(runner_.record(recorder, inputs(frame))));
   trace(recorder, frame);
   find_surfaces(recorder, frame);
-  shade(recorder, frame);
+  if (info_.settings.walks_apart) shade(recorder, frame, /*walks_alone=*/true);
+  shade(recorder, frame, /*walks_alone=*/false);
   recorder.name_group("");
 }
 
@@ -185,7 +196,7 @@ void MirrorPass::find_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
   dispatch(recorder, "surfaces", find_surfaces_, bound, uses);
 }
 
-void MirrorPass::shade(vulkan::Recorder& recorder, const LightingFrame& frame) {
+void MirrorPass::shade(vulkan::Recorder& recorder, const LightingFrame& frame, bool walks_alone) {
   const vulkan::BoundLookUp walked = runner_.lookup(inputs(frame));
   std::vector<vulkan::Bound> bound = pixel_bound(frame);
   append(bound, {{3, frame.data.lights()},
@@ -198,9 +209,10 @@ void MirrorPass::shade(vulkan::Recorder& recorder, const LightingFrame& frame) {
   uses.push_back({.resource = frame.targets.hdr.storage(),
                   .stages = COMPUTE,
                   .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
-  append(bound, {{2, frame.targets.hdr.storage()}});
+  if (walks_alone) uses.push_back(writes(walked_));
+  append(bound, {{2, frame.targets.hdr.storage()}, {10, vulkan::Resource::storage(walked_.handle())}});
   append(bound, walked.resources);
-  dispatch(recorder, "shading", shade_, bound, uses);
+  dispatch(recorder, walks_alone ? "look-ups" : "shading", walks_alone ? walk_ : shade_, bound, uses);
 }
 
 void MirrorPass::record_counts(vulkan::Recorder& recorder) {

@@ -27,6 +27,7 @@ struct MirrorSettings {
   float roughness = 0.0F;  ///< from which on surfaces mirror nothing, 0 .. 1; they fade towards it from its half on
   MirrorLists lists = MirrorLists::world_cells;
   Brdf brdf = Brdf::ggx;
+  bool walks_apart = false;  ///< lists are walked once more, by a pass that does nothing else: for its time
 };
 
 struct MirrorInfo {
@@ -67,7 +68,7 @@ class MirrorPass {
                 const std::vector<vulkan::Bound>& bound, const std::vector<vulkan::Use>& uses) const;
   void trace(vulkan::Recorder& recorder, const LightingFrame& frame);
   void find_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame);
-  void shade(vulkan::Recorder& recorder, const LightingFrame& frame);
+  void shade(vulkan::Recorder& recorder, const LightingFrame& frame, bool walks_alone);
 
   const Scene& of_;
   MirrorInfo info_;
@@ -75,11 +76,13 @@ class MirrorPass {
   vulkan::PlanRunner runner_;
   vulkan::Buffer hits_;
   vulkan::Buffer surfaces_;
+  vulkan::Buffer walked_;  ///< lights at each pixel's hit, where they are walked apart
   vulkan::Buffer counts_;
   vulkan::Buffer read_counts_;
   vulkan::Pipeline trace_;
   vulkan::Pipeline find_surfaces_;
   vulkan::Pipeline shade_;
+  vulkan::Pipeline walk_;  ///< apart
 };
 
 /// Its own pipelines, of a stack for a scene's hierarchy (Bvh::stack).
@@ -87,6 +90,7 @@ struct MirrorPipelines {
   vulkan::Pipeline trace;
   vulkan::Pipeline surfaces;
   vulkan::Pipeline shade;
+  vulkan::Pipeline walk;  ///< of look-ups alone
 };
 [[nodiscard]] MirrorPipelines mirror_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders,
                                                const MirrorInfo& info, const Plan& plan, std::uint32_t stack);

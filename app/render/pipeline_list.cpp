@@ -11,6 +11,7 @@
 #include "render/decal_pass.h"
 #include "render/geometry.h"
 #include "render/lighting_pipelines.h"
+#include "render/mirror_pass.h"
 #include "render/still_lists.h"
 
 namespace lamp::app {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::uint32_t LIGHTS = 1U << 15;  // llvmpipe's loops end after twice as many
 constexpr std::uint32_t MANY_LIGHTS = 1U << 20;
+constexpr std::uint32_t BVH_STACK = 40;  // of a large scene
 
 class PipelineLister {
  public:
@@ -29,6 +31,18 @@ class PipelineLister {
     for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong}) {
       const LightingInfo info{.path = ShadingPath::standard_deferred, .brdf = brdf};
       add(use_of(info), volumes_pipeline(device_, shaders, info));
+    }
+  }
+
+  void add_mirrors() {
+    for (const MirrorLists lists : {MirrorLists::world_cells, MirrorLists::brute_force}) {
+      const MirrorInfo info{
+          .settings = {.roughness = 1.0F, .lists = lists}, .width = 1920, .height = 1080, .light_capacity = LIGHTS};
+      const Plan plan = mirror_plan(device_, info);
+      MirrorPipelines made = mirror_pipelines(device_, shaders_, info, plan, BVH_STACK);
+      for (vulkan::Pipeline* pipeline : {&made.trace, &made.surfaces, &made.shade, &made.walk})
+        add(std::string("mirror, ") + std::string(mirror_list_names()[static_cast<std::size_t>(lists)]),
+            std::move(*pipeline));
     }
   }
 
@@ -146,6 +160,7 @@ class PipelineLister {
 std::vector<ListedPipeline> list_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders,
                                            std::span<const Method> of) {
   PipelineLister lister(device, shaders);
+  lister.add_mirrors();
   for (const Method& method : of) lister.add_defaults(method);
   for (const Method& method : of)
     for (const OptionSpec& spec : method.options)

@@ -82,6 +82,13 @@ void Renderer::mirror(const MirrorSettings& settings) {
                              .shadows = shadows_ ? std::optional(shadows_->settings().filter) : std::nullopt});
 }
 
+void Renderer::move_instances(std::span<const shared::LightSphere> moved) {
+  views_.clear();  // whatever is drawn is of before
+  forget_surfaces();
+  if (mirror_) mirror_->move(context_);
+  if (shadows_) shadows_->move(moved);
+}
+
 void Renderer::set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
   assert(views.size() == depth_.views && "make a Renderer for another number of views");

@@ -74,6 +74,8 @@ class Renderer {
   /// Surfaces below a roughness mirror what is around them, in all frames. Once, behind `cast_shadows`. Throws Error
   /// for what the device cannot do.
   void mirror(const MirrorSettings& settings);
+  /// Instances of the scene have moved, from and to these places (GpuScene::move). Before `set_frame`.
+  void move_instances(std::span<const shared::LightSphere> moved);
   /// Null: none does.
   [[nodiscard]] const MirrorPass* mirrored() const { return mirror_ ? &*mirror_ : nullptr; }
   /// The last lights of the next frames stand still, as many as `lists` has, and are looked up in it by lightings that

@@ -140,8 +140,9 @@ void Shadows::make_pipelines(const vulkan::Device& device, const ShaderLibrary& 
 void Shadows::schedule(std::span<const View> views, std::span<const shared::Light> lights) {
   const auto shadowed = lights.first(std::min<std::size_t>(lights.size(), settings_.lights));
   if (std::exchange(changed_, true)) schedule_.redraw_all();  // nobody drew the last one
-  const ShadowFrame frame =
-      take(schedule_.schedule({.views = views, .lights = shadowed, .budget_texels = settings_.budget_texels}));
+  const ShadowFrame frame = take(schedule_.schedule(
+      {.views = views, .lights = shadowed, .moved = moved_, .budget_texels = settings_.budget_texels}));
+  moved_.clear();
   counts_ = frame.counts;
   waiting_.assign(frame.waiting.begin(), frame.waiting.end());
   without_.assign(frame.without.begin(), frame.without.end());

@@ -55,6 +55,8 @@ class Shadows {
   Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowSettings& settings,
           std::uint32_t light_capacity);
 
+  /// What has moved before the next `schedule`: spheres around where it was and is.
+  void move(std::span<const shared::LightSphere> moved) { moved_.insert(moved_.end(), moved.begin(), moved.end()); }
   /// Of the next frame.
   void schedule(std::span<const View> views, std::span<const shared::Light> lights);
   /// Draws and uploads what the last `schedule` asked for; nothing if that is done.
@@ -119,7 +121,8 @@ class Shadows {
   std::vector<std::uint32_t> without_;
   std::vector<shared::ShadowMap> maps_;
   std::vector<std::uint32_t> ages_;
-  std::vector<shared::Light> lights_;  ///< of the last `schedule`
+  std::vector<shared::Light> lights_;       ///< of the last `schedule`
+  std::vector<shared::LightSphere> moved_;  ///< since then
   std::vector<VkClearRect> clears_;
   std::uint32_t view_count_ = 0;
 };

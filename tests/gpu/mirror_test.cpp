@@ -170,6 +170,25 @@ TEST_F(Mirror, ShowsWhatIsKnownToBeThere) {
   EXPECT_EQ(middle_of(picture(shown)), glm::vec3(0.0F)) << "the floor is as rough as the limit";
 }
 
+TEST_F(Mirror, FollowsAnInstanceThatMoves) {
+  TestScene scene(hall(6.0F));
+  Shown shown{.gpu = scene.gpu, .view = view_of(scene.scene.cameras[0], WIDTH, HEIGHT, "camera"), .lights = {}};
+  shown.shadows = ShadowSettings{.atlas_size = 256};
+  const std::unique_ptr<Renderer> renderer = renderer_of(shown);
+  const auto moved_to = [&](float x) {
+    scene.scene.instances[1].world_from_object[3].x = x;
+    const std::vector<shared::LightSphere> moved = scene.gpu.move(test_context());
+    renderer->move_instances(moved);
+    renderer->set_frame(shown.view, shown.lights);
+    EXPECT_EQ(moved.size(), 2U) << "where it was, and where it is";
+    return middle_of(picture(*renderer, shown));
+  };
+  const glm::vec3 below = middle_of(picture(*renderer, shown));
+  EXPECT_NEAR(below.g, 2.0F, 0.01F);
+  EXPECT_NEAR(moved_to(40.0F).r, 0.5F, 0.01F) << "the sky";
+  EXPECT_EQ(moved_to(0.0F), below);
+}
+
 TEST_F(Mirror, OfAnEmptySceneIsSky) {
   Scene empty{.name = "empty"};
   empty.materials = {Material{}};

@@ -13,7 +13,9 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
 };
 layout(set = 0, binding = 8, scalar) readonly buffer HitBuffer { MirrorHit hits[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer MirrorSurfaceBuffer { MirrorSurface surfaces[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer WalkedBuffer { uint walked[]; };  // lights at each pixel's hit
 layout(push_constant, scalar) uniform Push { MirrorPush push; };
+layout(constant_id = 31) const bool WALKS_ALONE = false;  // nothing is lit: for the time of look-ups
 #include "common/box.glsl"
 #include "common/deferred_surface.glsl"
 #include "common/lights.glsl"
@@ -51,11 +53,22 @@ vec3 light_of_hit(MirrorSurface m, vec3 to_eye) {
   return sum;
 }
 
+uint lights_at(vec3 position) {
+  uint count = 0u;
+  uint light;
+  for (Walk walk = mirror_walk_begin(position); walk_next(walk, light);) ++count;
+  return count;
+}
+
 void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.size_px))) return;
   const uint number = pixel.y * frame.size_px.x + pixel.x;
   const MirrorHit hit = hits[number];
+  if (WALKS_ALONE) {
+    walked[number] = hit.triangle < MIRROR_ENDED ? lights_at(surfaces[number].position) : 0u;
+    return;
+  }
   if (hit.triangle == MIRROR_NO_RAY) return;
   const float z_view = z_view_of(frame, texelFetch(depth_image, ivec2(pixel), 0).x);
   const Surface s = read_surface(ivec2(pixel), z_view);

@@ -1,0 +1,34 @@
+// Checks mirror rays, and prints what was found.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/verify_mirror.h"
+
+#include "commands/verify_rows.h"
+#include "system/print.h"
+#include "system/progress.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::size_t MOST_RAYS = 50'000;  // a few seconds of rays in double precision
+
+}  // namespace
+
+std::optional<MirrorStats> verify_mirror(Session& session, const Setup& setup, Lighting& lighting) {
+  Renderer& renderer = session.renderer();
+  if (renderer.mirrored() == nullptr || renderer.depth().several()) return std::nullopt;
+  show_progress("verify mirror rays");
+  static_cast<void>(renderer.render(lighting));
+  std::optional<MirrorStats> stats = mirror_stats(renderer.mirrored());
+  stats->findings = check_mirror(renderer, session.shaders(), setup.scene, setup.lights, MOST_RAYS);
+  return stats;
+}
+
+void print_mirror(const MirrorStats& stats) {
+  print_out("mirror: {}\n", mirror_words(stats));
+  for (const std::string& note : stats.notes) print_out("  note: {}\n", note);
+  if (!stats.findings) return;
+  print_out("mirror: {}  {}\n", mirror_words(*stats.findings), table_words(stats.findings->verdict()));
+  if (const std::string reason = stats.findings->reason(); !reason.empty()) print_out("  {}\n", reason);
+}
+
+}  // namespace lamp::app
