@@ -57,6 +57,7 @@ Exit run(int argc, char** argv) {
       {"verify", lamp::app::add_verify(app)},
       {"compare", lamp::app::add_compare(app)},
       {"capture", lamp::app::add_capture(app)},
+      {"probe", lamp::app::add_probe(app)},
       {"bench", lamp::app::add_bench(app, {argv, static_cast<std::size_t>(argc)})},
       {"report", lamp::app::add_report(app)},
       {"info", lamp::app::add_info(app)},

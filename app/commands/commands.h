@@ -20,6 +20,7 @@ using Run = std::function<Exit()>;
 [[nodiscard]] Run add_verify(CLI::App& app);
 [[nodiscard]] Run add_compare(CLI::App& app);
 [[nodiscard]] Run add_capture(CLI::App& app);
+[[nodiscard]] Run add_probe(CLI::App& app);
 /// `arguments`: the whole command line, for the record of how results were made.
 [[nodiscard]] Run add_bench(CLI::App& app, std::span<char* const> arguments);
 [[nodiscard]] Run add_report(CLI::App& app);

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace lamp::app {
 
@@ -59,7 +60,7 @@ void ProbeSchedule::give_slots(std::span<const ProbeDemand> probes, ProbeFrame& 
   std::vector<std::uint32_t> asking;
   for (std::uint32_t probe = 0; probe < states_.size(); ++probe)
     if (probes[probe].share > 0.0F) asking.push_back(probe);
-  std::ranges::stable_sort(asking, [&](auto a, auto b) { return states_[a].share > states_[b].share; });
+  std::ranges::sort(asking, {}, [&](std::uint32_t probe) { return std::pair(-states_[probe].share, probe); });
   for (const std::uint32_t probe : asking) {
     if (states_[probe].slot != NO_SLOT) continue;
     const std::uint32_t slot = slot_for(probe, result.counts);
@@ -104,10 +105,8 @@ std::vector<std::uint32_t> ProbeSchedule::to_draw(std::span<const ProbeDemand> p
     if (probes[probe].share > 0.0F && state.slot != NO_SLOT && (!state.captured || state.changed))
       wanted.push_back(probe);
   }
-  std::ranges::stable_sort(wanted, [&](auto a, auto b) {
-    const auto rank = [&](std::uint32_t probe) { return std::tuple(states_[probe].captured, -priority(probe)); };
-    return rank(a) < rank(b);
-  });
+  std::ranges::sort(wanted, {},
+                    [&](std::uint32_t probe) { return std::tuple(states_[probe].captured, -priority(probe), probe); });
   return wanted;
 }
 

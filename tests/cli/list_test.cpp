@@ -22,7 +22,7 @@ TEST_F(List, WithoutArgumentsItWelcomes) {
 TEST_F(List, EveryHelpHasExamples) {
   for (const Arguments& command : {Arguments{}, Arguments{"render"}, Arguments{"verify"}, Arguments{"compare"},
                                    Arguments{"capture"}, Arguments{"bench"}, Arguments{"report"}, Arguments{"info"},
-                                   Arguments{"list"}, Arguments{"completion"}, Arguments{"help"}}) {
+                                   Arguments{"list"}, Arguments{"probe"}, Arguments{"completion"}, Arguments{"help"}}) {
     Arguments help = command;
     help.emplace_back("--help");
     const std::string text = output_of(help);

@@ -51,6 +51,13 @@ struct ProbePush {
   uint level;  // that is filtered; of face passes the face
 };
 
+// A picture of all directions, twice as wide as high.
+struct ProbePanorama {
+  uint slot;
+  uint height;  // pixels
+  float roughness;
+};
+
 #ifdef __cplusplus
 }  // namespace lamp::app::gpu
 #endif

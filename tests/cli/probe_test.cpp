@@ -1,0 +1,28 @@
+// lamp probe: a picture of what a probe sees, with shadows and without, and what it refuses.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli_test.h"
+#include "image/image.h"
+
+namespace lamp::cli {
+namespace {
+
+using Probe = CliTest;
+
+TEST_F(Probe, WritesWhatIsSeenFromAPlace) {
+  const std::string text = output_of({"probe", "corridor", "--at", "0.5", "1.6", "0.5", "--lights", "64"});
+  EXPECT_NE(text.find("at (0.50, 1.60, 0.50), 64 lights"), std::string::npos) << text;
+  const app::LdrImage picture = app::read_png(path("probe.png"));
+  EXPECT_EQ(picture.width, 640U);
+  EXPECT_GT(picture.height, 900U);
+  (void)output_of({"probe", "corridor", "--at", "0.5", "1.6", "0.5", "--lights", "64", "--shadows", "hard", "--out",
+                   "shadows.png"});
+  EXPECT_NE(read("shadows.png"), read("probe.png"));
+}
+
+TEST_F(Probe, RefusesACapturedFrame) {
+  (void)output_of(small({"capture", "--out", "frame"}));
+  expect_error(BAD_INPUT, {"probe", "frame"}, {"a capture is seen from one place alone"});
+}
+
+}  // namespace
+}  // namespace lamp::cli
