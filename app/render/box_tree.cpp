@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "render/bvh.h"
 
@@ -33,6 +34,20 @@ double area(const Box& box) {
 /// Levels below which so many leaves fit.
 std::uint32_t levels_of(std::size_t boxes, std::uint32_t leaf) {
   return static_cast<std::uint32_t>(std::bit_width((boxes + leaf - 1) / leaf - 1));
+}
+
+/// Those of the first side before the others, each in their order; returns how many. The same with every library.
+template <class IsFirst>
+std::size_t partition(std::span<std::uint32_t> part, IsFirst is_first) {
+  std::vector<std::uint32_t> others;
+  std::size_t count = 0;
+  for (const std::uint32_t i : part)
+    if (is_first(i))
+      part[count++] = i;
+    else
+      others.push_back(i);
+  std::ranges::copy(others, part.begin() + static_cast<std::ptrdiff_t>(count));
+  return count;
 }
 
 struct Split {
@@ -114,9 +129,8 @@ class Builder {
       for (int axis = 0; axis < 3; ++axis) try_axis(part, middles, axis, best);
     if (best.axis < 0) return halve(part, middles);
     const Bins bins = bins_of(middles, best.axis);
-    const auto second = std::stable_partition(
-        part.begin(), part.end(), [&](std::uint32_t i) { return bins.of(middle(boxes_[i])[best.axis]) < best.bin; });
-    const auto first = static_cast<std::size_t>(second - part.begin());
+    const std::size_t first =
+        partition(part, [&](std::uint32_t i) { return bins.of(middle(boxes_[i])[best.axis]) < best.bin; });
     // A side deeper than there are levels for.
     const std::size_t larger = std::max(first, part.size() - first);
     return levels_of(larger, info_.leaf) < info_.max_depth - depth ? first : halve(part, middles);
@@ -125,7 +139,7 @@ class Builder {
   std::size_t halve(std::span<std::uint32_t> part, const Box& middles) const {
     const glm::vec3 size = middles.max - middles.min;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::ranges::stable_sort(part, {}, [&](std::uint32_t i) { return middle(boxes_[i])[axis]; });
+    std::ranges::sort(part, {}, [&](std::uint32_t i) { return std::pair(middle(boxes_[i])[axis], i); });
     // Whole leaves to the first side, so that the second is no deeper.
     const std::size_t leaves = (part.size() + info_.leaf - 1) / info_.leaf;
     return (leaves + 1) / 2 * info_.leaf;
