@@ -68,6 +68,7 @@ json to_json(const InfoOptions& o, const Scene& scene, const SceneInfo& info) {
               {"transparent_materials", info.transparent},
               {"images", scene.images.size()},
               {"decals", scene.decals.size()},
+              {"probes", scene.probes.size()},
               {"bytes", {{"geometry", info.geometry_bytes}, {"images", info.image_bytes}}},
               {"notes", scene.notes}};
   if (info.bounds) object["bounds"] = {{"min", to_json(info.bounds->min)}, {"max", to_json(info.bounds->max)}};
@@ -122,6 +123,7 @@ void print_info(const InfoOptions& o, const Scene& scene, const SceneInfo& info)
   print_lights("spots", info.spots);
   print_line("directional", fmt::format("{}", scene.directional_lights.size()));
   if (!scene.decals.empty()) print_line("decals", fmt::format("{}, shown with --decals", scene.decals.size()));
+  if (!scene.probes.empty()) print_line("probes", fmt::format("{}, shown with --probes", scene.probes.size()));
   if (info.bounds) {
     const auto& [low, high] = *info.bounds;
     const glm::vec3 size = high - low;

@@ -81,6 +81,7 @@ void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& c
   line("scene",
        fmt::format("{}, {}{}x{}", stats.scene, stats.views == 1 ? "" : "two eyes of ", stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
+  if (!setup.probes.empty()) line("probes", fmt::format("{}: {}", setup.probes.size(), setup.probes_note));
   if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));

@@ -11,6 +11,7 @@
 
 #include "commands/command_line.h"
 #include "gpu/check.h"
+#include "render/place_probes.h"
 #include "scene/builtin.h"
 #include "scene/capture.h"
 #include "scene/flight.h"
@@ -133,6 +134,13 @@ std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene
   std::vector<gpu::DecalData> decals = pack(place_decals(scene, request.decals, request.seed));
   if (const auto error = check_boxes(boxes_of(decals))) throw Error(scene.name + ": " + error->text());
   return decals;
+}
+
+std::vector<Probe> requested_probes(const Request& request, const Scene& scene) {
+  if (request.probes == 0) return {};
+  std::vector<Probe> probes = place_probes(scene, request.probes, request.seed);
+  if (const auto error = check_probes(probes)) throw Error(scene.name + ": " + error->text());
+  return probes;
 }
 
 glm::uvec2 parse_size(const std::string& text) {
@@ -290,7 +298,10 @@ Setup make_setup(const Request& request) {
   setup.decals = requested_decals(request, setup.scene);
   const std::size_t own = std::min(setup.decals.size(), setup.scene.decals.size());
   setup.decals_note = fmt::format("{} of the scene + {} generated", own, setup.decals.size() - own);
-  move_instances(request, setup);  // lights and decals are placed where all is at rest
+  setup.probes = pack(requested_probes(request, setup.scene));
+  const std::size_t own_probes = std::min(setup.probes.size(), setup.scene.probes.size());
+  setup.probes_note = fmt::format("{} of the scene + {} generated", own_probes, setup.probes.size() - own_probes);
+  move_instances(request, setup);  // lights, decals and probes are placed where all is at rest
   return setup;
 }
 
@@ -322,6 +333,11 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
                                          static_cast<std::uint32_t>(setup.lights.size()),
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
+  if (!setup.probes.empty()) {
+    captures_ = std::make_unique<ProbeAtlas>(*context_, shaders_, 0);
+    probes_ = std::make_unique<ProbeSet>(*context_, *captures_, gpu::PROBES_FLAT, setup.probes);
+    renderer_->light_probes(probes_.get());
+  }
   if (request.still_lists != "off") {
     still_ = make_still(
         request,
@@ -350,13 +366,14 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
                         .options = take(resolve_options(method, options)),
                         .width = setup_.view.width(),
                         .height = setup_.view.height(),
-                        .light_capacity = static_cast<std::uint32_t>(listed + setup_.decals.size()),
+                        .light_capacity = static_cast<std::uint32_t>(listed + setup_.boxes()),
                         .path = path,
                         .brdf = brdf_,
                         .depth = depth_,
                         .transparency = !gpu_scene_->blended().empty(),
                         .captured = setup_.scene.captured.has_value(),
                         .decals = !setup_.decals.empty(),
+                        .probes = renderer_->probes().kind(),
                         .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt,
                         .still = still == nullptr ? gpu::STILL_OFF : still->kind()},
                        grow_);

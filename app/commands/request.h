@@ -35,6 +35,7 @@ struct Request {
   float spots = 0.5F;
   std::string range;         ///< "MIN:MAX" or "inf", empty: automatic
   std::uint32_t decals = 0;  ///< the scene's own, then generated ones
+  std::uint32_t probes = 0;  ///< the scene's own, then generated ones
   std::uint64_t seed = 1;
   std::string method = "auto";
   std::vector<std::string> options;
@@ -74,7 +75,7 @@ void add_common_options(CLI::App& command, Request& request);
 /// Adds `--method` for several methods; `help` says what is done with them.
 void add_method_option(CLI::App& command, std::vector<std::string>& methods, const std::string& help);
 /// Adds `--method` for one method or auto, and what goes with it: `--option`, `--path`, `--grow`, `--explain`,
-/// `--calibration`, `--decals`.
+/// `--calibration`, `--decals`, `--probes`.
 void add_picture_options(CLI::App& command, Request& request);
 /// Adds `--option`.
 void add_option_option(CLI::App& command, Request& request);
@@ -96,6 +97,8 @@ void add_mirror_options(CLI::App& command, Request& request);
 void add_still_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
+/// Adds `--probes`, likewise.
+void add_probe_option(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
 CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help);
 /// Adds `--json`.
@@ -124,6 +127,10 @@ struct Setup {
   }
   [[nodiscard]] std::span<const shared::Light> standing() const { return std::span(lights).last(still); }
   std::vector<gpu::DecalData> decals;
+  std::vector<gpu::ProbeData> probes;  ///< in the order of their ids
+  std::string probes_note;
+  /// How many decals and probes there are.
+  [[nodiscard]] std::size_t boxes() const { return decals.size() + probes.size(); }
   std::string decals_note;  ///< "44 of the scene + 20 generated"
   std::string lights_note;  ///< "4096 generated (range 1.20 to 2.80 m) + 0 of the scene"
 };
@@ -143,6 +150,8 @@ struct Setup {
 [[nodiscard]] std::uint32_t still_lights(const Request& request, const Scene& scene, std::size_t generated);
 /// The decals. Throws Error for a capture, and for boxes that none can be.
 [[nodiscard]] std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene);
+/// The probes as they are made. Throws Error for a capture, and for probes that none can be.
+[[nodiscard]] std::vector<Probe> requested_probes(const Request& request, const Scene& scene);
 /// The scene's lights and the generated ones are few enough, and as lights must be.
 void check_scene_lights(const Request& request, const Scene& scene);
 
@@ -259,6 +268,8 @@ class Session {
   std::unique_ptr<Context> context_;
   std::unique_ptr<GpuScene> gpu_scene_;
   std::unique_ptr<StillLists> still_lists_;
+  std::unique_ptr<ProbeAtlas> captures_;
+  std::unique_ptr<ProbeSet> probes_;
   std::unique_ptr<Renderer> renderer_;
 };
 

@@ -38,7 +38,9 @@ void add_light_options(CLI::App& command, Request& r) {
                   "everything; default: such that about 24 of them reach a point")
       ->type_name("MIN:MAX")
       ->group("Lights");
-  command.add_option("--seed", r.seed, "seed of the generated lights and decals; the same seed gives the same picture")
+  command
+      .add_option("--seed", r.seed,
+                  "seed of the generated lights, decals and probes; the same seed gives the same picture")
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")
       ->group("Lights")
@@ -120,6 +122,7 @@ void add_picture_options(CLI::App& command, Request& r) {
   add_grow_option(command, r);
   add_auto_options(command, r);
   add_decal_option(command, r);
+  add_probe_option(command, r);
   add_still_options(command, r);
   add_shadow_options(command, r);
   add_mirror_options(command, r);
@@ -191,6 +194,16 @@ void add_decal_option(CLI::App& command, Request& r) {
       .add_option("--decals", r.decals,
                   "number of box decals: the scene's own first, then generated ones; a capture shows those that it was "
                   "taken with")
+      ->check(whole_number(0, 65536))
+      ->type_name("N")
+      ->group("Lights")
+      ->capture_default_str();
+}
+
+void add_probe_option(CLI::App& command, Request& r) {
+  command
+      .add_option("--probes", r.probes,
+                  "number of reflection probes: the scene's own first, then generated ones in its open air")
       ->check(whole_number(0, 65536))
       ->type_name("N")
       ->group("Lights")

@@ -57,6 +57,7 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
               .height = info.view.height(),
               .lights = info.lights,
               .decals = info.decals,
+              .probes = info.probes,
               .frames = info.frames,
               .rendered = std::move(rendered),
               .cells = plan.cells,
@@ -79,7 +80,8 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
                             .view = setup.view,
                             .lights = setup.lights.size(),
                             .frames = frames,
-                            .decals = setup.decals.size()},
+                            .decals = setup.decals.size(),
+                            .probes = setup.probes.size()},
                            lighting, std::move(rendered));
   stats.views = setup.views.size();
   stats.shadows = shadow_stats(session.renderer().shadows());
@@ -118,6 +120,7 @@ nlohmann::json to_json(const Stats& s) {
                       {"views", s.views},
                       {"lights", s.lights},
                       {"decals", s.decals},
+                      {"probes", s.probes},
                       {"frames", s.frames},
                       {"passes", nlohmann::json::array()},
                       {"cull_ms", s.rendered.cull_ms},
@@ -169,6 +172,11 @@ nlohmann::json to_json(const Stats& s) {
                  {"decal_evaluations", s.decal_findings->evaluations},
                  {"decals_useful", s.decal_findings->useful},
                  {"decals_boundary_pairs", s.decal_findings->boundary_pairs}});
+  if (s.probe_findings)
+    json.update({{"probes_missed", s.probe_findings->missed},
+                 {"probe_evaluations", s.probe_findings->evaluations},
+                 {"probes_useful", s.probe_findings->useful},
+                 {"probes_boundary_pairs", s.probe_findings->boundary_pairs}});
   if (s.image_max_abs_diff)
     add_number(json, "image_max_abs_diff", *s.image_max_abs_diff, "a pixel of one of the pictures is not a number");
   if (s.image_tolerance) json["image_tolerance"] = *s.image_tolerance;

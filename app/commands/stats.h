@@ -33,6 +33,7 @@ struct Stats {
   std::size_t views = 1;  ///< of that size each
   std::size_t lights = 0;
   std::size_t decals = 0;
+  std::size_t probes = 0;
   std::uint32_t frames = 0;
   std::optional<ShadowStats> shadows;  ///< where lights cast them
   std::optional<MirrorStats> mirror;   ///< where surfaces mirror
@@ -44,6 +45,7 @@ struct Stats {
   std::vector<std::string> notes;                              ///< the plan's: what is done otherwise than asked
   std::optional<Findings> findings;                            ///< of lights
   std::optional<Findings> decal_findings;  ///< of decals, where there are some and they were held against a truth
+  std::optional<Findings> probe_findings;  ///< likewise of probes
   bool ordered = true;                     ///< the plan's lists ascend
   bool approximate = false;                ///< the plan may miss lights
   std::optional<Judgement> judgement;      ///< of the findings and the picture
@@ -60,6 +62,7 @@ struct StatsInfo {
   std::size_t lights = 0;
   std::uint32_t frames = 0;
   std::size_t decals = 0;
+  std::size_t probes = 0;
 };
 [[nodiscard]] Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered);
 

@@ -11,6 +11,7 @@
 #include "commands/commands.h"
 #include "commands/miss_map.h"
 #include "commands/pictures.h"
+#include "commands/verify_boxes.h"
 #include "commands/verify_mirror.h"
 #include "commands/verify_points.h"
 #include "commands/verify_rows.h"
@@ -41,21 +42,22 @@ struct Candidate {
         lighting(std::move(separate_lighting)),
         separate(width, lighting.info().depth),
         fused(width, lighting.info().depth),
-        decals(width, lighting.info().depth),
-        fused_decals(width, lighting.info().depth) {}
+        decals(Renderer::Kind::decals, width, lighting.info().depth),
+        probes(Renderer::Kind::probes, width, lighting.info().depth) {}
   std::vector<std::string> options;
   Lighting lighting;
   Verification separate;
   Verification fused;
-  Verification decals;
-  Verification fused_decals;
+  BoxCheck decals;
+  BoxCheck probes;
   Findings findings;
   std::vector<PixelMisses> misses;
 };
 
-/// What its look-ups missed, of lights and of decals.
+/// What its look-ups missed, of lights, decals and probes.
 void collect_misses(Candidate& candidate) {
-  for (const Verification* found : {&candidate.separate, &candidate.fused, &candidate.decals, &candidate.fused_decals})
+  for (const Verification* found : {&candidate.separate, &candidate.fused, &candidate.decals.separate,
+                                    &candidate.decals.fused, &candidate.probes.separate, &candidate.probes.fused})
     candidate.misses.insert(candidate.misses.end(), found->misses().begin(), found->misses().end());
 }
 
@@ -113,38 +115,15 @@ void find_by_gpu(Session& session, const Setup& setup, std::vector<Candidate>& c
   }
 }
 
-/// The same for the decals' range of ids.
-void visit_decals(Session& session, const Truth& truth, std::vector<Candidate>& candidates) {
-  using Passes = vulkan::PlanRunner::Passes;
-  constexpr Renderer::Kind DECALS = Renderer::Kind::decals;
-  for (Candidate& candidate : candidates) {
-    show_progress(fmt::format("verify decals: {}", candidate.lighting.info().method->name));
-    const FramePicture of = session.renderer().shown();
-    candidate.decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::separate, DECALS), of);
-    if (candidate.lighting.runner().plan().fused)
-      candidate.fused_decals.add(truth, session.renderer().visit(candidate.lighting, truth, Passes::fused, DECALS), of);
-  }
-}
-
-Findings decal_findings_of(Candidate& candidate) {
-  Findings separate = candidate.decals.findings();
-  if (!candidate.lighting.runner().plan().fused) return separate;
-  return of_both(separate, candidate.fused_decals.findings());
-}
-
-/// Of decals there are few: always by the oracle.
-void find_decals(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
-  const std::vector<shared::OrientedBox> boxes = boxes_of(setup.decals);
-  if (boxes.empty()) return;
+/// The same for decals and probes.
+void find_boxes(Session& session, const Setup& setup, std::vector<Candidate>& candidates) {
+  if (setup.boxes() == 0) return;
   for_each_picture(session.renderer(), [&](std::span<const float> depth) {
-    const View& view = session.renderer().view();
-    for_each_truth({.view = view,
-                    .depth = depth,
-                    .lights = {},
-                    .rows = view.height(),
-                    .boxes = boxes,
-                    .first_id = static_cast<std::uint32_t>(setup.listed().size())},
-                   [&](const Truth& truth) { visit_decals(session, truth, candidates); });
+    for (BoxCheck Candidate::* const kind : {&Candidate::decals, &Candidate::probes}) {
+      std::vector<std::pair<Lighting*, BoxCheck*>> checks;
+      for (Candidate& candidate : candidates) checks.emplace_back(&candidate.lighting, &(candidate.*kind));
+      check_boxes_of(session, setup, depth, checks);
+    }
   });
 }
 
@@ -188,8 +167,12 @@ Stats make_row(const VerifyOptions& o, Session& session, const Setup& setup, Can
   Stats row = make_stats(o.request, session, candidate.lighting, setup, std::move(rendered), 1);
   row.judgement = judge(plan, candidate.findings, difference);
   if (!setup.decals.empty()) {
-    row.decal_findings = decal_findings_of(candidate);
+    row.decal_findings = candidate.decals.findings(candidate.lighting);
     row.judgement = worse_of(*row.judgement, judge(plan, *row.decal_findings, std::nullopt, "decal"));
+  }
+  if (!setup.probes.empty()) {
+    row.probe_findings = candidate.probes.findings(candidate.lighting);
+    row.judgement = worse_of(*row.judgement, judge(plan, *row.probe_findings, std::nullopt, "probe"));
   }
   if (difference) {
     row.image_max_abs_diff = difference->max_abs;
@@ -223,7 +206,8 @@ void write_misses(const VerifyOptions& o, std::span<Candidate> candidates, const
   for (Candidate& candidate : candidates) {
     collect_misses(candidate);
     methods.push_back({.method = std::string(candidate.lighting.info().method->name),
-                       .missed = candidate.findings.missed + decal_findings_of(candidate).missed,
+                       .missed = candidate.findings.missed + candidate.decals.findings(candidate.lighting).missed +
+                                 candidate.probes.findings(candidate.lighting).missed,
                        .pixels = std::move(candidate.misses)});
   }
   const LdrImage map = draw_misses(methods, tone_map(image, automatic_exposure(image)));
@@ -260,12 +244,12 @@ std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
 Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& context) {
   const VerifierChoice choice = parse_verifier(o.verifier, context);
   const bool several = o.request.depth_samples > 1 || setup.views.size() > 1;
-  if (setup.decals.empty() && !several) return chosen(choice, pairs_of(setup));
+  if (setup.boxes() == 0 && !several) return chosen(choice, pairs_of(setup));
   if (choice == VerifierChoice::gpu)
     throw Error(fmt::format("--verifier gpu: {} are checked by the oracle alone; use --verifier oracle",
                             setup.views.size() > 1        ? "several views"
                             : o.request.depth_samples > 1 ? "several samples a pixel"
-                                                          : "decals"));
+                                                          : "decals and probes"));
   return Verifier::oracle;
 }
 
@@ -285,7 +269,7 @@ Exit verify(const VerifyOptions& o) {
   HdrImage first;  // where there is no reference
   // Lights shine through walls, but for those that lists leave out because walls hide them.
   const bool same = o.request.still_occlusion == 0;
-  const bool possible = same && setup.lights.size() + setup.decals.size() <= brute_force_lights(session.context());
+  const bool possible = same && setup.lights.size() + setup.boxes() <= brute_force_lights(session.context());
   if (possible && (verifier == Verifier::oracle || pairs <= brute_force_pairs(session.context()))) {
     session.split_still(false);
     Lighting brute = session.lighting(parse_method("all"), {}, path);
@@ -302,7 +286,7 @@ Exit verify(const VerifyOptions& o) {
     find_by_gpu(session, setup, candidates);
   else
     find_by_oracle(session, setup, candidates);
-  find_decals(session, setup, candidates);
+  find_boxes(session, setup, candidates);
   const std::optional<ShadowFindings> shadows = shadow_findings(session, setup);
   const std::optional<StillStats> still = check_still_lists(o.request, session, setup);
   const std::optional<MirrorStats> mirror = verify_mirror(session, setup, candidates.front().lighting);
@@ -348,6 +332,7 @@ Run add_verify(CLI::App& app) {
       ->group("View")
       ->capture_default_str();
   add_decal_option(*command, o->request);
+  add_probe_option(*command, o->request);
   add_still_options(*command, o->request);
   add_shadow_options(*command, o->request);
   add_mirror_options(*command, o->request);
@@ -375,7 +360,7 @@ Run add_verify(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  lamp verify atrium --lights 8192\n"
-      "  lamp verify atrium --decals 64\n"
+      "  lamp verify atrium --decals 64 --probes 64\n"
       "  lamp verify posts --out misses.png\n"
       "  lamp verify one-tile --lights 65536 --method lamplight --runs 100\n"
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic\n"

@@ -20,11 +20,11 @@ std::string number_or_dash(const char* format, const std::optional<Number>& numb
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
 
-void print_decals(const Stats& s) {
-  const Findings& f = *s.decal_findings;
-  print_out("  decals: {} missed, {} walked for {} that hold their pixel, {} on a boundary\n", f.missed, f.evaluations,
-            f.useful, f.boundary_pairs);
-  if (!f.first_miss.empty()) print_out("  first miss of a decal, by its id behind the lights: {}\n", f.first_miss);
+/// `kind`: of boxes, in the singular.
+void print_boxes(std::string_view kind, const Findings& f) {
+  print_out("  {}s: {} missed, {} walked for {} that hold their pixel, {} on a boundary\n", kind, f.missed,
+            f.evaluations, f.useful, f.boundary_pairs);
+  if (!f.first_miss.empty()) print_out("  first miss of a {}, by its id behind the lights: {}\n", kind, f.first_miss);
 }
 
 void print_numbers(const Stats& s) {
@@ -42,7 +42,8 @@ void print_more(const Stats& s) {
   if (s.rendered.counters.overflowed_cells != 0) print_out("  {}\n", overflow_words(s));
   if (!s.judgement->reason.empty()) print_out("  {}\n", s.judgement->reason);
   if (s.approximate && !f.first_miss.empty()) print_out("  first miss: {}\n", f.first_miss);
-  if (s.decal_findings) print_decals(s);
+  if (s.decal_findings) print_boxes("decal", *s.decal_findings);
+  if (s.probe_findings) print_boxes("probe", *s.probe_findings);
 }
 
 }  // namespace
@@ -60,6 +61,7 @@ Stats refused_row(const Request& request, Session& session, const Setup& setup, 
           .views = setup.views.size(),
           .lights = setup.lights.size(),
           .decals = setup.decals.size(),
+          .probes = setup.probes.size(),
           .ordered = method.ordered,
           .approximate = method.approximate,
           .judgement = Judgement{Verdict::unchecked, error.what()}};

@@ -1,4 +1,4 @@
-// Uploads camera, lights and decals.
+// Uploads camera, lights, decals and the records of probes.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame_data.h"
 
@@ -14,6 +14,7 @@
 #include "lamplight/shared/radial.h"
 #include "render/decal_pass.h"
 #include "render/pass_uses.h"
+#include "render/probe_set.h"
 
 namespace lamp::app {
 
@@ -44,18 +45,21 @@ FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity,
 }
 
 void FrameData::set(std::span<const View> views, std::span<const shared::Light> lights,
-                    std::span<const gpu::DecalData> decals, std::uint32_t still) {
-  assert((lights.size() + decals.size()) * sizeof(shared::Light) <= lights_.bytes() &&
+                    std::span<const gpu::DecalData> decals, std::uint32_t still,
+                    std::span<const gpu::ProbeData> probes) {
+  assert((lights.size() + decals.size() + probes.size()) * sizeof(shared::Light) <= lights_.bytes() &&
          decals.size_bytes() <= decals_.bytes() && "make FrameData with a larger capacity");
   assert(views.size() == host_frames_.size() && "as many views as FrameData was made for");
   assert(still <= lights.size() && "as many lights as stand still");
   const std::size_t moving = lights.size() - still;
   host_lights_ = entity_records(lights.first(moving), boxes_of(decals));
+  for (const gpu::ProbeData& probe : probes) host_lights_.push_back(bounding_light(probe.volume, shape_of(probe)));
   // Room for as many as there are: plans of any capacity from there on take it.
   const auto count = static_cast<std::uint32_t>(host_lights_.size());
   for (std::uint32_t i = 0; i < views.size(); ++i) {
     host_frames_[i] = views[i].frame(count, count);
-    host_frames_[i].box_count = static_cast<std::uint32_t>(decals.size());
+    host_frames_[i].box_count = static_cast<std::uint32_t>(decals.size() + probes.size());
+    host_frames_[i].probe_count = static_cast<std::uint32_t>(probes.size());
     host_frames_[i].view_index = i;
   }
   host_lights_.insert(host_lights_.end(), lights.begin() + static_cast<std::ptrdiff_t>(moving), lights.end());
@@ -75,9 +79,10 @@ void FrameData::set(std::span<const View> views, std::span<const shared::Light> 
 void FrameData::set_view(const View& view, std::uint32_t index) {
   assert(host_frames_.size() == 1 && "of one view at a time");
   shared::Frame& frame = host_frames_.front();
-  const std::uint32_t boxes = frame.box_count;
+  const shared::Frame counted = frame;
   frame = view.frame(frame.light_count, frame.light_capacity);
-  frame.box_count = boxes;
+  frame.box_count = counted.box_count;
+  frame.probe_count = counted.probe_count;
   frame.view_index = index;
   std::memcpy(staging_.mapped().data(), &frame, sizeof(frame));
   changed_ = true;
@@ -106,7 +111,7 @@ void FrameData::record_upload(vulkan::Recorder& recorder) {
   copy(frame_, frame_.bytes());
   copy(lights_, host_lights_.size() * sizeof(shared::Light));
   copy(spheres_, host_lights_.size() * sizeof(shared::LightSphere));
-  copy(decals_, frame_of(0).box_count * sizeof(gpu::DecalData));
+  copy(decals_, entities().decals.count() * sizeof(gpu::DecalData));
 }
 
 vulkan::PlanInputs FrameData::plan_inputs(std::span<const vulkan::Resource> depths) const {

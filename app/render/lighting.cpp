@@ -25,15 +25,23 @@ std::vector<vulkan::Bound> with_shadows(std::vector<vulkan::Bound> bound, const 
   return bound;
 }
 
-std::vector<vulkan::Bound> with_forward_inputs(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
-  bound.push_back({BINDING_DECALS, frame.data.decals()});
-  bound.push_back({BINDING_STILL, frame.still});
+/// For shaders that have surroundings too.
+std::vector<vulkan::Bound> with_probes(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
+  bound.insert(bound.end(), frame.probes.begin(), frame.probes.end());
   return with_shadows(std::move(bound), frame);
 }
 
-std::vector<vulkan::Use> shadow_uses(const LightingFrame& frame, VkPipelineStageFlags2 stages) {
+std::vector<vulkan::Bound> with_forward_inputs(std::vector<vulkan::Bound> bound, const LightingFrame& frame) {
+  bound.push_back({BINDING_DECALS, frame.data.decals()});
+  bound.push_back({BINDING_STILL, frame.still});
+  return with_probes(std::move(bound), frame);
+}
+
+/// Of shadows and probes.
+std::vector<vulkan::Use> extra_uses(const LightingFrame& frame, VkPipelineStageFlags2 stages) {
   std::vector<vulkan::Use> uses;
   for (const vulkan::Bound& b : frame.shadows) uses.push_back(reads(b.resource, stages));
+  for (const vulkan::Bound& b : frame.probes) uses.push_back(reads(b.resource, stages));
   return uses;
 }
 
@@ -97,6 +105,10 @@ std::span<const vulkan::PipelineStatistic> Lighting::statistics(std::string_view
   return runner_.statistics(pass);
 }
 
+bool Lighting::walks() const {
+  return info_.path != ShadingPath::standard_deferred || decals_ || info_.probes != gpu::PROBES_OFF;
+}
+
 bool Lighting::fused() const { return is_fused(info_, runner_.plan()); }
 
 bool Lighting::is_cull_pass(std::string_view name) const {
@@ -149,7 +161,7 @@ void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
 
   if (fused())
     static_cast<void>(take(runner_.record(recorder, frame.inputs, Passes::fused)));
-  else if (info_.path != ShadingPath::standard_deferred && !decals_)
+  else if (walks() && !decals_)  // they have culled
     record_cull(recorder, frame);
 
   if (info_.path == ShadingPath::forward && info_.captured)
@@ -172,7 +184,7 @@ void Lighting::shade_forward(vulkan::Recorder& recorder, const LightingFrame& fr
   append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS), reads(frame.still, GRAPHICS_SHADERS)});
-  append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
+  append(uses, extra_uses(frame, GRAPHICS_SHADERS));
   recorder.begin_pass("forward+ shading", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);
@@ -190,7 +202,7 @@ void Lighting::shade_captured(vulkan::Recorder& recorder, const LightingFrame& f
   const vulkan::BoundLookUp walked = lookup(frame);
   std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
   append(bound, {{0, frame.data.frame()}, {3, frame.data.lights()}, {4, frame.scene.surroundings()}});
-  bound = with_shadows(std::move(bound), frame);
+  bound = with_probes(std::move(bound), frame);
   std::vector<vulkan::Use> uses = attachment_uses(attachments);
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, GRAPHICS_SHADERS));
   append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
@@ -221,11 +233,11 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.data.lights(), COMPUTE),
                                 reads(frame.still, COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
-  // A look-up that standard deferred does not walk is bound, but nothing reads it; only decals have filled it.
-  if (info_.path != ShadingPath::standard_deferred || decals_) append(uses, walked.buffer_uses(COMPUTE));
+  // A look-up that standard deferred does not walk is bound, but nothing reads it; only for boxes it was filled.
+  if (walks()) append(uses, walked.buffer_uses(COMPUTE));
   append(bound, walked.resources);
-  bound = with_shadows(std::move(bound), frame);
-  append(uses, shadow_uses(frame, COMPUTE));
+  bound = with_probes(std::move(bound), frame);
+  append(uses, extra_uses(frame, COMPUTE));
   const glm::uvec2 group = shade_group(info_, runner_.plan());
 
   recorder.begin_pass(fused() ? "cull and shade" : "deferred shading", uses);
@@ -256,8 +268,7 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
 
 void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame) {
   vulkan::PlanRunner& runner = any_depth_runner_ ? *any_depth_runner_ : runner_;
-  const bool walks = info_.path != ShadingPath::standard_deferred || decals_;
-  const bool culled = !any_depth_runner_ && walks && !fused();
+  const bool culled = !any_depth_runner_ && walks() && !fused();
   recorder.name_group("transparent");
   if (!culled) static_cast<void>(take(runner.record(recorder, frame.inputs)));
   recorder.name_group("");
@@ -274,7 +285,7 @@ void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& 
   append(uses, walked.buffer_uses(GRAPHICS_SHADERS));
   append(uses, {reads(frame.data.frame(), GRAPHICS_SHADERS), reads(frame.data.lights(), GRAPHICS_SHADERS),
                 reads(frame.data.decals(), GRAPHICS_SHADERS), reads(frame.still, GRAPHICS_SHADERS)});
-  append(uses, shadow_uses(frame, GRAPHICS_SHADERS));
+  append(uses, extra_uses(frame, GRAPHICS_SHADERS));
   recorder.begin_pass("transparent", uses);
   begin_rendering(recorder.commands(), attachments, frame.targets);
   limit_rows(recorder.commands(), info_);

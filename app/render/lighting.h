@@ -28,10 +28,11 @@ struct LightingFrame {
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   std::span<const View> views;             ///< all that are culled
   glm::vec3 eye{0.0F};
-  ShadowBound shadows{};         ///< what look-ups of shadows bind
-  vulkan::Resource still{};      ///< and those of lights that stand still
-  MirrorPass* mirror = nullptr;  ///< adds mirrored light, if there
-  bool surfaces_drawn = false;   ///< the targets hold them: deferred paths without decals draw none
+  ShadowBound shadows{};                ///< what look-ups of shadows bind
+  vulkan::Resource still{};             ///< and those of lights that stand still
+  MirrorPass* mirror = nullptr;         ///< adds mirrored light, if there
+  std::vector<vulkan::Bound> probes{};  ///< and those of probes
+  bool surfaces_drawn = false;          ///< the targets hold them: deferred paths without decals draw none
   /// The method's lists are those of an earlier picture, with the same lights seen from the same eye: of methods that
   /// look up by position, which know no other direction.
   bool culled = false;
@@ -71,6 +72,8 @@ class Lighting {
  private:
   using Passes = vulkan::PlanRunner::Passes;
   [[nodiscard]] vulkan::BoundLookUp lookup(const LightingFrame& frame) const;
+  /// Whether opaque surfaces are shaded with a look-up, which a separate cull fills.
+  [[nodiscard]] bool walks() const;
   void shade_forward(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_captured(vulkan::Recorder& recorder, const LightingFrame& frame);
   void shade_compute(vulkan::Recorder& recorder, const LightingFrame& frame);

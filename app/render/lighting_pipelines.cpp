@@ -8,6 +8,7 @@
 #include "gpu/check.h"
 #include "render/decal_pass.h"
 #include "render/mesh_pass.h"
+#include "render/probe_set.h"
 #include "render/shadows.h"
 #include "render/still_lists.h"
 
@@ -29,6 +30,8 @@ std::string variant(const char* shader, std::string_view lookup) {
   return std::string(shader) + "@" + std::string(lookup);
 }
 
+std::uint32_t has_boxes(const LightingInfo& info) { return info.decals || info.probes != gpu::PROBES_OFF ? 1 : 0; }
+
 std::vector<vulkan::DescriptorBinding> gbuffer_bindings(VkDescriptorType frame) {
   return {{0, frame},
           {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
@@ -43,13 +46,14 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
   vulkan::PipelineInfo pipeline{
       .name = name, .constants = vulkan::lookup_constants(plan.lookup), .bindings = mesh_bindings()};
   append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
-                              {CONSTANT_BOXES, info.decals ? 1U : 0U},
+                              {CONSTANT_BOXES, has_boxes(info)},
                               {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U},
                               shown_view_constant(plan),
                               {CONSTANT_STILL, info.still}});
   pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   pipeline.bindings.push_back({BINDING_STILL, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
+  add_probes(pipeline, info.probes);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),
                                          shaders.spirv(variant("forward", plan.lookup.name)), state));
@@ -60,9 +64,13 @@ vulkan::Pipeline captured_pipeline(const vulkan::Device& device, const ShaderLib
   vulkan::PipelineInfo pipeline{.name = "forward+, captured",
                                 .constants = vulkan::lookup_constants(plan.lookup),
                                 .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
-  append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shown_view_constant(plan)});
+  append(pipeline.constants, {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
+                              {CONSTANT_BOXES, has_boxes(info)},
+                              {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U},
+                              shown_view_constant(plan)});
   pipeline.bindings.push_back({4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
+  add_probes(pipeline, info.probes);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("full_screen"),
                                          shaders.spirv(variant("forward_captured", plan.lookup.name)),
@@ -83,11 +91,13 @@ vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLib
                         {CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},
                         {CONSTANT_WALK, walks ? 1U : 0U},
                         {CONSTANT_FIRST_ROW, info.shaded.first},
-                        {CONSTANT_BOXES, info.decals ? 1U : 0U},
+                        {CONSTANT_BOXES, has_boxes(info)},
+                        {CONSTANT_BOXES_ASCEND, plan.ordered ? 1U : 0U},
                         shown_view_constant(plan),
                         {CONSTANT_STILL, info.still}};
   pipeline.bindings.push_back({BINDING_STILL, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
+  add_probes(pipeline, info.probes);
   append(pipeline.constants, vulkan::lookup_constants(lookup));
   append(pipeline.bindings, vulkan::lookup_bindings(lookup));
   return take(vulkan::Pipeline::compute(device, pipeline, shaders.spirv(variant("deferred", lookup.name))));

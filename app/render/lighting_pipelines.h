@@ -48,7 +48,7 @@ struct LightingInfo {
   Options options;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t light_capacity = 0;  ///< decals included
+  std::uint32_t light_capacity = 0;  ///< decals and probes included
   ShadingPath path = ShadingPath::deferred;
   Brdf brdf = Brdf::ggx;
   HostDepth depth;  ///< of the frames
@@ -56,6 +56,7 @@ struct LightingInfo {
   bool transparency = false;            ///< the scene has blended surfaces
   bool captured = false;                ///< the scene is a captured frame
   bool decals = false;                  ///< the frames have decals
+  std::uint32_t probes = 0;             ///< what probes of the frames show (probe_data.h); 0: there are none
   std::optional<ShadowFilter> shadows;  ///< lights cast shadows, filtered so
   std::uint32_t still =
       0;  ///< how lights that stand still are looked up (still_data.h); triangles on the forward path alone

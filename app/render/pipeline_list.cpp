@@ -12,6 +12,7 @@
 #include "render/geometry.h"
 #include "render/lighting_pipelines.h"
 #include "render/mirror_pass.h"
+#include "render/probe_set.h"
 #include "render/still_lists.h"
 
 namespace lamp::app {
@@ -64,6 +65,9 @@ class PipelineLister {
     add_paths(info, plan);
     add("", decal_pipeline(device_, shaders_, plan));
     info.decals = false;
+    info.probes = gpu::PROBES_CAPTURED;
+    add_paths(info, plan);
+    info.probes = gpu::PROBES_OFF;
     info.still = gpu::STILL_TRIANGLES;
     add_path(info, ShadingPath::forward, plan);
     info.still = gpu::STILL_TREE;
@@ -104,6 +108,7 @@ class PipelineLister {
     if (info.brdf == Brdf::blinn_phong) use += ", Blinn-Phong";
     if (info.captured) use += ", captured";
     if (info.decals) use += ", decals";
+    if (info.probes != gpu::PROBES_OFF) use += ", probes";
     if (info.still == gpu::STILL_TRIANGLES) use += ", triangle lists";
     if (info.still == gpu::STILL_TREE) use += ", world tree";
     return use;

@@ -50,6 +50,8 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
       data_(context.device(), light_capacity, decal_capacity),
       geometry_(context.device(), shaders, depth),
       no_shadows_(context.device()),
+      no_captures_(std::make_unique<ProbeAtlas>(context, shaders, 0)),
+      no_probes_(context, *no_captures_),
       no_still_(context),
       light_capacity_(light_capacity),
       decal_capacity_(decal_capacity),
@@ -68,17 +70,30 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 
 void Renderer::cast_shadows(const ShadowSettings& settings) {
   assert(!shadows_ && "once");
-  // Where lights stand still, a decal's number is between those of two lights.
-  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : decal_capacity_));
+  // Where lights stand still, a box's number is between those of two lights.
+  const auto boxes = static_cast<std::uint32_t>(decal_capacity_ + probes().probes().size());
+  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : boxes));
+}
+
+void Renderer::light_probes(const ProbeSet* set) {
+  assert(!shadows_ && !mirror_ && "before cast_shadows and mirror");
+  probes_ = set;
+  const std::uint32_t records = light_capacity_ + static_cast<std::uint32_t>(probes().probes().size());
+  data_ = FrameData(context_.device(), records, decal_capacity_);
+  tracker_ = {};
+  views_.clear();
+  forget_surfaces();
+  if (all_pictures_) all_pictures_->data = FrameData(context_.device(), records, decal_capacity_, depth_.views);
 }
 
 void Renderer::mirror(const MirrorSettings& settings) {
   assert(!mirror_ && "once");
+  const auto boxes = static_cast<std::uint32_t>(decal_capacity_ + probes().probes().size());
   mirror_.emplace(context_, shaders_, scene_,
                   MirrorInfo{.settings = settings,
                              .width = targets_->width,
                              .height = targets_->height,
-                             .light_capacity = light_capacity_ + decal_capacity_,
+                             .light_capacity = light_capacity_ + boxes,
                              .shadows = shadows_ ? std::optional(shadows_->settings().filter) : std::nullopt});
 }
 
@@ -99,12 +114,12 @@ void Renderer::set_frame(std::span<const View> views, std::span<const shared::Li
   shown_ = {};
   shown_view_ = views_.front();
   const std::uint32_t still = still_ == nullptr ? 0 : still_->lights();
-  data_.set({&shown_view_, 1}, lights, decals, still);
+  data_.set({&shown_view_, 1}, lights, decals, still, probes().probes());
   const std::vector<shared::Light> shadowed =
       shadows_ && still != 0 ? shadowed_records() : std::vector<shared::Light>();
   if (shadows_) shadows_->schedule(views_, still == 0 ? lights : shadowed);
   if (!all_pictures_) return;
-  all_pictures_->data.set(views_, lights, decals, still);
+  all_pictures_->data.set(views_, lights, decals, still, probes().probes());
   if (moves) draw_depths();
   show({});
 }
@@ -184,7 +199,8 @@ LightingFrame Renderer::lighting_frame() const {
           .eye = glm::vec3(glm::dmat4(shown_view_.world_from_view())[3]),
           .shadows = shadow_bound(),
           .still = (still_ == nullptr ? no_still_ : *still_).words(),
-          .mirror = nullptr};
+          .mirror = nullptr,
+          .probes = probes().bound()};
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {

@@ -14,6 +14,7 @@
 #include "render/frame_times.h"
 #include "render/lighting.h"
 #include "render/mirror_pass.h"
+#include "render/probe_set.h"
 #include "render/sample_depth.h"
 #include "render/still_lists.h"
 #include "render/still_tree.h"
@@ -82,6 +83,10 @@ class Renderer {
   /// were made for it. Null: none do. It must live on, and be told before `set_frame`.
   void light_still(const StillLists* lists) { still_ = lists; }
   [[nodiscard]] const StillLists* still() const { return still_; }
+  /// The probes of the next frames, for lightings that were made for their kind; null: none. They must live on, and be
+  /// told before `cast_shadows`, `mirror` and `set_frame`. Forgets the frame.
+  void light_probes(const ProbeSet* probes);
+  [[nodiscard]] const ProbeSet& probes() const { return probes_ == nullptr ? no_probes_ : *probes_; }
   /// Of each light, as far as a method asked for them.
   [[nodiscard]] vulkan::Resource light_meshes() const;
   /// What shading binds for them.
@@ -158,8 +163,8 @@ class Renderer {
   [[nodiscard]] CapturedFrame capture(Lighting* decals = nullptr);
 
   /// Culls the last frame's depth and walks the look-up of every pixel of the truth's rows. With `Passes::fused`, the
-  /// look-up that culls in the shader. The truth is of the lights, or of the decals alone.
-  enum class Kind : std::uint8_t { lights, decals };
+  /// look-up that culls in the shader. The truth is of one kind alone.
+  enum class Kind : std::uint8_t { lights, decals, probes };
   [[nodiscard]] std::vector<Visit> visit(Lighting& lighting, const Truth& truth,
                                          vulkan::PlanRunner::Passes which = vulkan::PlanRunner::Passes::separate,
                                          Kind kind = Kind::lights);
@@ -192,7 +197,7 @@ class Renderer {
   void submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::PlanInputs plan_inputs() const;
-  /// Lights by their numbers in the buffer, where some stand still: nothing of decals.
+  /// Lights by their numbers in the buffer, where some stand still: nothing of boxes.
   [[nodiscard]] std::vector<shared::Light> shadowed_records() const;
   void record_upload(vulkan::Recorder& recorder);
   /// Where the lighting's method reads them.
@@ -222,6 +227,9 @@ class Renderer {
   bool surfaces_drawn_ = false;                  ///< the G-buffer has those of shown_view_, without decals
   std::optional<CapturedSurfaces> kept_;         ///< of shown_view_
   NoShadows no_shadows_;
+  std::unique_ptr<ProbeAtlas> no_captures_;
+  ProbeSet no_probes_;
+  const ProbeSet* probes_ = nullptr;
   StillTree still_tree_;
   std::optional<Shadows> shadows_;
   std::optional<MirrorPass> mirror_;

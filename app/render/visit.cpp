@@ -38,7 +38,8 @@ Part part_from(const Truth& truth, std::size_t first, std::uint64_t max_bytes) {
 
 /// Where there are lights alone, no id is passed over: one that no light has is disorder or excess, and shall show.
 EntityRange visited_ids(const EntityRanges& entities, Renderer::Kind kind) {
-  if (kind == Renderer::Kind::decals) return entities.boxes;
+  if (kind == Renderer::Kind::decals) return entities.decals;
+  if (kind == Renderer::Kind::probes) return entities.probes;
   return entities.boxes.count() == 0 ? EntityRange{0, ~0U} : entities.lights;
 }
 
@@ -49,7 +50,7 @@ class Visitor {
       : renderer_(renderer), lighting_(lighting), which_(which), truth_(truth) {
     const EntityRanges entities = renderer.data().entities();
     ids_ = visited_ids(entities, kind);
-    marked_ = kind == Renderer::Kind::decals ? entities.boxes : entities.lights;
+    marked_ = kind == Renderer::Kind::lights ? entities.lights : ids_;
   }
 
   std::vector<Visit> run() {

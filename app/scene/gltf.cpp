@@ -18,6 +18,7 @@
 #include "scene/gltf_material.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_probes.h"
 
 namespace lamp::app {
 namespace {
@@ -48,6 +49,8 @@ Scene to_scene(GltfDocument document, std::string name) {
   GltfLights lights = read_lights(document, nodes);
   scene.lights = std::move(lights.lights);
   scene.directional_lights = std::move(lights.directional_lights);
+
+  scene.probes = read_probes(document, nodes);
 
   const Box box = bounds(scene);
   check_extent(box, document.origin.file);

@@ -130,13 +130,23 @@ std::vector<GltfImage> read_images(const json& document, const std::string& file
   return images;
 }
 
+/// Of an object's extras nothing but a probe.
+void keep_probe(json& value) {
+  const auto extras = value.find("extras");
+  if (extras == value.end()) return;
+  if (extras->is_object() && extras->contains(PROBE_KEY))
+    *extras = json{{PROBE_KEY, extras->at(PROBE_KEY)}};
+  else
+    value.erase(extras);
+}
+
 /// Drops what the loader never reads, so that it is neither converted nor stored.
 void prune(json& value) {
   if (value.is_array()) {
     for (json& element : value) prune(element);
   }
   if (!value.is_object()) return;
-  value.erase("extras");
+  keep_probe(value);
   for (auto& [key, member] : value.items()) {
     if (key == "extensions" && member.is_object()) {
       for (auto it = member.begin(); it != member.end();)

@@ -15,6 +15,9 @@
 
 namespace lamp::app {
 
+/// Of the one member of extras that is kept: a node's probe (gltf_probes.h).
+inline constexpr const char* PROBE_KEY = "lamplight_probe";
+
 /// An image that nobody has decoded yet: a part of a buffer, or where there is none (-1) from a URI.
 struct GltfImage {
   std::string name;

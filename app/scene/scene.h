@@ -13,6 +13,7 @@
 #include "lamplight/light.h"
 #include "scene/captured_frame.h"
 #include "scene/decal.h"
+#include "scene/probe.h"
 
 namespace lamp::app {
 
@@ -137,6 +138,7 @@ struct Scene {
   std::vector<Image> images;
   std::vector<Light> lights;  ///< point and spot lights, world space
   std::vector<Decal> decals;  ///< shown only as far as asked for (place_decals)
+  std::vector<Probe> probes;  ///< likewise (place_probes), as they were made
   std::vector<DirectionalLight> directional_lights;
   std::vector<Camera> cameras;  ///< at least one after loading; the first is the default
   std::optional<Flight> flight;

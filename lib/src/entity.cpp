@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/entity.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -36,7 +37,16 @@ std::string fault(const shared::OrientedBox& box) {
 }  // namespace
 
 EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t box_count) {
-  return {.lights = {0, light_count}, .boxes = {light_count, light_count + box_count}};
+  return entity_ranges(light_count, box_count, 0);
+}
+
+EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t decal_count, std::uint32_t probe_count) {
+  const std::uint32_t first_probe = light_count + decal_count;
+  const std::uint32_t end = first_probe + probe_count;
+  return {.lights = {0, light_count},
+          .boxes = {light_count, end},
+          .decals = {light_count, first_probe},
+          .probes = {first_probe, end}};
 }
 
 std::optional<Error> check_boxes(std::span<const shared::OrientedBox> boxes) {
@@ -47,10 +57,14 @@ std::optional<Error> check_boxes(std::span<const shared::OrientedBox> boxes) {
   return std::nullopt;
 }
 
-shared::Light bounding_light(const shared::OrientedBox& box) {
+shared::Light bounding_light(const shared::OrientedBox& box) { return bounding_light(box, EntityShape::box); }
+
+shared::Light bounding_light(const shared::OrientedBox& box, EntityShape shape) {
+  const glm::dvec3 half(box.half_extents);
+  const double radius = shape == EntityShape::box ? glm::length(half) : std::max({half.x, half.y, half.z});
   shared::Light record{};
   record.position = box.center;
-  record.range = static_cast<float>(glm::length(glm::dvec3(box.half_extents)) * BOUND_ROOM);
+  record.range = static_cast<float>(radius * BOUND_ROOM);
   record.type = shared::LIGHT_POINT;
   record.direction = {0.0F, 0.0F, -1.0F};
   return record;

@@ -37,20 +37,23 @@ Reach reach_of_cone(const shared::Light& light, const glm::dvec3& from_light) {
   return compare(angle, outer);
 }
 
-template <class Entity>
-void append_reaching(std::span<const Entity> entities, std::uint32_t id, const glm::dvec3& position, Truth& truth) {
-  for (const Entity& entity : entities) {
-    const Reach answer = reach(entity, position);
-    if (answer == Reach::inside) truth.lights.push_back(id);
-    if (answer == Reach::boundary) ++truth.boundary_pairs;
-    ++id;
-  }
+void append(Reach answer, std::uint32_t id, Truth& truth) {
+  if (answer == Reach::inside) truth.lights.push_back(id);
+  if (answer == Reach::boundary) ++truth.boundary_pairs;
+}
+
+glm::dvec3 local_of(const shared::OrientedBox& box, const glm::dvec3& position_world) {
+  const glm::dvec3 from_center = position_world - glm::dvec3(box.center);
+  return {glm::dot(glm::dvec3(box.axis_x), from_center), glm::dot(glm::dvec3(box.axis_y), from_center),
+          glm::dot(glm::dvec3(box.axis_z), from_center)};
 }
 
 void append_pixel(const TruthQuery& query, const glm::dvec3& position_world, Truth& truth) {
   const auto first_box = query.first_id + static_cast<std::uint32_t>(query.lights.size());
-  append_reaching(query.lights, query.first_id, position_world, truth);
-  append_reaching(query.boxes, first_box, position_world, truth);
+  for (std::uint32_t i = 0; i < query.lights.size(); ++i)
+    append(reach(query.lights[i], position_world), query.first_id + i, truth);
+  for (std::uint32_t i = 0; i < query.boxes.size(); ++i)
+    append(reach(query.boxes[i], shape_of(query, i), position_world), first_box + i, truth);
   assert(truth.lights.size() <= std::numeric_limits<std::uint32_t>::max() && "too many pairs: ask for fewer rows");
 }
 
@@ -66,17 +69,24 @@ Reach reach(const shared::Light& light, const glm::dvec3& position_world) {
 }
 
 Reach reach(const shared::OrientedBox& box, const glm::dvec3& position_world) {
-  const glm::dvec3 from_center = position_world - glm::dvec3(box.center);
+  const glm::dvec3 local = local_of(box, position_world);
   const glm::dvec3 half(box.half_extents);
   Reach answer = Reach::inside;
-  const std::array axes{box.axis_x, box.axis_y, box.axis_z};
   for (int i = 0; i < 3; ++i) {
-    const Reach along =
-        compare(std::abs(glm::dot(glm::dvec3(axes[static_cast<std::size_t>(i)]), from_center)), half[i]);
+    const Reach along = compare(std::abs(local[i]), half[i]);
     if (along == Reach::outside) return along;
     if (along == Reach::boundary) answer = along;
   }
   return answer;
+}
+
+Reach reach(const shared::OrientedBox& box, EntityShape shape, const glm::dvec3& position_world) {
+  if (shape == EntityShape::box) return reach(box, position_world);
+  return compare(glm::length(local_of(box, position_world) / glm::dvec3(box.half_extents)), 1.0);
+}
+
+EntityShape shape_of(const TruthQuery& query, std::size_t box) {
+  return query.shapes.empty() ? EntityShape::box : query.shapes[box];
 }
 
 Truth brute_force_truth(const TruthQuery& query) {

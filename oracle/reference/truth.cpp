@@ -132,7 +132,8 @@ class BlockTruth {
   /// Boxes are numbered behind the lights.
   [[nodiscard]] Reach reach_of(std::uint32_t entity, const glm::dvec3& position) const {
     const std::size_t lights = query_.lights.size();
-    return entity < lights ? reach(query_.lights[entity], position) : reach(query_.boxes[entity - lights], position);
+    return entity < lights ? reach(query_.lights[entity], position)
+                           : reach(query_.boxes[entity - lights], shape_of(query_, entity - lights), position);
   }
 
   const TruthQuery& query_;

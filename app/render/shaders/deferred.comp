@@ -21,6 +21,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
 #include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
+#include "common/probes.glsl"
 #include "common/shade_group.glsl"
 #include "common/shade_still.glsl"
 #include "common/surroundings.glsl"
@@ -38,7 +39,9 @@ void main() {
   if (lit) {
     const Surface s = read_surface(pixel, z_view);
     r = reflector(s);
-    sum = shade_surroundings(s, r, texelFetch(emission_image, pixel, 0).rgb);
+    const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
+    sum = PROBES == PROBES_OFF ? shade_surroundings(s, r, emission)
+                               : shade_surroundings(s, r, emission, light_of_probes(s, r, uvec2(pixel), z_view));
   }
   if (WALK) add_group(sum, r, lit, uvec2(pixel), z_view);
   if (lit) add_still(sum, r, STILL_NO_TRIANGLE);

@@ -15,6 +15,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
 #include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/decals.glsl"
+#include "common/probes.glsl"
 #include "common/shade_cell.glsl"
 #include "common/shade_still.glsl"
 #include "common/surroundings.glsl"
@@ -36,7 +37,8 @@ void main() {
   Surface s = Surface(position, normal, to_eye(frame, position), color.rgb, factors.x, factors.y, factors.z);
   if (BOXES) apply_decals(s, uvec2(gl_FragCoord.xy), z_view);
   const Reflector r = reflector(s);
-  vec3 sum = shade_surroundings(s, r, emission);
+  vec3 sum = PROBES == PROBES_OFF ? shade_surroundings(s, r, emission)
+                                  : shade_surroundings(s, r, emission, light_of_probes(s, r, uvec2(gl_FragCoord.xy), z_view));
   add_cell(sum, r, uvec2(gl_FragCoord.xy), z_view);
   add_still(sum, r, in_triangle);
   out_color = vec4(sum, max(color.a, material.least_alpha));

@@ -15,6 +15,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
 #include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
+#include "common/probes.glsl"
 #include "common/shade_cell.glsl"
 #include "common/surroundings.glsl"
 
@@ -29,7 +30,8 @@ void main() {
   const Surface s = read_surface(pixel, z_view);
   const vec3 emission = texelFetch(emission_image, pixel, 0).rgb;
   const Reflector r = reflector(s);
-  vec3 sum = shade_surroundings(s, r, emission);
+  vec3 sum = PROBES == PROBES_OFF ? shade_surroundings(s, r, emission)
+                                  : shade_surroundings(s, r, emission, light_of_probes(s, r, uvec2(pixel), z_view));
   add_cell(sum, r, uvec2(pixel), z_view);
   out_color = vec4(sum, 1.0);
 }

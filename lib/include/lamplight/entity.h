@@ -27,9 +27,22 @@ struct EntityRange {
 /// The ids of a frame's entities, kind by kind.
 struct EntityRanges {
   EntityRange lights;
-  EntityRange boxes;
+  EntityRange boxes;   ///< of all kinds
+  EntityRange decals;  ///< the first of the boxes
+  EntityRange probes;  ///< the last of the boxes
 };
+/// All boxes are decals.
 [[nodiscard]] LAMPLIGHT_API EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t box_count);
+/// Lights, then decals, then probes: of a Frame whose box_count is that of decals and probes, and whose probe_count
+/// that of probes.
+[[nodiscard]] LAMPLIGHT_API EntityRanges entity_ranges(std::uint32_t light_count, std::uint32_t decal_count,
+                                                       std::uint32_t probe_count);
+
+/// What an OrientedBox covers.
+enum class EntityShape : std::uint8_t {
+  box,
+  ellipsoid,  ///< with the half extents for half axes
+};
 
 /// The first box with a number that is not finite, a half extent that is not > 0, or axes that are not unit and at
 /// right angles within 1e-4, as an error that names it ("box 3: ..."); or nothing.
@@ -38,6 +51,8 @@ struct EntityRanges {
 /// The record that stands for a checked box in the light buffer: a point light of no intensity, whose range is the
 /// radius of a sphere that encloses the box and what rounding may add to it.
 [[nodiscard]] LAMPLIGHT_API shared::Light bounding_light(const shared::OrientedBox& box);
+/// The same of a box or of an ellipsoid, whose sphere is as large as its longest half axis.
+[[nodiscard]] LAMPLIGHT_API shared::Light bounding_light(const shared::OrientedBox& box, EntityShape shape);
 
 /// A frame's light buffer: the lights, then a record for each box.
 [[nodiscard]] LAMPLIGHT_API std::vector<shared::Light> entity_records(std::span<const shared::Light> lights,

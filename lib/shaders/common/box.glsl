@@ -1,4 +1,4 @@
-// Boxes behind the lights: their ids, and whether one holds a position.
+// Boxes behind the lights, decals and then probes: their ids, and whether one holds a position.
 // Promise: the same answer in every shader, whatever its look-up.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_BOX
@@ -8,6 +8,7 @@
 
 // An id; those of boxes that there is no room for are never met.
 uint first_box(Frame frame) { return frame.light_count - min(frame.box_count, frame.light_count); }
+uint first_probe(Frame frame) { return frame.light_count - min(min(frame.probe_count, frame.box_count), frame.light_count); }
 
 // Metres from the box's centre along its axes.
 vec3 box_local(OrientedBox box, vec3 position) {

@@ -32,7 +32,8 @@ std::optional<Error> check_record(const Plan& plan, const shared::Frame& frame) 
     return error;
   if (auto error = check_count("light count", frame.light_count, frame.light_capacity, "the capacity of the frame"))
     return error;
-  return check_count("box count", frame.box_count, frame.light_count, "the light count");
+  if (auto error = check_count("box count", frame.box_count, frame.light_count, "the light count")) return error;
+  return check_count("probe count", frame.probe_count, frame.box_count, "the box count");
 }
 
 std::optional<Error> check_buffer(const char* element, VkBuffer buffer) {
@@ -71,7 +72,9 @@ Error of_view(Error error, std::uint32_t view) {
 
 /// All views see the same lights.
 std::optional<Error> check_count_of_views(const shared::Frame& frame, const shared::Frame& first) {
-  if (frame.light_count == first.light_count && frame.box_count == first.box_count) return std::nullopt;
+  if (frame.light_count == first.light_count && frame.box_count == first.box_count &&
+      frame.probe_count == first.probe_count)
+    return std::nullopt;
   return Error{"light count", "expected " + std::to_string(first.light_count) + ", as in view 0, got " +
                                   std::to_string(frame.light_count)};
 }

@@ -32,6 +32,9 @@ enum class Reach : std::uint8_t {
 /// A box reaches the positions inside it: along each axis, nearer to its centre than the half extent.
 [[nodiscard]] Reach reach(const shared::OrientedBox& box, const glm::dvec3& position_world);
 
+/// The same of a box or an ellipsoid: in the latter's space, scaled to a unit sphere, nearer to its centre than 1.
+[[nodiscard]] Reach reach(const shared::OrientedBox& box, EntityShape shape, const glm::dvec3& position_world);
+
 /// The entities that surely reach each pixel of some rows, pixel after pixel, ascending: lights, if nothing else is
 /// said.
 struct Truth {
@@ -52,8 +55,12 @@ struct TruthQuery {
   std::uint32_t first_row = 0;
   std::uint32_t rows = 0;
   std::span<const shared::OrientedBox> boxes;  ///< their ids follow those of the lights
+  std::span<const EntityShape> shapes;         ///< of the boxes, one each; none: all are boxes
   std::uint32_t first_id = 0;                  ///< of the first light; not 0 to ask for the boxes of a frame alone
 };
+
+/// Of one of the boxes.
+[[nodiscard]] EntityShape shape_of(const TruthQuery& query, std::size_t box);
 
 /// The truth, light by light and pixel by pixel. Slow: rows * width * lights.
 [[nodiscard]] Truth brute_force_truth(const TruthQuery& query);

@@ -142,4 +142,13 @@ vec3 reflect_surroundings(Reflector r, vec3 irradiance) {
   return reflected;
 }
 
+// The same where only a share of the specular light is theirs.
+vec3 reflect_surroundings(Reflector r, vec3 irradiance, float share) {
+  precise const float x = min(abs(r.half_n_eye) * 2.0, 1.0);
+  const vec2 split = surroundings_split(x, sqrt(r.a2), r.a2);
+  precise const vec3 specular = fma(r.f0, vec3(split.x), vec3(split.y));
+  precise const vec3 reflected = irradiance * fma(specular, vec3((1.0 / PI) * share), r.diffuse);
+  return reflected;
+}
+
 #endif

@@ -12,6 +12,8 @@
 
 layout(set = 0, binding = 10, scalar) readonly buffer DecalBuffer { DecalData decals[]; };
 
+uint end_of_decals() { return min(first_probe(frame), light_count_of(frame)); }
+
 // Metres that a pixel is wide at a depth.
 float pixel_width(float z_view) {
   const mat4 m = frame.clip_from_view;
@@ -45,14 +47,14 @@ bool paint_decal(inout Surface s, vec3 facing, DecalData d, float soft) {
 bool apply_decals_of_any_order(inout Surface s, vec3 facing, uvec2 pixel, float z_view, float soft) {
   bool painted = false;
   const uint first = first_box(frame);
-  for (uint next = first; next < light_count_of(frame);) {
-    uint least = light_count_of(frame);
+  for (uint next = first; next < end_of_decals();) {
+    uint least = end_of_decals();
     uint id;
     LOOKUP_FEW_IN(id, pixel, z_view, next, least) {
       const OrientedBox box = decals[id - first].box;
       if (box_holds(box, box_local(box, s.position))) least = id;
     }
-    if (least < light_count_of(frame)) painted = paint_decal(s, facing, decals[least - first], soft) || painted;
+    if (least < end_of_decals()) painted = paint_decal(s, facing, decals[least - first], soft) || painted;
     next = least + 1u;
   }
   return painted;
@@ -65,7 +67,7 @@ bool apply_decals(inout Surface s, uvec2 pixel, float z_view) {
   bool painted = false;
   const uint first = first_box(frame);
   uint id;
-  LOOKUP_FEW_IN(id, pixel, z_view, first, light_count_of(frame))
+  LOOKUP_FEW_IN(id, pixel, z_view, first, end_of_decals())
     painted = paint_decal(s, facing, decals[id - first], soft) || painted;
   return painted;
 }

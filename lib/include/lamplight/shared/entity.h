@@ -10,7 +10,8 @@
 namespace lamp::shared {
 #endif
 
-// World space. The axes are unit, at right angles; a decal is projected against axis_z.
+// World space. The axes are unit, at right angles; a decal is projected against axis_z. The half extents may also be
+// the half axes of an ellipsoid (lamp::EntityShape).
 struct OrientedBox {
   vec3 center;  // m
   vec3 axis_x;

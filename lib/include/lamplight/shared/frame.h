@@ -17,13 +17,13 @@ struct Frame {
   vec3 eye_world;         // m, world_from_view * (0,0,0)
   uint light_count;       // lights of this frame; with boxes: all entities (entity.h)
   uvec2 size_px;          // width, height
-  uint box_count;         // how many of them, the last ones, are boxes
+  uint box_count;         // how many of them, the last ones, are boxes: decals, then probes
   uint light_capacity;    // what there is room for, at most the plan's; shaders take no more (light_count_of)
   float stretch;          // the largest share by which view_from_world may change a length; 0: it is rigid
   uint sky_bits;          // device depth of the sky, as bits: 0.0 where depth is reversed, else 1.0
   uvec2 depth_offset_px;  // where the picture begins in the depth image
   uint view_index;        // its place among the frame's views, for shaders that draw one of several
-  uint reserved0;
+  uint probe_count;       // how many of the boxes, the last ones, are probes
   uint reserved1;
   uint reserved2;
 };

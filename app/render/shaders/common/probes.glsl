@@ -1,0 +1,82 @@
+// The specular light of a surface's reflection probes: those of its cell, smallest first, until their weights sum to 1.
+// Needs: a look-up, `frame`.
+// Promise: a probe whose volume does not hold the surface changes no bit, so a longer list gives the same.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_PROBES
+#define LAMP_PROBES
+#include "common/boxes.glsl"
+#include "common/brdf.glsl"
+#include "common/probe_atlas.glsl"
+#include "common/probe_blend.glsl"
+#include "lookup/parts/each.glsl"
+
+layout(constant_id = 20) const uint PROBES = PROBES_OFF;
+layout(set = 0, binding = 30, scalar) readonly buffer ProbeBuffer { ProbeData probes[]; };
+
+// What a surface asks of every probe.
+struct ProbeAsker {
+  vec3 position;
+  vec3 reflection;  // unit
+  float roughness;
+  vec3 specular;  // reflected of a radiance
+};
+
+ProbeAsker probe_asker(Surface s, Reflector r) {
+  precise const vec3 reflection = s.normal * (2.0 * fused_dot(s.normal, s.to_eye)) - s.to_eye;
+  const vec2 split = split_sum(min(abs(r.half_n_eye) * 2.0, 1.0), s.roughness);
+  precise const vec3 specular = fma(r.f0, vec3(split.x), vec3(split.y));
+  return ProbeAsker(s.position, reflection, s.roughness, specular);
+}
+
+float probe_weight(ProbeData p, vec3 position) {
+  const float weight = probe_volume_weight(p, position);
+  if (PROBES != PROBES_CAPTURED || weight == 0.0) return weight;
+  const vec3 offset = position - p.capture;
+  const float distance_m = length(offset);
+  if (distance_m == 0.0) return weight;
+  precise const float seen = weight * probe_seen(distance_m, probe_distance(p.slot, offset / distance_m));
+  return seen;
+}
+
+void add_probe(inout ProbeSum sum, ProbeAsker asker, ProbeData p) {
+  const float weight = probe_weight(p, asker.position);
+  if (weight == 0.0) return;
+  vec3 radiance = p.flat_radiance;
+  if (PROBES == PROBES_CAPTURED)
+    radiance = probe_radiance(p.slot, probe_direction(p, asker.position, asker.reflection), asker.roughness);
+  precise const vec3 reflected = radiance * asker.specular;
+  add_probe_light(sum, weight, reflected);
+}
+
+// Lists in no order: each round finds the least id that is left of those that have weight here.
+void add_probes_of_any_order(inout ProbeSum sum, ProbeAsker asker, uvec2 pixel, float z_view) {
+  const uint first = first_probe(frame);
+  for (uint next = first; next < light_count_of(frame) && sum.weight < 1.0;) {
+    uint least = light_count_of(frame);
+    uint id;
+    LOOKUP_FEW_IN(id, pixel, z_view, next, least) {
+      if (probe_volume_weight(probes[id - first], asker.position) > 0.0) least = id;
+    }
+    if (least < light_count_of(frame)) add_probe(sum, asker, probes[least - first]);
+    next = least + 1u;
+  }
+}
+
+ProbeSum light_of_probes(Surface s, Reflector r, uvec2 pixel, float z_view) {
+  ProbeSum sum = ProbeSum(vec3(0.0), 0.0);
+  if (PROBES == PROBES_OFF) return sum;
+  const ProbeAsker asker = probe_asker(s, r);
+  if (!BOXES_ASCEND) {
+    add_probes_of_any_order(sum, asker, pixel, z_view);
+    return sum;
+  }
+  const uint first = first_probe(frame);
+  uint id;
+  LOOKUP_FEW_IN(id, pixel, z_view, first, light_count_of(frame)) {
+    if (sum.weight >= 1.0) break;
+    add_probe(sum, asker, probes[id - first]);
+  }
+  return sum;
+}
+
+#endif
