@@ -121,6 +121,7 @@ Words values_of(const Typed& typed, const std::string& name) {
   if (name == "--brdf") return copied(brdf_names());
   if (name == "--projection") return copied(projection_names());
   if (name == "--shadows") return copied(shadow_names());
+  if (name == "--probes-show") return copied(probes_show_names());
   if (name == "--heatmap-of") return copied(heat_names());
   if (name == "--still-lists") return copied(still_lists_names());
   if (name == "--mirror-lists") return copied(mirror_list_names());

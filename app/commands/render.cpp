@@ -81,7 +81,9 @@ void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& c
   line("scene",
        fmt::format("{}, {}{}x{}", stats.scene, stats.views == 1 ? "" : "two eyes of ", stats.width, stats.height));
   line("lights", fmt::format("{}: {}", stats.lights, setup.lights_note));
-  if (!setup.probes.empty()) line("probes", fmt::format("{}: {}", setup.probes.size(), setup.probes_note));
+  if (!setup.probes.empty())
+    line("probes", fmt::format("{}: {}{}", setup.probes.size(), setup.probes_note,
+                               stats.captures ? fmt::format("; {} captured", stats.captures->captured) : ""));
   if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
   line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
                              static_cast<double>(stats.bytes.back().second) * 1e-6));
@@ -204,6 +206,7 @@ void draw_flight(const RenderOptions& o, const Drawing& drawing, const FrameRang
     if (frame != range.first) {
       frames.go_to(frame);
       if (!drawing.setup.at_rest.empty()) drawing.session.move_instances();
+      drawing.session.renew_probes();
       drawing.session.renderer().set_frame(drawing.setup.views, drawing.setup.lights, drawing.setup.decals);
     }
     RenderOptions of_frame = o;

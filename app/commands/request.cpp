@@ -11,7 +11,6 @@
 
 #include "commands/command_line.h"
 #include "gpu/check.h"
-#include "render/place_probes.h"
 #include "scene/builtin.h"
 #include "scene/capture.h"
 #include "scene/flight.h"
@@ -136,13 +135,6 @@ std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene
   return decals;
 }
 
-std::vector<Probe> requested_probes(const Request& request, const Scene& scene) {
-  if (request.probes == 0) return {};
-  std::vector<Probe> probes = place_probes(scene, request.probes, request.seed);
-  if (const auto error = check_probes(probes)) throw Error(scene.name + ": " + error->text());
-  return probes;
-}
-
 glm::uvec2 parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
   glm::uvec2 size(0);
@@ -262,6 +254,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(requested_shadows(request));
   check_still(request);
   check_mirror(request);
+  check_probes_show(request);
 }
 
 Scene load_scene(const std::string& name) {
@@ -325,6 +318,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
       depth_(parse_depth(request.depth, request.depth_samples)),
       shadows_(requested_shadows(request)),
       grow_(request.grow),
+      probe_budget_(request.probe_budget),
       shaders_(request.shader_dir) {
   depth_.views = static_cast<std::uint32_t>(setup.views.size());
   context_ = std::make_unique<Context>(ContextInfo{
@@ -333,11 +327,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
   renderer_ = std::make_unique<Renderer>(*context_, shaders_, *gpu_scene_, setup.view.width(), setup.view.height(),
                                          static_cast<std::uint32_t>(setup.lights.size()),
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
-  if (!setup.probes.empty()) {
-    captures_ = std::make_unique<ProbeAtlas>(*context_, shaders_, 0);
-    probes_ = std::make_unique<ProbeSet>(*context_, *captures_, gpu::PROBES_FLAT, setup.probes);
-    renderer_->light_probes(probes_.get());
-  }
+  if (!setup.probes.empty()) make_probes(request);
   if (request.still_lists != "off") {
     still_ = make_still(
         request,

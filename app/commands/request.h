@@ -13,6 +13,7 @@
 #include "error.h"
 #include "lamplight/triangle_lists.h"
 #include "lamplight/world_tree.h"
+#include "render/probe_captures.h"
 #include "render/renderer.h"
 #include "render/verification.h"
 #include "scene/free_camera.h"
@@ -33,9 +34,11 @@ struct Request {
   std::uint32_t lights = 4096;
   bool lights_given = false;  ///< on the command line: to a capture, lights are added when asked for
   float spots = 0.5F;
-  std::string range;         ///< "MIN:MAX" or "inf", empty: automatic
-  std::uint32_t decals = 0;  ///< the scene's own, then generated ones
-  std::uint32_t probes = 0;  ///< the scene's own, then generated ones
+  std::string range;                     ///< "MIN:MAX" or "inf", empty: automatic
+  std::uint32_t decals = 0;              ///< the scene's own, then generated ones
+  std::uint32_t probes = 0;              ///< the scene's own, then generated ones
+  std::string probes_show = "captures";  ///< or "flat", a colour each
+  std::uint32_t probe_budget = 4;        ///< captures that are renewed in a frame
   std::uint64_t seed = 1;
   std::string method = "auto";
   std::vector<std::string> options;
@@ -168,6 +171,10 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] HostDepth parse_depth(const std::string& text, std::uint32_t samples);
 /// Of `--shadows` and what goes with it; nothing if they are off.
 [[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request);
+/// Throws Error, naming `--probes-show`.
+void check_probes_show(const Request& request);
+/// What `--probes-show` takes.
+[[nodiscard]] std::span<const std::string_view> probes_show_names();
 /// What `--shadows`, `--point-shadows` and `--depth` take.
 [[nodiscard]] std::span<const std::string_view> shadow_names();
 [[nodiscard]] std::span<const std::string_view> point_shadow_names();
@@ -252,24 +259,32 @@ class Session {
   /// Whether the next frames look up still lights in their lists, which they do at first, or have all lights in the
   /// picture's, for comparison. Shows the setup's frame anew; lightings are made for one of them.
   void split_still(bool splits);
+  /// Null: no probe shows what it saw.
+  [[nodiscard]] const ProbeCaptures* captures() const { return captures_.get(); }
+  /// The setup's lights or instances are elsewhere: renews captures of probes, as many as the request allows.
+  void renew_probes();
   /// The setup's instances are elsewhere. Before the frame is set.
   void move_instances();
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
 
  private:
+  void make_probes(const Request& request);
+
   const Setup& setup_;
   Brdf brdf_;
   HostDepth depth_;
   std::optional<ShadowSettings> shadows_;
   bool grow_;
+  std::uint32_t probe_budget_;
   std::optional<StillSetup> still_;
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<GpuScene> gpu_scene_;
   std::unique_ptr<StillLists> still_lists_;
-  std::unique_ptr<ProbeAtlas> captures_;
-  std::unique_ptr<ProbeSet> probes_;
+  std::unique_ptr<ProbeAtlas> no_captures_;
+  std::unique_ptr<ProbeSet> flat_probes_;
+  std::unique_ptr<ProbeCaptures> captures_;
   std::unique_ptr<Renderer> renderer_;
 };
 

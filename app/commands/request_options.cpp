@@ -200,16 +200,6 @@ void add_decal_option(CLI::App& command, Request& r) {
       ->capture_default_str();
 }
 
-void add_probe_option(CLI::App& command, Request& r) {
-  command
-      .add_option("--probes", r.probes,
-                  "number of reflection probes: the scene's own first, then generated ones in its open air")
-      ->check(whole_number(0, 65536))
-      ->type_name("N")
-      ->group("Lights")
-      ->capture_default_str();
-}
-
 CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help) {
   return *command.add_option("-o,--out", out, help)->type_name("FILE")->group("Output")->capture_default_str();
 }

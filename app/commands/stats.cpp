@@ -86,6 +86,7 @@ Stats make_stats(const Request& request, Session& session, Lighting& lighting, c
   stats.views = setup.views.size();
   stats.shadows = shadow_stats(session.renderer().shadows());
   stats.mirror = mirror_stats(session.renderer().mirrored());
+  if (session.captures() != nullptr) stats.captures = session.captures()->counts();
   if (session.still() != nullptr) stats.still = still_stats(*session.still());
   return stats;
 }
@@ -166,6 +167,11 @@ nlohmann::json to_json(const Stats& s) {
   if (s.shadows) json["shadows"] = to_json(*s.shadows);
   if (s.mirror) json["mirror"] = to_json(*s.mirror);
   if (s.still) json["still"] = to_json(*s.still);
+  if (s.captures)
+    json["probe_captures"] = {{"captured", s.captures->captured},
+                              {"drawn", s.captures->drawn},
+                              {"waiting", s.captures->waiting},
+                              {"longest_wait", s.captures->longest_wait}};
   if (s.judgement) json.update({{"verdict", name_of(s.judgement->verdict)}, {"reason", s.judgement->reason}});
   if (s.decal_findings)
     json.update({{"decals_missed", s.decal_findings->missed},

@@ -45,6 +45,7 @@ struct Stats {
   std::vector<std::string> notes;                              ///< the plan's: what is done otherwise than asked
   std::optional<Findings> findings;                            ///< of lights
   std::optional<Findings> decal_findings;  ///< of decals, where there are some and they were held against a truth
+  std::optional<ProbeCounts> captures;     ///< of probes, where they show any
   std::optional<Findings> probe_findings;  ///< likewise of probes
   bool ordered = true;                     ///< the plan's lists ascend
   bool approximate = false;                ///< the plan may miss lights

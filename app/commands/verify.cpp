@@ -26,7 +26,7 @@ namespace lamp::app {
 namespace {
 
 struct VerifyOptions {
-  Request request;
+  Request request{.probes_show = "flat"};  // lists are checked; captures would take their time
   std::vector<std::string> methods;
   std::string out;  ///< picture of where lights are missed, or empty
   std::string verifier = "auto";

@@ -12,6 +12,7 @@
 #include "render/geometry.h"
 #include "render/lighting_pipelines.h"
 #include "render/mirror_pass.h"
+#include "render/probe_atlas.h"
 #include "render/probe_set.h"
 #include "render/still_lists.h"
 
@@ -29,6 +30,7 @@ class PipelineLister {
     // A driver without hardware has no memory. Its plans are those of a device that has enough.
     if (device_.traits.memory_bytes == 0) device_.traits.memory_bytes = DeviceTraits().memory_bytes;
     for (const vulkan::Pipeline& pipeline : Geometry(device_, shaders).pipelines()) add("", pipeline);
+    for (const vulkan::Pipeline& pipeline : ProbeAtlas::pipelines(device_, shaders)) add("", pipeline);
     for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong}) {
       const LightingInfo info{.path = ShadingPath::standard_deferred, .brdf = brdf};
       add(use_of(info), volumes_pipeline(device_, shaders, info));

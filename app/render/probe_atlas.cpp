@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
+#include <utility>
 
 #include "gpu/check.h"
 #include "gpu/transfer.h"
@@ -80,6 +81,16 @@ void add_probe_atlas(vulkan::PipelineInfo& pipeline) {
   pipeline.bindings.push_back({BINDING_PROBE_ATLAS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
 }
 
+std::vector<vulkan::Pipeline> ProbeAtlas::pipelines(const vulkan::Device& device, const ShaderLibrary& shaders) {
+  const auto make = [&](const char* shader, std::vector<vulkan::DescriptorBinding> bindings) {
+    return take(vulkan::Pipeline::compute(
+        device, {.name = shader, .bindings = std::move(bindings), .push_constant_bytes = sizeof(gpu::ProbePush)},
+        shaders.spirv(shader)));
+  };
+  return {make("probe_fold", {{0}, {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {2}}), make("probe_source", {{0}, {1}}),
+          make("probe_filter", {{0}, {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}})};
+}
+
 ProbeAtlas::ProbeAtlas(Context& context, const ShaderLibrary& shaders, std::uint32_t slots)
     : slots_(slots),
       columns_(blocks_of(context.device(), slots).first),
@@ -94,14 +105,10 @@ ProbeAtlas::ProbeAtlas(Context& context, const ShaderLibrary& shaders, std::uint
   sources_ = device_buffer(device, "probe sources", SOURCES * sizeof(gpu::ProbeSource));
   clipped_ = readback_buffer(device, "clipped probe texels", sizeof(std::uint32_t));
   std::ranges::fill(clipped_.mapped(), std::byte{0});
-  const auto make = [&](const char* shader, std::vector<vulkan::DescriptorBinding> bindings) {
-    return take(vulkan::Pipeline::compute(
-        device, {.name = shader, .bindings = std::move(bindings), .push_constant_bytes = sizeof(gpu::ProbePush)},
-        shaders.spirv(shader)));
-  };
-  fold_ = make("probe_fold", {{0}, {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {2}});
-  source_ = make("probe_source", {{0}, {1}});
-  filter_ = make("probe_filter", {{0}, {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}});
+  std::vector<vulkan::Pipeline> made = pipelines(device, shaders);
+  fold_ = std::move(made[0]);
+  source_ = std::move(made[1]);
+  filter_ = std::move(made[2]);
 }
 
 void ProbeAtlas::record_pass(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline, const vulkan::Buffer& from,

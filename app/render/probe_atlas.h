@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "gpu/context.h"
 #include "gpu/image.h"
@@ -30,6 +31,10 @@ class ProbeAtlas {
   /// Throws Error where the device has no image with so many slots. All of it is black and infinitely far, until it is
   /// filled. 0 slots: something to bind where there are no probes.
   ProbeAtlas(Context& context, const ShaderLibrary& shaders, std::uint32_t slots);
+
+  /// That fold a capture's faces, make the source of its levels, and filter these.
+  [[nodiscard]] static std::vector<vulkan::Pipeline> pipelines(const vulkan::Device& device,
+                                                               const ShaderLibrary& shaders);
 
   [[nodiscard]] std::uint32_t slots() const { return slots_; }
   [[nodiscard]] const GpuImage& image() const { return image_; }

@@ -72,6 +72,8 @@ ProbeCapture::ProbeCapture(Context& context, const ShaderLibrary& shaders, const
       data_(context.device(), info.light_capacity, info.decal_capacity),
       geometry_(context.device(), shaders),
       no_shadows_(context.device()),
+      no_captures_(std::make_unique<ProbeAtlas>(context, shaders, 0)),
+      no_probes_(context, *no_captures_),
       no_still_(context),
       lighting_(context.device(), shaders, lighting_info(info, scene)),
       face_(face_pipeline(context.device(), shaders)),
@@ -110,6 +112,7 @@ LightingFrame ProbeCapture::frame(const View& view, bool culled) const {
           .eye = glm::vec3(glm::dmat4(view.world_from_view())[3]),
           .shadows = shadows_ ? shadows_->bound() : no_shadows_.bound(),
           .still = no_still_.words(),
+          .probes = no_probes_.bound(),
           .culled = culled};
 }
 

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "render/lighting.h"
 #include "render/probe_atlas.h"
+#include "render/probe_set.h"
 #include "render/still_lists.h"
 
 namespace lamp::app {
@@ -52,6 +54,8 @@ class ProbeCapture {
   FrameData data_;
   Geometry geometry_;
   NoShadows no_shadows_;
+  std::unique_ptr<ProbeAtlas> no_captures_;  ///< stays where it is: the set refers to it
+  ProbeSet no_probes_;
   StillLists no_still_;
   std::optional<Shadows> shadows_;
   Lighting lighting_;

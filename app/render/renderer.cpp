@@ -81,6 +81,7 @@ void Renderer::light_probes(const ProbeSet* set) {
   const std::uint32_t records = light_capacity_ + static_cast<std::uint32_t>(probes().probes().size());
   data_ = FrameData(context_.device(), records, decal_capacity_);
   tracker_ = {};
+  for (const vulkan::Bound& bound : probes().bound()) tracker_.assume(bound.resource);  // captures are kept
   views_.clear();
   forget_surfaces();
   if (all_pictures_) all_pictures_->data = FrameData(context_.device(), records, decal_capacity_, depth_.views);

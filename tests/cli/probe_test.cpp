@@ -19,6 +19,25 @@ TEST_F(Probe, WritesWhatIsSeenFromAPlace) {
   EXPECT_NE(read("shadows.png"), read("probe.png"));
 }
 
+TEST_F(Probe, AreCapturedBeforeAPictureAndWithinABudgetAfterwards) {
+  const Outcome run = lamp({"render", "corridor", "--probes", "5", "--probe-budget", "2", "--lights", "20", "--size",
+                            "64x36", "--frames", "0..2", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json frames = nlohmann::json::parse(run.out);
+  ASSERT_EQ(frames.size(), 3);
+  EXPECT_EQ(frames[0].at("probe_captures").at("drawn"), 5);
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_EQ(frames[i].at("probe_captures").at("drawn"), 2);
+    EXPECT_EQ(frames[i].at("probe_captures").at("waiting"), 3);
+  }
+  const nlohmann::json flat =
+      nlohmann::json::parse(output_of(small({"render", "--probes", "5", "--probes-show", "flat", "--json"})));
+  EXPECT_EQ(flat.at("probes"), 5);
+  EXPECT_FALSE(flat.contains("probe_captures"));
+  expect_error(BAD_INPUT, {"render", "--probes", "5", "--probes-show", "colours"},
+               {"--probes-show 'colours'", "captures, flat"});
+}
+
 TEST_F(Probe, RefusesACapturedFrame) {
   (void)output_of(small({"capture", "--out", "frame"}));
   expect_error(BAD_INPUT, {"probe", "frame"}, {"a capture is seen from one place alone"});

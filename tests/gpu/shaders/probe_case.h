@@ -22,6 +22,7 @@ struct ProbeAnswer {
   vec3 direction;  // into the first probe's capture
   float first_weight;
   float seen;
+  vec3 padding;  // to whole vectors: on llvmpipe the last words of a buffer that ended within one were lost
 };
 
 #ifdef __cplusplus
