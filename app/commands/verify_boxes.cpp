@@ -9,7 +9,7 @@
 namespace lamp::app {
 
 Findings BoxCheck::findings(const Lighting& lighting) const {
-  Findings found = separate.findings();
+  const Findings found = separate.findings();
   return lighting.runner().plan().fused ? of_both(found, fused.findings()) : found;
 }
 

@@ -28,11 +28,11 @@ struct LightingFrame {
   const CapturedSurfaces* kept = nullptr;  ///< fills the G-buffer instead of drawing, if there
   std::span<const View> views;             ///< all that are culled
   glm::vec3 eye{0.0F};
-  ShadowBound shadows{};                ///< what look-ups of shadows bind
-  vulkan::Resource still{};             ///< and those of lights that stand still
-  MirrorPass* mirror = nullptr;         ///< adds mirrored light, if there
-  std::vector<vulkan::Bound> probes{};  ///< and those of probes
-  bool surfaces_drawn = false;          ///< the targets hold them: deferred paths without decals draw none
+  ShadowBound shadows{};              ///< what look-ups of shadows bind
+  vulkan::Resource still{};           ///< and those of lights that stand still
+  MirrorPass* mirror = nullptr;       ///< adds mirrored light, if there
+  std::vector<vulkan::Bound> probes;  ///< and those of probes
+  bool surfaces_drawn = false;        ///< the targets hold them: deferred paths without decals draw none
   /// The method's lists are those of an earlier picture, with the same lights seen from the same eye: of methods that
   /// look up by position, which know no other direction.
   bool culled = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace lamp::app {
 
@@ -17,7 +18,7 @@ double volume_of(const Probe& probe) {
 std::vector<std::uint32_t> by_volume(const std::vector<Probe>& probes) {
   std::vector<std::uint32_t> order(probes.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return volume_of(probes[i]); });
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(volume_of(probes[i]), i); });
   return order;
 }
 

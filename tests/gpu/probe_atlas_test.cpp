@@ -20,7 +20,6 @@ using shared::ProbeQuestion;
 using Surroundings = std::function<glm::dvec4(const glm::dvec3&)>;
 
 constexpr std::uint32_t SLOT = 2;
-constexpr std::uint32_t SOURCES = gpu::PROBE_SOURCE_SIDE;
 
 glm::dvec3 any_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;

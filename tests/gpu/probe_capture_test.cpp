@@ -112,7 +112,7 @@ TEST_F(ProbeCaptures, EmissionSkyAndDistanceLieWhereTheyAre) {
 
 /// A light behind a plate: with shadows, the wall behind the plate is dark.
 TEST_F(ProbeCaptures, LightsCastShadowsIntoCaptures) {
-  Material white;
+  const Material white;
   Scene made = wall_scene(white);
   made.ambient = glm::vec3(0.0F);
   made.sky = glm::vec3(0.0F);
