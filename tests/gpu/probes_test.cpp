@@ -94,14 +94,14 @@ std::vector<Probe> random_probes(Random& random, std::uint32_t count) {
 
 class ProbeBlending : public GpuTest {
  protected:
-  static std::vector<shared::ProbeAnswer> ask(const std::vector<gpu::ProbeData>& probes,
-                                              const std::vector<shared::ProbeCase>& cases) {
+  static std::vector<shared::ProbeBlendAnswer> ask(const std::vector<gpu::ProbeData>& probes,
+                                                   const std::vector<shared::ProbeCase>& cases) {
     const vulkan::Buffer buffers[] = {host_buffer_of("probes", probes), host_buffer_of("cases", cases),
-                                      host_buffer("answers", cases.size() * sizeof(shared::ProbeAnswer))};
+                                      host_buffer("answers", cases.size() * sizeof(shared::ProbeBlendAnswer))};
     Dispatch what{.shader = "probe_blend", .groups = {static_cast<std::uint32_t>(cases.size() + 63) / 64, 1, 1}};
     for (const vulkan::Buffer& buffer : buffers) what.resources.push_back(vulkan::Resource::storage(buffer.handle()));
     dispatch(what);
-    return contents<shared::ProbeAnswer>(buffers[2]);
+    return contents<shared::ProbeBlendAnswer>(buffers[2]);
   }
 };
 
@@ -121,7 +121,7 @@ TEST_F(ProbeBlending, IsWhatDoublePrecisionSays) {
   std::vector<shared::ProbeCase> cases;
   for (int i = 0; i < 20000; ++i)
     cases.push_back({.position = random.vector(5.0F), .direction = glm::normalize(random.vector(1.0F) + 1e-3F)});
-  const std::vector<shared::ProbeAnswer> answers = ask(probes, cases);
+  const std::vector<shared::ProbeBlendAnswer> answers = ask(probes, cases);
   std::size_t partly = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Place position(glm::vec3(cases[i].position));
@@ -145,7 +145,7 @@ TEST_F(ProbeBlending, SumsWeightsToOne) {
   std::vector<shared::ProbeCase> cases;
   for (int i = 0; i < 256; ++i)
     cases.push_back({.position = {static_cast<float>(i) / 16.0F, 0.25F, 0.125F}, .direction = {0, 0, 1}});
-  const std::vector<shared::ProbeAnswer> answers = ask(packed, cases);
+  const std::vector<shared::ProbeBlendAnswer> answers = ask(packed, cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Blend blend = blend_of(packed, Place(glm::vec3(cases[i].position)));
     EXPECT_NEAR(answers[i].weight, blend.weight, 1e-6) << i;
@@ -168,7 +168,7 @@ TEST_F(ProbeBlending, ReflectionsMeetTheWalls) {
       cases.push_back({.position = glm::vec3(walls.center) + random.vector(3.0F),
                        .direction = glm::normalize(random.vector(1.0F) + glm::vec3(1e-3F, 0, 0))});
     cases.push_back({.position = walls.center, .direction = walls.axis_y});  // along an axis
-    const std::vector<shared::ProbeAnswer> answers = ask(packed, cases);
+    const std::vector<shared::ProbeBlendAnswer> answers = ask(packed, cases);
     std::size_t inside = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Place position(glm::vec3(cases[i].position));
@@ -206,7 +206,7 @@ TEST_F(ProbeBlending, EndsBehindWalls) {
   for (const auto& [distance, nearest] :
        {std::pair(5.0F, 5.0F), {5.0F, 1e6F}, {5.2F, 5.0F}, {5.72F, 5.0F}, {9.0F, 5.0F}})
     cases.push_back({.direction = {0, 0, 1}, .distance_m = distance, .nearest_m = nearest});
-  const std::vector<shared::ProbeAnswer> answers = ask(probes, cases);
+  const std::vector<shared::ProbeBlendAnswer> answers = ask(probes, cases);
   const float expected[] = {1.0F, 1.0F, 1.0F, 0.5F, 0.0F};
   for (std::size_t i = 0; i < cases.size(); ++i) EXPECT_NEAR(answers[i].seen, expected[i], 1e-5F) << i;
 }

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer ProbeBuffer { ProbeData probes[]; };
 layout(set = 0, binding = 1, scalar) readonly buffer CaseBuffer { ProbeCase cases[]; };
-layout(set = 0, binding = 2, scalar) writeonly buffer AnswerBuffer { ProbeAnswer answers[]; };
+layout(set = 0, binding = 2, scalar) writeonly buffer AnswerBuffer { ProbeBlendAnswer answers[]; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
@@ -20,6 +20,6 @@ void main() {
     const float weight = probe_volume_weight(probes[k], c.position);
     if (weight > 0.0) add_probe_light(sum, weight, probes[k].flat_radiance);
   }
-  answers[i] = ProbeAnswer(sum.specular, sum.weight, probe_direction(probes[0], c.position, c.direction),
-                           probe_volume_weight(probes[0], c.position), probe_seen(c.distance_m, c.nearest_m), vec3(0.0));
+  answers[i] = ProbeBlendAnswer(sum.specular, sum.weight, probe_direction(probes[0], c.position, c.direction),
+                           probe_volume_weight(probes[0], c.position), probe_seen(c.distance_m, c.nearest_m));
 }

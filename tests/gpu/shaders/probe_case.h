@@ -16,13 +16,12 @@ struct ProbeCase {
   float nearest_m;
 };
 
-struct ProbeAnswer {
+struct ProbeBlendAnswer {
   vec3 sum;  // of flat radiances, by their weights
   float weight;
   vec3 direction;  // into the first probe's capture
   float first_weight;
   float seen;
-  vec3 padding;  // to whole vectors: on llvmpipe the last words of a buffer that ended within one were lost
 };
 
 #ifdef __cplusplus
