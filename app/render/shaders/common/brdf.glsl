@@ -132,17 +132,9 @@ vec2 surroundings_split(float x, float a, float a2) {
 }
 
 // Radiance towards the eye, of a surface on which the same radiance arrives from everywhere, `irradiance` in all: the
-// integral of reflect_light over all directions. Specular light is as above (Blinn-Phong takes GGX's fit too); diffuse
-// light is what f0 leaves, without the 3 % at most that Schlick's term takes of it at grazing angles.
-vec3 reflect_surroundings(Reflector r, vec3 irradiance) {
-  precise const float x = min(abs(r.half_n_eye) * 2.0, 1.0);
-  const vec2 split = surroundings_split(x, sqrt(r.a2), r.a2);
-  precise const vec3 specular = fma(r.f0, vec3(split.x), vec3(split.y));
-  precise const vec3 reflected = irradiance * fma(specular, vec3(1.0 / PI), r.diffuse);
-  return reflected;
-}
-
-// The same where only a share of the specular light is theirs.
+// integral of reflect_light over all directions. Specular light is as above (Blinn-Phong takes GGX's fit too), and only a
+// share of it counts; diffuse light is what f0 leaves, without the 3 % at most that Schlick's term takes of it at grazing
+// angles.
 vec3 reflect_surroundings(Reflector r, vec3 irradiance, float share) {
   precise const float x = min(abs(r.half_n_eye) * 2.0, 1.0);
   const vec2 split = surroundings_split(x, sqrt(r.a2), r.a2);
@@ -150,5 +142,6 @@ vec3 reflect_surroundings(Reflector r, vec3 irradiance, float share) {
   precise const vec3 reflected = irradiance * fma(specular, vec3((1.0 / PI) * share), r.diffuse);
   return reflected;
 }
+vec3 reflect_surroundings(Reflector r, vec3 irradiance) { return reflect_surroundings(r, irradiance, 1.0); }
 
 #endif

@@ -20,6 +20,7 @@ layout(constant_id = 31) const bool WALKS_ALONE = false;  // nothing is lit: for
 #include "common/deferred_surface.glsl"
 #include "common/lights.glsl"
 #include "common/mirror.glsl"
+#include "common/mixed.glsl"
 #include "common/srgb.glsl"
 #include "common/surroundings.glsl"
 
@@ -29,12 +30,6 @@ Surface surface_of(MirrorSurface m, vec3 to_eye) {
                  max(factors.y, 0.045), factors.z);
 }
 
-// Based on: Ellis, lowbias32, Prospecting for Hash Functions (2018).
-uint mixed(uint x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
 uint seed_of_position(vec3 position) {
   const uvec3 bits = floatBitsToUint(position);
   return mixed(bits.x + mixed(bits.y + mixed(bits.z)));

@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "common/frame.glsl"
+#include "common/mixed.glsl"
 #include "lamplight/shared/light.h"
 #include "reach_data.h"
 
@@ -56,11 +57,5 @@ uint reach(uint light, dvec3 position) {
 
 bool surely_reaches(uint light, dvec3 position) { return reach(light, position) == INSIDE; }
 
-// Based on: Ellis, lowbias32, Prospecting for Hash Functions (2018).
-uint mixed(uint x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
 uvec2 hash_of(uint light) { return uvec2(mixed(light + 1u), mixed(light ^ 0x9e3779b9u)); }
 #endif

@@ -1,0 +1,62 @@
+// A level's cell of world cells, walked by itself: a stream of lights that ascend.
+// Needs: the buffers of lookup/world_cells.glsl. SPDX-License-Identifier: Apache-2.0
+#define CELL_FIELD lookup_field
+#define CELL_FIELD_WORD(word) lookup_bits[word]
+#include "lookup/parts/cell_field.glsl"
+
+LAMP_CONST LOOKUP_NO_LIGHT = 0xffffffffu;
+
+// A level's cell with lights left.
+struct LookupStream {
+  uint light;  // the next; LOOKUP_NO_LIGHT: none is left
+  uint place;  // the entry that the light's block begins with
+  uint left;   // entries of the bucket from there on
+  uint bits;   // lights of the block that come behind it
+  uint cell;
+};
+
+WorldBucket lookup_bucket(uint view, uint bucket) {
+  return lookup_buckets[view * (LOOKUP_BUCKETS_VIEW / 2u) + bucket];
+}
+
+uint lookup_entry_light(uint view, uint place) {
+  return lookup_entries[view * LOOKUP_ENTRIES_VIEW + place] >> ENTRY_BRICK_BITS;
+}
+
+uint lookup_block(uint view, LookupStream stream) {
+  return lookup_field(view * LOOKUP_BITS_VIEW + 2u * stream.place, stream.cell, min(stream.left, 32u));
+}
+
+// To the stream's next light.
+void lookup_advance(uint view, inout LookupStream stream) {
+  while (stream.bits == 0u && stream.left > 32u) {
+    stream.place += 32u;
+    stream.left -= 32u;
+    stream.bits = lookup_block(view, stream);
+  }
+  stream.light = LOOKUP_NO_LIGHT;
+  if (stream.bits == 0u) return;
+  stream.light = lookup_entry_light(view, stream.place + LAMP_FIRST_BIT(stream.bits));
+  stream.bits &= stream.bits - 1u;
+}
+
+// Of a bucket that has lights, before the first; or with `light`, before the first that is not less.
+LookupStream lookup_stream(uint view, WorldBucket bucket, uint cell, uint light) {
+  uint begin = 0u;
+  for (uint end = light == 0u ? 0u : bucket.count; begin < end;) {
+    const uint middle = (begin + end) / 2u;
+    if (lookup_entry_light(view, bucket.first + middle) < light)
+      begin = middle + 1u;
+    else
+      end = middle;
+  }
+  LookupStream stream;
+  stream.light = LOOKUP_NO_LIGHT;
+  stream.place = bucket.first + begin / 32u * 32u;
+  stream.left = bucket.count - begin / 32u * 32u;
+  stream.bits = 0u;
+  stream.cell = cell;
+  if (begin == bucket.count) return stream;
+  stream.bits = lookup_block(view, stream) & 0xffffffffu << begin % 32u;
+  return stream;
+}
