@@ -45,14 +45,6 @@ std::vector<vulkan::Use> extra_uses(const LightingFrame& frame, VkPipelineStageF
   return uses;
 }
 
-/// The G-buffer at the bindings of common/deferred_surface.glsl.
-std::vector<vulkan::Bound> gbuffer_bound(const Targets& targets) {
-  return {{1, targets.depth.sampled()},
-          {5, targets.base_color.sampled()},
-          {6, targets.surface.sampled()},
-          {7, targets.emission.sampled()}};
-}
-
 /// Draws reach only these rows.
 void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
   if (info.shaded.count == 0) return;

@@ -15,7 +15,6 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_WALK = 11;
 constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
 constexpr std::uint32_t CONSTANT_SEVERAL_VIEWS = 18;

@@ -22,6 +22,8 @@ enum class ShadingPath : std::uint8_t {
   deferred,           ///< cull, then shade in compute
   standard_deferred,  ///< no cull: one volume a light, added up by blending
 };
+/// Of all shaders that shade: a Brdf (common/brdf.glsl).
+inline constexpr std::uint32_t CONSTANT_BRDF = 10;
 enum class Brdf : std::uint32_t { ggx = 0, blinn_phong = 1 };
 
 /// "forward", "tiled-deferred", "deferred", "standard-deferred", in the order of ShadingPath.

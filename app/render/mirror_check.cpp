@@ -49,11 +49,8 @@ std::vector<gpu::MirrorAsked> read_rays(Renderer& renderer, const ShaderLibrary&
   const std::size_t pixels = std::size_t{targets.width} * targets.height;
   const vulkan::Buffer rays = readback_buffer(renderer.device(), "mirror rays", pixels * sizeof(gpu::MirrorAsked));
   const vulkan::Resource written = vulkan::Resource::storage(rays.handle());
-  std::vector<vulkan::Bound> bound{{0, renderer.data().frame_constants()},
-                                   {1, targets.depth.sampled()},
-                                   {5, targets.base_color.sampled()},
-                                   {6, targets.surface.sampled()},
-                                   {7, targets.emission.sampled()}};
+  std::vector<vulkan::Bound> bound = gbuffer_bound(targets);
+  bound.push_back({0, renderer.data().frame_constants()});
   std::vector<vulkan::Use> uses;
   for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
   uses.push_back({.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});

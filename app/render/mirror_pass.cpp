@@ -17,7 +17,6 @@ namespace {
 
 constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr std::uint32_t GROUP_PX = 8;
-constexpr std::uint32_t CONSTANT_BRDF = 10;
 constexpr std::uint32_t CONSTANT_STACK = 30;
 constexpr std::uint32_t CONSTANT_WALKS_ALONE = 31;
 constexpr VkDescriptorType STORAGE = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -33,11 +32,9 @@ vulkan::Use writes(const vulkan::Buffer& buffer) {
 
 /// What all three passes read of a pixel.
 std::vector<vulkan::Bound> pixel_bound(const LightingFrame& frame) {
-  return {{0, frame.data.frame_constants()},
-          {1, frame.targets.depth.sampled()},
-          {5, frame.targets.base_color.sampled()},
-          {6, frame.targets.surface.sampled()},
-          {7, frame.targets.emission.sampled()}};
+  std::vector<vulkan::Bound> bound = gbuffer_bound(frame.targets);
+  bound.push_back({0, frame.data.frame_constants()});
+  return bound;
 }
 
 std::vector<vulkan::DescriptorBinding> pixel_bindings() {

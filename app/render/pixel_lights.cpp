@@ -12,8 +12,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t LIGHT_GROUP = 64;          // threads of light_shares.comp and explain.comp
-constexpr std::uint32_t CONSTANT_REFLECTION = 10;  // common/brdf.glsl
+constexpr std::uint32_t LIGHT_GROUP = 64;  // threads of light_shares.comp and explain.comp
 
 /// A dispatch of one thread a light: frame at binding 0, the lights' ids at 2, all lights at 3, answers at 8.
 struct LightPass {
@@ -85,16 +84,12 @@ PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuS
                     std::uint32_t pixel, std::span<const std::uint32_t> lights) {
   if (info.path == ShadingPath::forward) renderer.need_surfaces();
   const Targets& targets = renderer.targets();
-  LightPass pass{
-      .shader = "light_shares",
-      .constants = {{CONSTANT_REFLECTION, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
-      .bound = {{1, targets.depth.sampled()},
-                {4, scene.surroundings()},
-                {5, targets.base_color.sampled()},
-                {6, targets.surface.sampled()},
-                {7, targets.emission.sampled()}},
-      .push = {pixel % targets.width, pixel / targets.width, static_cast<std::uint32_t>(lights.size())},
-      .answers = lights.size() + 1};
+  LightPass pass{.shader = "light_shares",
+                 .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
+                 .bound = gbuffer_bound(targets),
+                 .push = {pixel % targets.width, pixel / targets.width, static_cast<std::uint32_t>(lights.size())},
+                 .answers = lights.size() + 1};
+  pass.bound.push_back({4, scene.surroundings()});
   for (const vulkan::Bound& b : renderer.shadow_bound()) pass.bound.push_back(b);
   const std::vector<glm::vec4> terms = for_lights<glm::vec4>(renderer, shaders, lights, std::move(pass));
   return {.lights = {terms.begin(), terms.end() - 1}, .surroundings = glm::vec3(terms.back())};

@@ -21,4 +21,11 @@ Targets::Targets(const vulkan::Device& device, std::uint32_t wide, std::uint32_t
              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 }
 
+std::vector<vulkan::Bound> gbuffer_bound(const Targets& targets) {
+  return {{1, targets.depth.sampled()},
+          {5, targets.base_color.sampled()},
+          {6, targets.surface.sampled()},
+          {7, targets.emission.sampled()}};
+}
+
 }  // namespace lamp::app

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "gpu/image.h"
+#include "lamplight/vulkan.h"
 
 namespace lamp::app {
 
@@ -17,5 +20,8 @@ struct Targets {
   GpuImage emission;    ///< RGBA16F
   GpuImage hdr;         ///< RGBA32F: pictures are compared bit for bit
 };
+
+/// Depth and G-buffer at the bindings of common/deferred_surface.glsl.
+[[nodiscard]] std::vector<vulkan::Bound> gbuffer_bound(const Targets& targets);
 
 }  // namespace lamp::app
