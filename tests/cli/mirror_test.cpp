@@ -39,6 +39,7 @@ TEST_F(MirrorOption, FollowsAFlightOfThingsThatMove) {
 TEST_F(MirrorOption, SaysWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--mirror", "2"}, {"--mirror"});
   expect_error(BAD_INPUT, {"render", "--mirror", "0.5", "--mirror-lists", "tiles"}, {"--mirror-lists 'tiles'"});
+  expect_error(BAD_INPUT, {"render", "--mirror", "0.5", "--probes", "3"}, {"--mirror: with --probes 3", "twice"});
   expect_error(BAD_INPUT, {"render", "--mirror", "0.5", "--decals", "3", "--path", "forward"},
                {"--decals", "--path deferred"});
   expect_error(BAD_INPUT, {"render", "--moving", "--path", "forward", "--still-lists", "triangle-lists"},
