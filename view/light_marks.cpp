@@ -120,15 +120,15 @@ void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& pi
   ImDrawList& draw = clipped_to(picture);
   const Marks marks{.view = shown.view, .picture = picture, .draw = draw};
   if (which == LightMarks::cell && shown.inspection) {
-    for (const ListedLight& light : shown.inspection->lights) draw_light(marks, (*shown.lights)[light.light], true);
+    for (const ListedLight& light : shown.inspection->lights) draw_light(marks, shown.lights->all()[light.light], true);
   } else if (which == LightMarks::all) {
     constexpr std::size_t MOST_OUTLINED = 256;  // more are a tangle
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < shown.lights->size() && drawn < MOST_MARKS; ++i)
-      drawn += draw_light(marks, (*shown.lights)[i], shown.lights->size() <= MOST_OUTLINED) ? 1 : 0;
+      drawn += draw_light(marks, shown.lights->all()[i], shown.lights->size() <= MOST_OUTLINED) ? 1 : 0;
   }
   if (one) {
-    const shared::Light& light = (*shown.lights)[*shown.state.light];
+    const shared::Light& light = shown.lights->all()[*shown.state.light];
     draw_light(marks, light, true);
     if (const auto at = marks.at(light.position)) draw.AddCircle(*at, 3.0F * DOT_PX, IM_COL32_WHITE, 16, 2.0F);
   }

@@ -54,7 +54,7 @@ void edit_light(const Shown& shown, ViewState& state, Widgets& widgets) {
   if (!state.light || *state.light >= shown.lights->size()) return;
   const std::uint32_t number = *state.light;
   const auto found = std::ranges::find(state.edits, number, &LightEdit::light);
-  Light light = found != state.edits.end() ? found->value : unpacked((*shown.lights)[number]);
+  Light light = found != state.edits.end() ? found->value : unpacked(shown.lights->all()[number]);
   const float step = 0.01F * std::clamp(light.range, 0.1F, 100.0F);
   Widgets::text(fmt::format("light {}, a {} light", number, light.type == LightType::spot ? "spot" : "point"));
   bool changed = widgets.move("position", light.position, step, "Where it is, metres. Drag a number.");

@@ -11,6 +11,7 @@
 #include "commands/view_state.h"
 #include "gpu/image.h"
 #include "lamplight/view.h"
+#include "view/frame_lights.h"
 #include "view/inspection.h"
 #include "view/overlay.h"
 
@@ -31,7 +32,7 @@ struct Shown {
   std::shared_ptr<const GpuImage> image;
   float exposure = 1.0F;
   View view;
-  std::shared_ptr<const std::vector<shared::Light>> lights;
+  std::shared_ptr<const FrameLights> lights;
   std::vector<shared::OrientedBox> decals;
   std::uint32_t flight_frames = 0;  ///< 0: the scene has no flight
   bool captured = false;

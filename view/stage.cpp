@@ -16,17 +16,12 @@
 #include "scene/capture.h"
 #include "scene/flight.h"
 #include "scene/place_decals.h"
+#include "view/stage_kept.h"
 
 namespace lamp::app {
 namespace {
 
 constexpr std::size_t MOST_LIGHTINGS = 8;
-
-/// What generated lights and decals follow from.
-std::string lights_key(const Request& r) {
-  return fmt::format("{} {} {} {} {} {} {} {}", r.lights, r.lights_given, r.spots, r.range, r.seed, r.decals, r.frame,
-                     r.light_frame);
-}
 
 std::string shadows_key(const Request& r) {
   return fmt::format("{} {} {} {} {}", r.shadows, r.point_shadows, r.shadow_lights, r.shadow_budget, r.atlas);
@@ -46,20 +41,6 @@ bool can_be_laid_over(const ViewState& state) {
 }
 
 }  // namespace
-
-struct Stage::KeptScene {
-  std::string name;
-  Scene scene;
-  std::optional<OpenAir> air;
-  std::unique_ptr<GpuScene> gpu;
-};
-
-struct Stage::KeptLights {
-  std::string key;
-  std::vector<shared::Light> made;  ///< without edits
-  std::vector<gpu::DecalData> decals;
-  std::shared_ptr<const std::vector<shared::Light>> lights;
-};
 
 Stage::Stage(Context& context, const ShaderLibrary& shaders, const std::string& calibration)
     : context_(context), shaders_(shaders), chooser_(context, shaders, calibration) {}
@@ -82,29 +63,6 @@ void Stage::need_scene(const std::string& name) {
   made_anew_ = true;
 }
 
-void Stage::need_lights(const ViewState& state) {
-  const Request& request = state.request;
-  const Scene& scene = scene_->scene;
-  check_scene_lights(request, scene);
-  auto lights = std::make_unique<KeptLights>();
-  lights->key = lights_key(request);
-  if (lights_ && lights_->key == lights->key) {
-    lights->made = std::move(lights_->made);
-    lights->decals = std::move(lights_->decals);
-  } else {
-    const bool generates = request.lights != 0 && (!scene.captured || request.lights_given);
-    if (generates && !scene_->air) scene_->air = find_open_air(scene);
-    std::vector<Light> generated;
-    if (generates) generated = requested_lights(request, scene, *scene_->air);
-    lights->made = packed_lights(scene, generated);
-    lights->decals = requested_decals(request, scene);
-  }
-  lights_ = std::move(lights);
-  auto all = std::make_shared<std::vector<shared::Light>>(lights_->made);
-  apply_edits(state, *all);
-  lights_->lights = std::move(all);
-}
-
 void Stage::need_frame(const ViewState& state) {
   need_scene(state.request.scene);
   const View view = requested_view(state.request, scene_->scene);
@@ -124,9 +82,10 @@ void Stage::need_frame(const ViewState& state) {
     if (shadows) renderer_->cast_shadows(*shadows);
     display_ = std::make_unique<Display>(context_.device(), shaders_, view.width(), view.height());
     renderer_key_ = std::move(key);
+    lights_->brought = false;
     made_anew_ = true;
   }
-  renderer_->set_frame(view, *lights_->lights, lights_->decals);
+  move_lights(view);
 }
 
 MethodChoice Stage::choice(const Request& request, const std::string& method, const std::vector<std::string>& options) {
@@ -136,7 +95,7 @@ MethodChoice Stage::choice(const Request& request, const std::string& method, co
   if (key != auto_key_) {
     auto_choice_ = chooser_.choose(*renderer_, {.scene = scene_->scene,
                                                 .view = renderer_->view(),
-                                                .lights = *lights_->lights,
+                                                .lights = lights_->lights->all(),
                                                 .light_capacity = static_cast<std::uint32_t>(lights_->lights->size())});
     auto_key_ = std::move(key);
   }
@@ -163,10 +122,12 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
   if (found != lightings_.end()) {
     lightings_.splice(lightings_.begin(), lightings_, found);
   } else {
+    if (request.grow) bring_lights();
     lightings_.push_front({std::move(key), make_lighting(*renderer_, shaders_, std::move(info), request.grow)});
     made_anew_ = true;
     if (lightings_.size() > MOST_LIGHTINGS) lightings_.pop_back();
   }
+  if (needs_lights_here(lightings_.front().lighting)) bring_lights();
   return {.lighting = lightings_.front().lighting, .by_auto = chosen.by_auto};
 }
 
@@ -187,7 +148,7 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
 std::vector<Visit> Stage::checked_visits(Lighting& lighting) {
   const View& view = renderer_->view();
   std::vector<Visit> visits;
-  for_each_truth({.view = view, .depth = depth_, .lights = *lights_->lights, .rows = view.height()},
+  for_each_truth({.view = view, .depth = depth_, .lights = lights_->lights->all(), .rows = view.height()},
                  [&](const Truth& truth) {
                    const std::vector<Visit> band = renderer_->visit(lighting, truth);
                    visits.insert(visits.end(), band.begin(), band.end());
@@ -225,7 +186,7 @@ Inspected Stage::inspected(Lighting& lighting) {
           .lighting = lighting,
           .shaders = shaders_,
           .scene = *scene_->gpu,
-          .lights = *lights_->lights,
+          .lights = lights_->lights->all(),
           .visits = visits_,
           .depth = depth_};
 }
@@ -300,7 +261,7 @@ Stage::Picture Stage::picture(const ViewState& state) {
   const Chosen chosen = lighting(state.request, state.request.method, state.request.options);
   if (scene_->scene.captured && state.samples > 1)
     throw Error(fmt::format("samples: got {}, but a captured frame has one sample a pixel", state.samples));
-  Picture made{.radiance = render_samples(*renderer_, chosen.lighting, *lights_->lights, lights_->decals,
+  Picture made{.radiance = render_samples(*renderer_, chosen.lighting, lights_->lights->all(), lights_->decals,
                                           {.samples = state.samples})
                                .image,
                .toned = {}};

@@ -56,6 +56,11 @@ class Stage {
   };
   void need_scene(const std::string& name);
   void need_lights(const ViewState& state);
+  /// The state's lights at its time, seen from there.
+  void move_lights(const View& view);
+  /// The same lights once more, from the CPU.
+  void bring_lights();
+  [[nodiscard]] static bool needs_lights_here(const Lighting& lighting);
   /// The renderer with the state's frame in it.
   void need_frame(const ViewState& state);
   [[nodiscard]] MethodChoice choice(const Request& request, const std::string& method,

@@ -101,8 +101,8 @@ void Viewer::finish(Done done) {
   if (done.others) others_ = std::move(*done.others);
   if (!done.shown) return;
   const bool rested = done.job.size != glm::uvec2(paced_size());
-  if (!done.shown->made_anew && paced_ && !rested) {
-    pace_.took(done.ms);
+  if (!done.shown->made_anew && !rested) {
+    if (paced_) pace_.took(done.ms);
     picture_ms_ = picture_ms_ == 0.0 ? done.ms : 0.9 * picture_ms_ + 0.1 * done.ms;
   }
   shown_ = std::move(*done.shown);
@@ -297,6 +297,7 @@ nlohmann::json Viewer::report() const {
   json["error"] = error_;
   json["said"] = said_;
   json["pictures"] = shown_.number;
+  json["picture_ms"] = picture_ms_;
   json["bookmarks"] = bookmarks_.size();
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);

@@ -117,6 +117,20 @@ std::vector<Light> requested_lights(const Request& request, const Scene& scene, 
   return place_lights(air, light_placement(request, scene));
 }
 
+MovingLights requested_moving_lights(const Request& request, const Scene& scene, const OpenAir* air) {
+  PlacedLights placed;
+  if (air != nullptr) placed = place_on_paths(*air, light_placement(request, scene));
+  const bool generated_first = request.still > 0.0F || request.still_lists != "off";
+  return {.lights = packed_lights(request, scene, placed.lights),
+          .paths = std::move(placed.paths),
+          .first = generated_first ? 0 : static_cast<std::uint32_t>(scene.lights.size())};
+}
+
+PathTime requested_time(const Request& request, const Scene& scene) {
+  const PlaceLights how = light_placement(request, scene);
+  return path_time(how.frame, how.frames);
+}
+
 std::vector<shared::Light> packed_lights(const Scene& scene, std::span<const Light> generated) {
   std::vector<shared::Light> lights = pack(scene.lights);
   const std::vector<shared::Light> packed = pack(generated);

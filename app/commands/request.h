@@ -17,6 +17,7 @@
 #include "render/renderer.h"
 #include "render/verification.h"
 #include "scene/free_camera.h"
+#include "scene/light_path.h"
 #include "scene/open_air.h"
 #include "scene/scene.h"
 
@@ -144,6 +145,17 @@ struct Setup {
 [[nodiscard]] std::vector<View> requested_views(const Request& request, const Scene& scene);
 /// The generated lights. `air`: the scene's.
 [[nodiscard]] std::vector<Light> requested_lights(const Request& request, const Scene& scene, const OpenAir& air);
+/// A frame's lights in the order that the request asks for, and the paths of the generated ones, which come one after
+/// the other: at another time they are elsewhere on these, and otherwise the same.
+struct MovingLights {
+  std::vector<shared::Light> lights;
+  std::vector<LightPath> paths;
+  std::uint32_t first = 0;  ///< the light that the first path belongs to
+};
+/// `air`: the scene's; without, nothing is generated.
+[[nodiscard]] MovingLights requested_moving_lights(const Request& request, const Scene& scene, const OpenAir* air);
+/// Where the request's frame has the lights on their paths.
+[[nodiscard]] PathTime requested_time(const Request& request, const Scene& scene);
 /// The scene's, then the generated ones, as the GPU has them.
 [[nodiscard]] std::vector<shared::Light> packed_lights(const Scene& scene, std::span<const Light> generated);
 /// The same in the order that the request asks for: those that stand still, the scene's among them, are the last.

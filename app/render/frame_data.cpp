@@ -29,8 +29,9 @@ FrameData::FrameData(const vulkan::Device& device, std::uint32_t light_capacity,
   frame_ = take(vulkan::Buffer::create(device, {.name = "frame",
                                                 .bytes = views * sizeof(shared::Frame),
                                                 .usage = STORAGE | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}));
-  lights_ = take(vulkan::Buffer::create(device, {.name = "lights", .bytes = light_bytes, .usage = STORAGE}));
-  spheres_ = take(vulkan::Buffer::create(device, {.name = "spheres", .bytes = sphere_bytes, .usage = STORAGE}));
+  constexpr VkBufferUsageFlags READ_BACK = STORAGE | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;  // by who checks what moves
+  lights_ = take(vulkan::Buffer::create(device, {.name = "lights", .bytes = light_bytes, .usage = READ_BACK}));
+  spheres_ = take(vulkan::Buffer::create(device, {.name = "spheres", .bytes = sphere_bytes, .usage = READ_BACK}));
   decals_ = take(vulkan::Buffer::create(device, {.name = "decals", .bytes = decal_bytes, .usage = STORAGE}));
   nothing_known_ =
       take(vulkan::Buffer::create(device, {.name = "nothing known of lights",
@@ -85,7 +86,7 @@ void FrameData::set_view(const View& view, std::uint32_t index) {
   frame.probe_count = counted.probe_count;
   frame.view_index = index;
   std::memcpy(staging_.mapped().data(), &frame, sizeof(frame));
-  changed_ = true;
+  view_changed_ = true;
 }
 
 float FrameData::farthest_eye_m() const {
@@ -100,8 +101,12 @@ void FrameData::set_still(Context& context, std::span<const std::uint32_t> words
 }
 
 void FrameData::record_upload(vulkan::Recorder& recorder) {
-  if (!std::exchange(changed_, false)) return;
-  recorder.barrier({copies_to(frame()), copies_to(lights()), copies_to(spheres()), copies_to(decals())});
+  const bool all = std::exchange(changed_, false);
+  if (!std::exchange(view_changed_, false) && !all) return;
+  if (all)
+    recorder.barrier({copies_to(frame()), copies_to(lights()), copies_to(spheres()), copies_to(decals())});
+  else
+    recorder.barrier({copies_to(frame())});
   std::uint64_t offset = 0;
   const auto copy = [&](const vulkan::Buffer& buffer, std::uint64_t bytes) {
     const VkBufferCopy part{.srcOffset = offset, .size = bytes};
@@ -109,6 +114,7 @@ void FrameData::record_upload(vulkan::Recorder& recorder) {
     offset += buffer.bytes();
   };
   copy(frame_, frame_.bytes());
+  if (!all) return;
   copy(lights_, host_lights_.size() * sizeof(shared::Light));
   copy(spheres_, host_lights_.size() * sizeof(shared::LightSphere));
   copy(decals_, entities().decals.count() * sizeof(gpu::DecalData));

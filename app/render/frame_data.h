@@ -69,7 +69,8 @@ class FrameData {
   vulkan::Buffer still_;          ///< none where nothing was made ahead
   vulkan::Buffer
       staging_;  ///< a shared::Frame of each view, then the lights with the decals' records, their spheres, the decals
-  bool changed_ = true;  ///< since the last upload
+  bool view_changed_ = true;  ///< since the last upload
+  bool changed_ = true;       ///< anything else, likewise
   std::vector<shared::Frame> host_frames_;
   std::vector<shared::Light> host_lights_;  ///< all records
 };

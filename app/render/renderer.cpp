@@ -98,19 +98,13 @@ void Renderer::mirror(const MirrorSettings& settings) {
                              .shadows = shadows_ ? std::optional(shadows_->settings().filter) : std::nullopt});
 }
 
-void Renderer::move_instances(std::span<const shared::LightSphere> moved) {
-  views_.clear();  // whatever is drawn is of before
-  forget_surfaces();
-  if (mirror_) mirror_->move(context_);
-  if (shadows_) shadows_->move(moved);
-}
-
 void Renderer::set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
   assert(views.size() == depth_.views && "make a Renderer for another number of views");
   assert(views.front().reversed_depth() == depth_.reversed && "make a Renderer for the other direction");
   const bool moves = !std::ranges::equal(views, views_);
   views_.assign(views.begin(), views.end());
+  mover_ = nullptr;
   if (moves || all_pictures_) forget_surfaces();
   shown_ = {};
   shown_view_ = views_.front();
@@ -179,6 +173,7 @@ vulkan::PlanInputs Renderer::plan_inputs() const {
 
 void Renderer::record_upload(vulkan::Recorder& recorder) {
   data_.record_upload(recorder);
+  if (const LightMover* mover = std::exchange(mover_, nullptr)) mover->record(recorder, data_, time_);
   if (all_pictures_) all_pictures_->data.record_upload(recorder);
 }
 

@@ -12,6 +12,7 @@
 #include "lamplight/shared/counters.h"
 #include "oracle/reference.h"
 #include "render/frame_times.h"
+#include "render/light_mover.h"
 #include "render/lighting.h"
 #include "render/mirror_pass.h"
 #include "render/probe_set.h"
@@ -100,6 +101,10 @@ class Renderer {
   /// The same with as many views as the renderer was told, all of the targets' size.
   void set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                  std::span<const gpu::DecalData> decals = {});
+  /// Another view of the same lights and decals, the lights at a time of their paths: moved on the GPU, which no host
+  /// pass sees. `mover` must live until the next frame is submitted. Of one view with one sample a pixel, where no
+  /// light casts shadows, stands still in lists of its own, or is mirrored.
+  void move_frame(const View& view, const LightMover& mover, const PathTime& time);
 
   /// Where there are several views, or several samples a pixel, lights are culled for all of them at once, and frames
   /// draw and shade one: the first, unless another is chosen, until the next `set_frame`. Pixels of a sample are seen
@@ -213,6 +218,8 @@ class Renderer {
   HostDepth depth_;
   std::unique_ptr<Targets> targets_;
   FrameData data_;
+  const LightMover* mover_ = nullptr;  ///< of the frame that is to be uploaded, if its lights are moved
+  PathTime time_;
   Geometry geometry_;
   std::vector<View> views_;
   FramePicture shown_;

@@ -124,29 +124,35 @@ glm::vec3 draw_direction(Random& random) {
   return glm::normalize(glm::vec3(side * std::cos(angle), y - DOWNWARDS, side * std::sin(angle)));
 }
 
-// A point of the closed path of a light at a time in turns.
-glm::vec3 draw_position(Random& random, const OpenAir& air, float range, double time) {
+LightPath draw_path(Random& random, const OpenAir& air, float range) {
   const AirCell& cell = air.cells[random.below(static_cast<std::uint32_t>(air.cells.size()))];
-  glm::vec3 position;
+  LightPath path;
   for (int axis = 0; axis < 3; ++axis) {
     // In cells: the path's middle inside its cell, and how far from it, along this axis, there is only air.
     const float middle = random.between(0.01F, 0.99F);
     const float room = std::min(middle, 1.0F - middle) + static_cast<float>(cell.clearance - 1);
-    const float amplitude = std::min(0.5F * range, 0.98F * room * air.cell_m);
-    const double phase = random.unit();
-    const double waves = 1 + random.below(3);
-    const double swing = std::sin(TURN * (waves * time + phase));
-    position[axis] = cell.min[axis] + middle * air.cell_m + amplitude * static_cast<float>(swing);
+    path.amplitude[axis] = std::min(0.5F * range, 0.98F * room * air.cell_m);
+    set_phase(path, axis, random.unit());
+    path.waves[axis] = 1 + random.below(MOST_PATH_WAVES);
+    path.middle[axis] = cell.min[axis] + middle * air.cell_m;
   }
-  return position;
+  return path;
 }
 
-Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& ranges, std::uint32_t i) {
-  Random random(seed_of(how.seed, i));
+struct PlacedLight {
   Light light;
+  LightPath path;
+};
+
+PlacedLight make_light(const OpenAir& air, const PlaceLights& how, const Ranges& ranges, std::uint32_t i,
+                       const PathTime& time) {
+  Random random(seed_of(how.seed, i));
+  PlacedLight made;
+  Light& light = made.light;
   light.range = draw_range(random, ranges);
-  const std::uint32_t frame = i < how.count - still_count(how) ? how.frame % how.frames : 0;
-  light.position = draw_position(random, air, light.range, static_cast<double>(frame) / how.frames);
+  made.path = draw_path(random, air, light.range);
+  if (i >= how.count - still_count(how)) made.path = resting_at(position_at(made.path, {}));
+  light.position = position_at(made.path, time);
   light.color = draw_color(random);
   light.direction = draw_direction(random);
   light.outer_angle = random.between(15.0F, 45.0F) * DEGREE;
@@ -157,7 +163,7 @@ Light make_light(const OpenAir& air, const PlaceLights& how, const Ranges& range
   // About 9 lux at a third of the range, whatever the range.
   light.intensity = light.range * light.range;
   if (without_range(how)) light.range = std::numeric_limits<float>::infinity();
-  return light;
+  return made;
 }
 
 }  // namespace
@@ -169,9 +175,24 @@ std::uint32_t still_count(const PlaceLights& how) {
 std::vector<Light> place_lights(const OpenAir& air, const PlaceLights& how) {
   check(how);
   const Ranges ranges = ranges_of(air, how);
+  const PathTime time = path_time(how.frame, how.frames);
   std::vector<Light> lights(how.count);
-  tbb::parallel_for(std::uint32_t{0}, how.count, [&](std::uint32_t i) { lights[i] = make_light(air, how, ranges, i); });
+  tbb::parallel_for(std::uint32_t{0}, how.count,
+                    [&](std::uint32_t i) { lights[i] = make_light(air, how, ranges, i, time).light; });
   return lights;
+}
+
+PlacedLights place_on_paths(const OpenAir& air, const PlaceLights& how) {
+  check(how);
+  const Ranges ranges = ranges_of(air, how);
+  const PathTime time = path_time(how.frame, how.frames);
+  PlacedLights placed{.lights = std::vector<Light>(how.count), .paths = std::vector<LightPath>(how.count)};
+  tbb::parallel_for(std::uint32_t{0}, how.count, [&](std::uint32_t i) {
+    const PlacedLight made = make_light(air, how, ranges, i, time);
+    placed.lights[i] = made.light;
+    placed.paths[i] = made.path;
+  });
+  return placed;
 }
 
 std::vector<Light> place_lights(const Scene& scene, const PlaceLights& how) {

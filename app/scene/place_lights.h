@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/light_path.h"
 #include "scene/open_air.h"
 #include "scene/scene.h"
 
@@ -32,5 +33,12 @@ struct PlaceLights {
 
 /// The same for air that is already known, which takes most of the time: for frame after frame of one scene.
 [[nodiscard]] std::vector<Light> place_lights(const OpenAir& air, const PlaceLights& how);
+
+/// The same lights, and the path of each: at path_time(frame, frames) it is where place_lights has it in that frame.
+struct PlacedLights {
+  std::vector<Light> lights;
+  std::vector<LightPath> paths;
+};
+[[nodiscard]] PlacedLights place_on_paths(const OpenAir& air, const PlaceLights& how);
 
 }  // namespace lamp::app
