@@ -14,7 +14,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<KeyHelp, 20> HELP{{
+constexpr std::array<KeyHelp, 22> HELP{{
     {"H, F1", "Shows and hides this help."},
     {"Tab", "Shows and hides the panels."},
     {"click", "Looks into a pixel: its cell and the lights there."},
@@ -27,6 +27,8 @@ constexpr std::array<KeyHelp, 20> HELP{{
     {"period, comma", "One frame on, one frame back."},
     {"O, Shift+O", "The next overlay, the one before."},
     {"P", "The next palette."},
+    {"3, 4", "The slice of clusters nearer, farther."},
+    {"Z", "Shows bins of depth as a strip."},
     {"L", "Shows lights: none, those of the cell, all."},
     {"M, Shift+M", "The next method, the one before."},
     {"G", "The next shading path."},
@@ -64,6 +66,11 @@ void expose(ViewState& state, const Shown& shown, float factor) {
   state.exposure = fmt::format("{}", std::clamp(now * factor, 1e-6F, 1e6F));
 }
 
+void move_slice(ViewState& state, float factor) {
+  state.overlay = Overlay::slice;
+  state.slice_m = std::clamp(state.slice_m * factor, 0.01F, 1e6F);
+}
+
 void step_time(ViewState& state, const Shown& shown, int by) {
   state.paused = true;
   const int frames = shown.flight_frames != 0 ? static_cast<int>(shown.flight_frames) : 300;
@@ -81,6 +88,9 @@ void apply_letter(std::string_view key, int by, ViewState& state, const Shown& s
   if (key == "g") state.request.path = next_name(state.request.path, path_names(), by);
   if (key == "b") state.against = state.against ? std::nullopt : std::optional(Against());
   if (key == "v") wishes.prove = true;
+  if (key == "z") state.depth_bins = !state.depth_bins;
+  if (key == "3") move_slice(state, 1.0F / 1.1F);
+  if (key == "4") move_slice(state, 1.1F);
   if (key == "1") expose(state, shown, 1.0F / 1.25F);
   if (key == "2") expose(state, shown, 1.25F);
   if (key == "0") state.exposure = "auto";

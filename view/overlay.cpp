@@ -226,6 +226,18 @@ Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, doubl
   return {.pixels = std::move(pixels), .legend = legend};
 }
 
+Overlaid make_slice(Palette palette, const Walked& walked, double slice_m) {
+  constexpr std::uint32_t HIDDEN_SHARE = 3;  // of the alpha that points before all surfaces have
+  Overlaid made = heat(palette, walked);
+  made.legend.overlay = Overlay::slice;
+  for (std::size_t i = 0; i < made.pixels.size(); ++i) {
+    if (walked.depth[i] == walked.view.sky_depth() || walked.view.z_view(walked.depth[i]) >= slice_m) continue;
+    const std::uint32_t alpha = (made.pixels[i] >> 24U) / HIDDEN_SHARE;
+    made.pixels[i] = (made.pixels[i] & 0xFFFFFFU) | alpha << 24U;
+  }
+  return made;
+}
+
 Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
   switch (overlay) {
     case Overlay::heat:
@@ -243,6 +255,7 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
     case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay, make_shadow_heat
     case Overlay::shadow_age:
     case Overlay::shadow_size:
+    case Overlay::slice:  // of another walk: make_slice
     case Overlay::none:
       break;
   }

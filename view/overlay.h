@@ -33,6 +33,7 @@ struct Legend {
   double high = 0.0;
   double mean = 0.0;
   double max = 0.0;
+  std::string refused;      ///< why there is nothing to show
   std::uint64_t cells = 0;  ///< that hold pixels; of Overlay::overflow, pixels that walk every light; of
                             ///< Overlay::missed, pixels that miss one, and `max` is of how many pairs; of
                             ///< Overlay::difference, pixels that differ, and `mean` is of the first less the second
@@ -60,6 +61,10 @@ struct ListLengths {
 /// Colours of Overlay::difference: where the first walks more lights, and where the second does.
 inline constexpr glm::u8vec3 FIRST_WALKS_MORE{255, 150, 20};
 inline constexpr glm::u8vec3 SECOND_WALKS_MORE{50, 130, 255};
+
+/// Overlay::slice: lights that points at `slice_m` ahead of the eye would walk, fainter where a surface hides the
+/// point.
+[[nodiscard]] Overlaid make_slice(Palette palette, const Walked& walked, double slice_m);
 
 /// The numbers of pixels on a logarithmic scale, as `lamp render --heatmap` has it; SKY_CELL is sky. `special` may
 /// give a colour to what is no number; such pixels count for the legend's `cells`.

@@ -82,7 +82,8 @@ struct InspectorFrame {
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale);
 void help_window(const ScreenRect& picture, float scale);
 /// The colours of an overlay in a corner of the picture.
-void legend_window(const Shown& shown, const ScreenRect& picture);
+/// `lift`: pixels above the bottom.
+void legend_window(const Shown& shown, const ScreenRect& picture, float lift);
 
 /// Why a method with these options cannot light this frame; empty: it can.
 [[nodiscard]] std::string why_not(const std::string& method, const std::vector<std::string>& options,

@@ -95,6 +95,15 @@ void legend_text(const Legend& legend) {
     case Overlay::shadow_size:
       shadow_heat_text("texels a side of the smallest map that a pixel looks up", legend);
       break;
+    case Overlay::slice:
+      ImGui::TextUnformatted(
+          legend.refused.empty()
+              ? fmt::format("lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} "
+                            "cells; fainter behind surfaces",
+                            legend.mean, legend.max, legend.cells)
+                    .c_str()
+              : legend.refused.c_str());
+      break;
     case Overlay::none:
       break;
   }
@@ -131,7 +140,8 @@ void look_panel(PanelFrame& p) {
   p.widgets.choose_word(
       "overlay", p.state.overlay, overlay_names(),
       "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, those that did not "
-      "fit, what is missed, how two methods differ, or how old and how large shadow maps are.",
+      "fit, what is missed, how two methods differ, how old and how large shadow maps are, or a slice through the "
+      "clusters.",
       [&](std::string_view name) {
         const auto overlay = static_cast<Overlay>(std::ranges::find(overlay_names(), name) - overlay_names().begin());
         if (is_of_shadows(overlay) && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
@@ -139,6 +149,13 @@ void look_panel(PanelFrame& p) {
                    ? std::string("needs a second method: see A against B, or press B")
                    : "";
       });
+  if (p.state.overlay == Overlay::slice)
+    p.widgets.slide("slice distance", p.state.slice_m, {.min = 0.1, .max = 1000.0, .logarithmic = true},
+                    "Metres ahead of the eye. The keys 3 and 4 move it.");
+  p.widgets.check(
+      "depth bins", p.state.depth_bins,
+      "Bins of depth as a strip, for methods that have such: which of the lights, in the order of their depth, "
+      "each bin has pixels walk.");
   p.widgets.choose_word("palette", p.state.palette, palette_names(),
                         "Colours of the scale. Blue-yellow and grey can be read with any colour vision.");
   bool dynamic = p.state.resolution == 0.0F;
@@ -148,18 +165,22 @@ void look_panel(PanelFrame& p) {
     p.widgets.slide("resolution", p.state.resolution, {.min = 0.1, .max = 1.0}, "Of what is drawn, over the screen's.");
 }
 
-void legend_window(const Shown& shown, const ScreenRect& picture) {
+void legend_window(const Shown& shown, const ScreenRect& picture, float lift) {
   if (shown.first.legend.overlay == Overlay::none) return;
-  ImGui::SetNextWindowPos({static_cast<float>(picture.min.x) + 8.0F, static_cast<float>(picture.max.y) - 8.0F},
+  ImGui::SetNextWindowPos({static_cast<float>(picture.min.x) + 8.0F, static_cast<float>(picture.max.y) - 8.0F - lift},
                           ImGuiCond_Always, {0.0F, 1.0F});
   constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs |
                                      ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("legend", nullptr, FIXED)) {
     const Legend& legend = shown.first.legend;
+    ImGui::PushTextWrapPos(std::max(100.0F, static_cast<float>(picture.size().x) - 32.0F));
     legend_text(legend);
-    const bool scaled = legend.overlay == Overlay::heat || legend.overlay == Overlay::depth_range ||
-                        legend.overlay == Overlay::shadow_age || legend.overlay == Overlay::shadow_size;
+    ImGui::PopTextWrapPos();
+    const bool scaled = legend.overlay == Overlay::heat ||
+                        (legend.overlay == Overlay::slice && legend.refused.empty()) ||
+                        legend.overlay == Overlay::depth_range || legend.overlay == Overlay::shadow_age ||
+                        legend.overlay == Overlay::shadow_size;
     if (scaled) draw_scale(legend, shown.state.palette);
     if (legend.overlay == Overlay::difference) draw_sides();
     if (shown.picture_difference)

@@ -25,6 +25,25 @@ struct ShownSide {
   std::vector<ListLengths> lengths;  ///< where lists were walked
 };
 
+/// The least and the greatest rank of the lights that reach into a bin, in the order of their depth.
+struct BinRanks {
+  std::uint32_t least = 1;
+  std::uint32_t greatest = 0;  ///< below the least: no light
+
+  [[nodiscard]] std::uint32_t length() const { return least > greatest ? 0 : greatest - least + 1; }
+  friend bool operator==(const BinRanks&, const BinRanks&) = default;
+};
+
+/// Bins of depth of the first method, if it has such.
+struct DepthBins {
+  std::vector<BinRanks> bins;            ///< near to far
+  std::uint32_t lights = 0;              ///< of the frame, decals and probes included
+  std::uint32_t width = 0;               ///< of the picture
+  std::vector<std::uint32_t> of_pixels;  ///< the bin of each; of sky beyond all bins
+
+  [[nodiscard]] std::optional<std::uint32_t> bin_at(glm::uvec2 pixel) const;
+};
+
 struct Shown {
   std::uint64_t number = 0;  ///< of the frame, from 1; 0: there is none yet
   bool made_anew = false;    ///< a scene was loaded or a pipeline compiled for it: its time says nothing of others
@@ -43,6 +62,7 @@ struct Shown {
   std::optional<ShownSide> second;          ///< right of the divider
   std::optional<float> picture_difference;  ///< of the two's pictures, the largest; with Overlay::difference
   std::optional<Inspection> inspection;
+  std::optional<DepthBins> bins;
 };
 
 }  // namespace lamp::app

@@ -162,8 +162,9 @@ Legend Stage::lay_over(const Overlaying& o) {
   if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
   visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
   const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
-  const Overlaid made = is_of_shadows(overlay)
-                            ? shadow_overlay(o)
+  const Overlaid made = is_of_shadows(overlay) ? shadow_overlay(o)
+                        : overlay == Overlay::slice
+                            ? slice_overlay(o)
                             : make_overlay(overlay, o.state.palette,
                                            {.view = view,
                                             .visits = o.second && !other.empty() ? other : visits_,
@@ -240,6 +241,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
     shown.inspection = inspect(inspected(*first_lighting), picked_pixel(asked));
     set_walked(shown.first.stats, visits_);
   }
+  add_findings(state, *first_lighting, shown);
   if (state.against) shown.second = draw_side(state.against->method, state.against->options, end_x, width, false).first;
   if (state.against && state.overlay == Overlay::difference) shown.picture_difference = picture_difference(state);
   shown.made_anew = std::exchange(made_anew_, false);

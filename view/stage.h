@@ -80,6 +80,13 @@ class Stage {
   };
   [[nodiscard]] Legend lay_over(const Overlaying& o);
   [[nodiscard]] Overlaid shadow_overlay(const Overlaying& o);
+  [[nodiscard]] Overlaid slice_overlay(const Overlaying& o);
+  /// What lists of the first method hold besides what its pixels walk, as far as the state asks for it.
+  void add_findings(const ViewState& state, Lighting& lighting, Shown& shown);
+  /// Of what the method made last; nothing if it has none.
+  [[nodiscard]] std::optional<DepthBins> read_bins(const Lighting& lighting);
+  /// Words of a buffer that a method made.
+  [[nodiscard]] std::vector<std::uint32_t> read_words(VkBuffer buffer, std::size_t count);
   /// What the other of the two methods walks.
   [[nodiscard]] std::vector<Visit> visits_of_other(const Overlaying& o);
   /// The largest difference of the two methods' pictures.

@@ -39,6 +39,15 @@ std::string change_key(ViewState state) {
   return to_json(state).dump();
 }
 
+nlohmann::json report_of(const DepthBins& bins, const std::optional<Inspection>& picked) {
+  std::uint32_t longest = 0;
+  for (const BinRanks& ranks : bins.bins) longest = std::max(longest, ranks.length());
+  nlohmann::json json{{"count", bins.bins.size()}, {"longest", longest}, {"lights", bins.lights}};
+  const auto bin = picked ? bins.bin_at(picked->pixel) : std::nullopt;
+  if (bin) json["picked"] = {{"bin", *bin}, {"length", bins.bins[*bin].length()}};
+  return json;
+}
+
 glm::uvec2 part_of(glm::uvec2 size, double part) {
   return glm::max(glm::uvec2(1), glm::uvec2(glm::dvec2(size) * part + 0.5));
 }
@@ -310,6 +319,12 @@ nlohmann::json Viewer::report() const {
   if (shown_.first.legend.overlay == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;
   for (const OtherList& list : others_)
     json["others"][list.method] = {{"lights", list.lights}, {"reaching", list.reaching}, {"refused", list.refused}};
+  if (shown_.first.legend.overlay != Overlay::none)
+    json["legend"] = {{"mean", shown_.first.legend.mean},
+                      {"max", shown_.first.legend.max},
+                      {"cells", shown_.first.legend.cells},
+                      {"refused", shown_.first.legend.refused}};
+  if (shown_.bins) json["bins"] = report_of(*shown_.bins, shown_.inspection);
   if (!shown_.inspection) return json;
   const Inspection& found = *shown_.inspection;
   // A test that drops a light which reaches the cell would lose it.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/depth_bins.h"
 #include "view/light_marks.h"
 #include "view/viewer.h"
 
@@ -128,7 +129,8 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   if (shown_.number != 0 && state_.decal_boxes) draw_decal_boxes(shown_, picture_);
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);
-  legend_window(shown_, picture_);
+  legend_window(shown_, picture_, shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_));
+  if (shown_.number != 0) draw_depth_bins(shown_, picture_, scale_);
   if (state_.help) help_window(area_, scale_);
   Widgets widgets(places_);
   InspectorFrame inspector{

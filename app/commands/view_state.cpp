@@ -16,11 +16,12 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<std::string_view, 10> OVERLAYS{"none",       "heat",       "cells",      "depth-range",
-                                                    "overflow",   "missed",     "difference", "shadow-atlas",
-                                                    "shadow-age", "shadow-size"};
+constexpr std::array<std::string_view, 11> OVERLAYS{"none",       "heat",        "cells",      "depth-range",
+                                                    "overflow",   "missed",      "difference", "shadow-atlas",
+                                                    "shadow-age", "shadow-size", "slice"};
 constexpr std::array<std::string_view, 3> PALETTES{"rainbow", "blue-yellow", "grey"};
 constexpr std::array<std::string_view, 3> LIGHT_MARKS{"none", "cell", "all"};
+constexpr std::array<std::string_view, 3> SHADOW_SHAPES{"none", "bound", "mesh"};
 
 void check_projection(const std::string& name) {
   if (const std::string wrong = one_of(name, projection_names()); !wrong.empty())
@@ -32,6 +33,7 @@ void check_projection(const std::string& name) {
 std::span<const std::string_view> overlay_names() { return OVERLAYS; }
 std::span<const std::string_view> palette_names() { return PALETTES; }
 std::span<const std::string_view> light_mark_names() { return LIGHT_MARKS; }
+std::span<const std::string_view> shadow_shape_names() { return SHADOW_SHAPES; }
 
 void add_state_option(CLI::App& command, ViewState& state) {
   command

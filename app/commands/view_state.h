@@ -27,9 +27,10 @@ enum class Overlay : std::uint8_t {
   shadow_atlas,  ///< the shadow maps of all lights, or of the light that is looked at; where lights cast shadows
   shadow_age,    ///< frames since the oldest map that a pixel looks up was drawn; where lights cast shadows
   shadow_size,   ///< texels a side of the smallest of them
+  slice,         ///< lights that a point of each pixel's ray would walk, at one depth
 };
 /// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", "shadow-atlas", "shadow-age",
-/// "shadow-size", in the order of Overlay.
+/// "shadow-size", "slice", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
 
 /// Whether an overlay shows shadow maps: without a light that casts a shadow there is nothing to lay over.
@@ -46,6 +47,11 @@ enum class Palette : std::uint8_t { rainbow, blue_yellow, grey };
 enum class LightMarks : std::uint8_t { none, cell, all };
 /// "none", "cell", "all", in the order of LightMarks.
 [[nodiscard]] std::span<const std::string_view> light_mark_names();
+
+/// What a light's shadow map says of how far it reaches, drawn around the light.
+enum class ShadowShape : std::uint8_t { none, bound, mesh };
+/// "none", "bound", "mesh", in the order of ShadowShape.
+[[nodiscard]] std::span<const std::string_view> shadow_shape_names();
 
 /// A light of the frame (the scene's, then the generated ones) that is another than the request makes it.
 struct LightEdit {
@@ -73,10 +79,16 @@ struct ViewState {
   Overlay overlay = Overlay::none;
   Palette palette = Palette::rainbow;
   LightMarks light_marks = LightMarks::none;
-  bool decal_boxes = false;            ///< outlines of all decals
-  bool list_lengths = false;           ///< how long lists are is counted with every picture
-  std::optional<glm::uvec2> picked;    ///< pixel that is looked into, of the size asked for
-  std::optional<std::uint32_t> light;  ///< that is looked at: its marks stand out
+  LightMarks proxies = LightMarks::none;         ///< of which lights the meshes are drawn that a method rasterises
+  ShadowShape shadow_shape = ShadowShape::none;  ///< of the light that is looked at
+  float slice_m = 5.0F;                          ///< depth of Overlay::slice
+  bool depth_bins = false;                       ///< a strip of a method's bins of depth
+  bool probe_boxes = false;                      ///< outlines of all reflection probes
+  bool world_cells = false;                      ///< of a method of the world, those around the picked point
+  bool decal_boxes = false;                      ///< outlines of all decals
+  bool list_lengths = false;                     ///< how long lists are is counted with every picture
+  std::optional<glm::uvec2> picked;              ///< pixel that is looked into, of the size asked for
+  std::optional<std::uint32_t> light;            ///< that is looked at: its marks stand out
   std::optional<Against> against;
   bool panels = true;
   bool help = false;

@@ -32,6 +32,7 @@ class FrameData {
   [[nodiscard]] std::span<const shared::Light> host_lights() const {
     return std::span(host_lights_).first(frame_of(0).light_count);
   }
+  [[nodiscard]] const shared::Frame& host_frame() const { return frame_of(0); }
   /// m, of the views' eyes from the origin.
   [[nodiscard]] float farthest_eye_m() const;
   /// What was made ahead, for plans that read it (INPUT_STILL): at once, of no frame.
