@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #include "box.glsl"
 
 layout(push_constant) uniform Push { mat4 clip_from_world; };
@@ -12,7 +11,7 @@ layout(location = 1) flat out vec3 normal;
 layout(location = 2) flat out uint material;
 
 void main() {
-  const Box box = boxes[gl_InstanceIndex];
+  const Box box = box_of(uint(gl_InstanceIndex));
   position = box_position(box, uint(gl_VertexIndex));
   normal = box_normal(uint(gl_VertexIndex));
   material = box.material;

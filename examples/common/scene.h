@@ -10,14 +10,9 @@
 #include <string>
 #include <vector>
 
-/// An instance of 36 vertices, drawn without vertex buffers (shaders/box.glsl).
-struct Box {
-  glm::vec3 center;
-  std::uint32_t material;
-  glm::vec3 half_extent;
-  std::uint32_t reserved;
-};
-[[nodiscard]] std::vector<Box> make_boxes();
+/// Instances of 36 vertices, which the vertex shader makes without buffers (shaders/box.glsl).
+constexpr std::uint32_t BOXES = 65;
+constexpr std::uint32_t BOX_VERTICES = 36;
 
 /// The examples' own light record (shaders/lighting.glsl). World space, metres, radians.
 struct HostLight {
@@ -31,22 +26,16 @@ struct HostLight {
 [[nodiscard]] std::vector<HostLight> make_lights(std::uint32_t count, std::uint32_t frame);
 
 [[nodiscard]] glm::dmat4 view_from_world();
-/// What lies in a window, whose edges are those at 1 m ahead. Depth is 1 at 0.1 m and 0 infinitely far; y points down.
+/// What lies in a window, whose edges are those at 1 m ahead. Depth is 1 at 0.1 m and 0 at 100 m; y points down.
 [[nodiscard]] glm::dmat4 reversed_projection(double left, double right, double bottom, double top);
 
 /// Red, green and blue, linear; and how many lights the pixel's shader walked.
 using Pixels = std::span<const glm::vec4>;
-
 /// Prints how far the pictures differ, and how many lights were walked. False where a colour differs by more than
-/// `tolerance`, where the picture is dark, or where more than half of the lights were walked after all.
-[[nodiscard]] bool compare(Pixels culled, Pixels brute_force, float tolerance);
+/// 0.0001, where the picture is dark, or where more than half of the lights were walked after all.
+/// `file`: a PPM of the culled picture, unless empty.
+[[nodiscard]] bool compare(Pixels culled, Pixels brute_force, const std::string& file, std::uint32_t width);
 
-struct Options {
-  std::string ppm;        ///< a file to write, or none
-  bool validate = false;  ///< with the validation layer: every message is an error
-};
-/// Encodes to sRGB and writes the file that the options name, if they do.
-void write_picture(const Options& options, std::uint32_t width, Pixels pixels);
-
-/// Reads the options, calls `run`, prints what it throws. Exit code 0: it returned true; 77: LacksFeature.
-int run_example(int argc, char** argv, bool (*run)(const Options& options));
+/// Calls `run` with the file for the picture, if the command line names one, and prints what it throws. Returns 0 if
+/// `run` returned true, 77 if the device lacks a feature, else 1.
+int run_example(int argc, char** argv, bool (*run)(const std::string& file));

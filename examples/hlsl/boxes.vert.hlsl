@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 struct Box {
   float3 center;
-  uint material;
   float3 half_extent;
-  uint reserved;
+  uint material;
 };
-[[vk::binding(0, 0)]] StructuredBuffer<Box> boxes;
 [[vk::push_constant]] cbuffer Push { row_major float4x4 clip_from_world; };  // rows are the columns of GLSL
 
 struct Surface {
@@ -20,8 +18,20 @@ static const float2 QUAD[6] = {float2(-1, -1), float2(1, -1), float2(1, 1), floa
 static const float3 ALBEDOS[5] = {float3(0.7, 0.7, 0.7), float3(0.9, 0.5, 0.4), float3(0.4, 0.8, 0.5),
                                   float3(0.5, 0.6, 0.9), float3(0.9, 0.9, 0.9)};
 
+Box box_of(uint instance) {
+  Box box;
+  const uint x = (instance - 1) % 8;
+  const uint z = (instance - 1) / 8;
+  const float height = 0.3 + 0.35 * float((x * 5 + z * 3) % 7);
+  const float width = 0.35 + 0.05 * float((x + 2 * z) % 4);
+  box.center = instance == 0 ? float3(0, -0.5, 0) : float3(3.0 * float(x) - 10.5, height, 3.0 * float(z) - 10.5);
+  box.half_extent = instance == 0 ? float3(14, 0.5, 14) : float3(width, height, width);
+  box.material = instance == 0 ? 0 : 1 + (x + z) % 4;
+  return box;
+}
+
 Surface main(uint vertex : SV_VertexID, uint instance : SV_InstanceID) {
-  const Box box = boxes[instance];
+  const Box box = box_of(instance);
   const uint axis = vertex / 12;
   float3 normal = float3(0, 0, 0);
   normal[axis] = (vertex / 6) % 2 == 0 ? -1.0 : 1.0;
