@@ -20,7 +20,7 @@ constexpr ImU32 HOVERED = IM_COL32(255, 220, 60, 255);
 /// The strip's place, and what is drawn in it.
 struct Strip {
   const DepthBins& bins;
-  std::size_t used;
+  std::size_t used = 1;
   ImVec2 min, max;
 
   [[nodiscard]] float x_of(std::size_t bin) const {
@@ -66,7 +66,8 @@ void draw_bin(const Strip& strip, std::uint32_t bin, ImU32 color, ImDrawList& dr
 std::optional<std::uint32_t> hovered_bin(const Shown& shown, const ScreenRect& picture) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const glm::vec2 place = (glm::vec2(mouse.x, mouse.y) - glm::vec2(picture.min)) / glm::vec2(picture.size());
-  if (!(place.x >= 0.0F && place.y >= 0.0F && place.x < 1.0F && place.y < 1.0F)) return std::nullopt;
+  const bool inside = place.x >= 0.0F && place.y >= 0.0F && place.x < 1.0F && place.y < 1.0F;
+  if (!inside) return std::nullopt;
   return shown.bins->bin_at(glm::uvec2(place * glm::vec2(shown.view.width(), shown.view.height())));
 }
 

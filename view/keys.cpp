@@ -14,7 +14,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<KeyHelp, 22> HELP{{
+constexpr std::array<KeyHelp, 24> HELP{{
     {"H, F1", "Shows and hides this help."},
     {"Tab", "Shows and hides the panels."},
     {"click", "Looks into a pixel: its cell and the lights there."},
@@ -30,6 +30,8 @@ constexpr std::array<KeyHelp, 22> HELP{{
     {"3, 4", "The slice of clusters nearer, farther."},
     {"Z", "Shows bins of depth as a strip."},
     {"L", "Shows lights: none, those of the cell, all."},
+    {"X", "Shows the meshes that a method rasterises: none, of the cell's lights, of all."},
+    {"C", "Shows what the light's shadow map bounds: nothing, by direction, its mesh."},
     {"M, Shift+M", "The next method, the one before."},
     {"G", "The next shading path."},
     {"B", "A against B: the picture right of a line by a second method."},
@@ -88,6 +90,8 @@ void apply_letter(std::string_view key, int by, ViewState& state, const Shown& s
   if (key == "g") state.request.path = next_name(state.request.path, path_names(), by);
   if (key == "b") state.against = state.against ? std::nullopt : std::optional(Against());
   if (key == "v") wishes.prove = true;
+  if (key == "x") next_word(state.proxies, light_mark_names().size(), by);
+  if (key == "c") next_word(state.shadow_shape, shadow_shape_names().size(), by);
   if (key == "z") state.depth_bins = !state.depth_bins;
   if (key == "3") move_slice(state, 1.0F / 1.1F);
   if (key == "4") move_slice(state, 1.1F);

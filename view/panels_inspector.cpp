@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "view/panels.h"
+#include "view/shape_lines.h"
 
 namespace lamp::app {
 namespace {
@@ -114,6 +115,7 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
   draw_lights(found, state, widgets);
   Widgets::note("Tests see the cell's pixels; the method's own cell may be larger.");
   edit_light(shown, state, widgets);
+  shadow_of_light(shown, state, widgets);
 }
 
 }  // namespace

@@ -138,6 +138,18 @@ Overlaid make_shadow_overlay(Palette palette, const AtlasSeen& seen) {
   return made;
 }
 
+std::vector<std::uint32_t> picture_of_square(Palette palette, const ShadowMap& map, std::span<const float> texels,
+                                             std::uint32_t side) {
+  std::vector<std::uint32_t> picture;
+  picture.reserve(std::size_t{side} * side);
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const std::size_t row = (2 * y + 1) * map.side / (2 * side);
+      picture.push_back(color_of(palette, map, texels[(2 * x + 1) * map.side / (2 * side) + row * map.side]));
+    }
+  return picture;
+}
+
 Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst, double scale_max) {
   Overlaid made = heat_over(palette, worst, scale_max, [](std::uint32_t word) -> std::optional<glm::u8vec3> {
     if (word == gpu::WITHOUT_SHADOW) return WITHOUT_COLOR;

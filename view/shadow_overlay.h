@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lamplight/shared/shadow.h"
 #include "view/overlay.h"
@@ -22,6 +23,10 @@ struct AtlasSeen {
 /// The atlas, or the light's squares beside each other, as large as the picture has room for. Near is bright, nothing
 /// drawn is black. The legend's `cells` are the lights with a map, `max` texels a side: of the atlas, or of the square.
 [[nodiscard]] Overlaid make_shadow_overlay(Palette palette, const AtlasSeen& seen);
+
+/// One square's texels as a picture of `side` pixels: of the texels that fall on one, the one in their middle.
+[[nodiscard]] std::vector<std::uint32_t> picture_of_square(Palette palette, const shared::ShadowMap& map,
+                                                           std::span<const float> texels, std::uint32_t side);
 
 /// Of Overlay::shadow_age and Overlay::shadow_size, what `shadow_heat` says of each pixel. The legend's `cells` are
 /// pixels with a light that has no shadow, or whose shadow waits.

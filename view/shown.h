@@ -14,6 +14,7 @@
 #include "view/frame_lights.h"
 #include "view/inspection.h"
 #include "view/overlay.h"
+#include "view/shapes.h"
 
 namespace lamp::app {
 
@@ -63,6 +64,8 @@ struct Shown {
   std::optional<float> picture_difference;  ///< of the two's pictures, the largest; with Overlay::difference
   std::optional<Inspection> inspection;
   std::optional<DepthBins> bins;
+  std::optional<ShownProxies> proxies;
+  std::optional<ShownShadow> shadow;
 };
 
 }  // namespace lamp::app

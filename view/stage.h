@@ -85,6 +85,10 @@ class Stage {
   void add_findings(const ViewState& state, Lighting& lighting, Shown& shown);
   /// Of what the method made last; nothing if it has none.
   [[nodiscard]] std::optional<DepthBins> read_bins(const Lighting& lighting);
+  [[nodiscard]] ShownProxies read_proxies(const ViewState& state, const Lighting& lighting, const Shown& shown);
+  /// Of the light that is looked at; nothing where none is, or no light casts a shadow.
+  [[nodiscard]] std::optional<ShownShadow> read_shadow(const ViewState& state);
+  [[nodiscard]] std::vector<float> read_square(const shared::ShadowMap& map, std::uint32_t square);
   /// Words of a buffer that a method made.
   [[nodiscard]] std::vector<std::uint32_t> read_words(VkBuffer buffer, std::size_t count);
   /// What the other of the two methods walks.

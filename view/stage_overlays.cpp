@@ -95,9 +95,12 @@ std::optional<DepthBins> Stage::read_bins(const Lighting& lighting) {
 }
 
 void Stage::add_findings(const ViewState& state, Lighting& lighting, Shown& shown) {
-  if (!state.depth_bins) return;
-  visits_ = renderer_->visit_all(lighting);
-  shown.bins = read_bins(lighting);
+  if (state.depth_bins) {
+    visits_ = renderer_->visit_all(lighting);
+    shown.bins = read_bins(lighting);
+  }
+  if (state.proxies != LightMarks::none) shown.proxies = read_proxies(state, lighting, shown);
+  shown.shadow = read_shadow(state);
 }
 
 float Stage::picture_difference(const ViewState& state) {

@@ -324,6 +324,17 @@ nlohmann::json Viewer::report() const {
                       {"max", shown_.first.legend.max},
                       {"cells", shown_.first.legend.cells},
                       {"refused", shown_.first.legend.refused}};
+  if (shown_.proxies)
+    json["proxies_shown"] = {{"drawn", shown_.proxies->drawn},
+                             {"cut", shown_.proxies->cut},
+                             {"inside", shown_.proxies->inside},
+                             {"shapes", shown_.proxies->shapes.size()},
+                             {"refused", shown_.proxies->refused}};
+  if (shown_.shadow)
+    json["shadow_of_light"] = {{"squares", shown_.shadow->squares.size()},
+                               {"side", shown_.shadow->map.side},
+                               {"age", shown_.shadow->age},
+                               {"corners", shown_.shadow->shape.corners.size()}};
   if (shown_.bins) json["bins"] = report_of(*shown_.bins, shown_.inspection);
   if (!shown_.inspection) return json;
   const Inspection& found = *shown_.inspection;

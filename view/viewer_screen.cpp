@@ -9,6 +9,7 @@
 
 #include "view/depth_bins.h"
 #include "view/light_marks.h"
+#include "view/shape_lines.h"
 #include "view/viewer.h"
 
 namespace lamp::app {
@@ -126,6 +127,7 @@ void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
 
 void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   if (shown_.number != 0) draw_light_marks(state_.light_marks, shown_, picture_);
+  if (shown_.number != 0) draw_light_shapes(shown_, picture_);
   if (shown_.number != 0 && state_.decal_boxes) draw_decal_boxes(shown_, picture_);
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);

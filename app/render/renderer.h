@@ -90,6 +90,12 @@ class Renderer {
   [[nodiscard]] const ProbeSet& probes() const { return probes_ == nullptr ? no_probes_ : *probes_; }
   /// Of each light, as far as a method asked for them.
   [[nodiscard]] vulkan::Resource light_meshes() const;
+  /// Makes them for the frame that was drawn, whoever asked for them.
+  void make_meshes() {
+    if (!shadows_) return;
+    shadows_->need_meshes();
+    also([this](vulkan::Recorder& recorder) { shadows_->record_meshes(recorder); });
+  }
   /// What shading binds for them.
   [[nodiscard]] ShadowBound shadow_bound() const { return shadows_ ? shadows_->bound() : no_shadows_.bound(); }
 
