@@ -61,9 +61,8 @@ bool compare(Pixels culled, Pixels brute_force, const std::string& file, std::ui
   glm::dvec4 mean_of_all(0.0);
   for (std::size_t i = 0; i < culled.size(); ++i) {
     const glm::vec3 d = glm::abs(glm::vec3(culled[i] - brute_force[i]));
-    const float largest = std::max({d.x, d.y, d.z});
-    difference = std::max(difference, largest);
-    same = same && largest <= 1e-4F;  // which what is not a number is not, either
+    difference = std::max({difference, d.x, d.y, d.z});
+    same = same && glm::all(glm::lessThanEqual(d, glm::vec3(1e-4F)));  // fails for what is not a number, too
     mean += glm::dvec4(culled[i]) / static_cast<double>(culled.size());
     mean_of_all += glm::dvec4(brute_force[i]) / static_cast<double>(culled.size());
   }
