@@ -214,10 +214,6 @@ void begin_rendering(const Commands& commands, const Targets& targets) {
     color.imageView = *targets.color->view;
     info.setColorAttachments(color);
   }
-  if (targets.resolved != nullptr)
-    color.setResolveMode(vk::ResolveModeFlagBits::eAverage)
-        .setResolveImageView(*targets.resolved->view)
-        .setResolveImageLayout(LAYOUT);
   commands.beginRendering(info);
   commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1});
   commands.setScissor(0, vk::Rect2D{.extent = size});

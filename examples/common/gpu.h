@@ -60,7 +60,6 @@ struct Pipeline {
 struct Targets {
   const Image& depth;
   const Image* color = nullptr;
-  const Image* resolved = nullptr;  ///< of more than one sample: what the colour is averaged into
   vk::AttachmentLoadOp depth_load = vk::AttachmentLoadOp::eClear;
   float clear_depth = 0.0F;
   std::uint32_t view_mask = 0;

@@ -51,6 +51,15 @@ glm::dmat4 standard_projection(double aspect) {
   return m;
 }
 
+/// Averages the samples.
+void resolve(const Commands& commands, const Image& from, const Image& to) {
+  barrier(commands);
+  constexpr VkImageSubresourceLayers COLORS{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  const VkImageResolve all{.srcSubresource = COLORS, .dstSubresource = COLORS, .extent = {SIZE.width, SIZE.height, 1}};
+  constexpr VkImageLayout LAYOUT = VK_IMAGE_LAYOUT_GENERAL;
+  vkCmdResolveImage(*commands, *from.handle, LAYOUT, *to.handle, LAYOUT, 1, &all);
+}
+
 bool run(const std::string& file) {
   Gpu gpu;
   if (volkInitialize() != VK_SUCCESS) throw std::runtime_error("volk finds no Vulkan loader");
@@ -122,12 +131,11 @@ bool run(const std::string& file) {
                                          .depth_layout = VK_IMAGE_LAYOUT_GENERAL}));
       // }
       for (const auto& [pipeline, to] : {std::pair(&forward, &culled), std::pair(&brute_force, &brute)}) {
-        begin_rendering(
-            commands,
-            {.depth = depth, .color = &color, .resolved = &resolved, .depth_load = vk::AttachmentLoadOp::eLoad});
+        begin_rendering(commands, {.depth = depth, .color = &color, .depth_load = vk::AttachmentLoadOp::eLoad});
         bind(commands, *pipeline, push);
         vkCmdDraw(*commands, BOX_VERTICES, BOXES, 0, 0);
         vkCmdEndRendering(*commands);
+        resolve(commands, color, resolved);
         read_back(commands, resolved, *to);
       }
     });
