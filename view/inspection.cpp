@@ -157,6 +157,27 @@ std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
   return lights;
 }
 
+/// As shading takes them: smallest first, until their weights sum to 1.
+std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel) {
+  const std::span<const gpu::ProbeData> all = of.renderer.probes().probes();
+  if (all.empty()) return {};
+  const std::vector<std::uint32_t> found = probes_at(of.renderer, of.lighting, pixel);
+  const std::vector<ProbeWeight> weights =
+      probe_weights(of.renderer, of.shaders, glm::vec3(position_of(of, pixel)), found);
+  std::vector<ListedProbe> probes;
+  float left = 1.0F;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const float share = std::min(left, weights[i].weight);
+    left -= share;
+    probes.push_back({.probe = found[i],
+                      .slot = all[found[i]].slot,
+                      .volume = weights[i].volume,
+                      .weight = weights[i].weight,
+                      .share = share});
+  }
+  return probes;
+}
+
 }  // namespace
 
 std::string words_of(const Proof& proof) {
@@ -197,6 +218,7 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.cell_near_m = static_cast<float>(cell.near_m);
   found.cell_far_m = static_cast<float>(cell.far_m);
   found.lights = listed(of, static_cast<std::uint32_t>(number));
+  found.probes = listed_probes(of, static_cast<std::uint32_t>(number));
   const Truth truth = truth_of(of, cell);
   found.proof.pixels = cell.pixels.size();
   add_reasons(of, cell, truth, found.lights);

@@ -44,6 +44,15 @@ struct Proof {
 /// The names of the tests in `passes`.
 [[nodiscard]] std::span<const std::string_view> test_names();
 
+/// A reflection probe whose volume the method lists for the pixel.
+struct ListedProbe {
+  std::uint32_t probe = 0;  ///< its place in the frame's order: smallest first
+  std::uint32_t slot = 0;   ///< its number as the probes were made
+  float volume = 0.0F;      ///< weight by its volume alone
+  float weight = 0.0F;      ///< and by whether its capture sees the surface
+  float share = 0.0F;       ///< of the reflection: what smaller ones leave of the weight
+};
+
 struct Inspection {
   glm::uvec2 pixel{0};  ///< of what was rendered
   bool sky = true;      ///< then the rest is empty
@@ -55,6 +64,7 @@ struct Inspection {
   float cell_far_m = 0.0F;
   std::vector<ListedLight> lights;  ///< ascending
   Proof proof;                      ///< of all pixels of the cell
+  std::vector<ListedProbe> probes;  ///< smallest first; the surroundings have the rest of the reflection
 };
 
 /// What an inspection looks at: the renderer's last frame, lit by `lighting`.

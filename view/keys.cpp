@@ -14,7 +14,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<KeyHelp, 24> HELP{{
+constexpr std::array<KeyHelp, 26> HELP{{
     {"H, F1", "Shows and hides this help."},
     {"Tab", "Shows and hides the panels."},
     {"click", "Looks into a pixel: its cell and the lights there."},
@@ -32,6 +32,8 @@ constexpr std::array<KeyHelp, 24> HELP{{
     {"L", "Shows lights: none, those of the cell, all."},
     {"X", "Shows the meshes that a method rasterises: none, of the cell's lights, of all."},
     {"C", "Shows what the light's shadow map bounds: nothing, by direction, its mesh."},
+    {"Y", "Shows cells of the world around the picked point."},
+    {"U", "Shows the volumes of reflection probes."},
     {"M, Shift+M", "The next method, the one before."},
     {"G", "The next shading path."},
     {"B", "A against B: the picture right of a line by a second method."},
@@ -92,6 +94,8 @@ void apply_letter(std::string_view key, int by, ViewState& state, const Shown& s
   if (key == "v") wishes.prove = true;
   if (key == "x") next_word(state.proxies, light_mark_names().size(), by);
   if (key == "c") next_word(state.shadow_shape, shadow_shape_names().size(), by);
+  if (key == "y") state.world_cells = !state.world_cells;
+  if (key == "u") state.probe_boxes = !state.probe_boxes;
   if (key == "z") state.depth_bins = !state.depth_bins;
   if (key == "3") move_slice(state, 1.0F / 1.1F);
   if (key == "4") move_slice(state, 1.1F);

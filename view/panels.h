@@ -63,6 +63,7 @@ void camera_panel(PanelFrame& p);
 void lights_panel(PanelFrame& p);
 void method_panel(PanelFrame& p);
 void shadow_panel(PanelFrame& p);
+void world_panel(PanelFrame& p);
 void against_panel(PanelFrame& p);
 void look_panel(PanelFrame& p);
 void times_panel(PanelFrame& p);

@@ -9,6 +9,7 @@
 
 #include "view/panels.h"
 #include "view/shape_lines.h"
+#include "view/world_boxes.h"
 
 namespace lamp::app {
 namespace {
@@ -112,6 +113,8 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
                                    found.cell_pixels, found.cell_near_m, found.cell_far_m));
   Widgets::row("lights", fmt::format("{} listed, {} reach the pixel", found.lights.size(), reaching));
   Widgets::row("the cell", words_of(found.proof));
+  world_of_point(shown);
+  probes_of_pixel(shown);
   draw_lights(found, state, widgets);
   Widgets::note("Tests see the cell's pixels; the method's own cell may be larger.");
   edit_light(shown, state, widgets);

@@ -13,14 +13,6 @@
 namespace lamp::app {
 namespace {
 
-std::string words_of(const ShownProxies& proxies) {
-  if (!proxies.refused.empty()) return proxies.refused;
-  return fmt::format(
-      "{} lights are drawn, {} of them cut to their shadow maps (green), {} around the eye (orange); {} are "
-      "shown",
-      proxies.drawn, proxies.cut, proxies.inside, proxies.shapes.size());
-}
-
 constexpr const char* SCENE_CAMERA = "camera";
 constexpr const char* FLIGHT = "flight";
 constexpr const char* FREE = "free";
@@ -116,11 +108,6 @@ void lights_panel(PanelFrame& p) {
   p.widgets.choose_word(
       "show lights", p.state.light_marks, light_mark_names(),
       "Draws where lights are and how far they reach: none, those of the cell that you look into, or all.");
-  p.widgets.choose_word(
-      "proxies", p.state.proxies, light_mark_names(),
-      "Draws the meshes that a method rasterises in place of lights: none, those of the cell that you "
-      "look into, or all.");
-  if (p.shown.proxies) Widgets::note(words_of(*p.shown.proxies));
   p.widgets.check("decal boxes", p.state.decal_boxes, "Draws the outlines of all decals.",
                   p.shown.decals.empty() ? "there are no decals" : "");
   if (!p.state.edits.empty() && p.widgets.button(fmt::format("undo the changes of {} lights", p.state.edits.size()),

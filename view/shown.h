@@ -15,6 +15,7 @@
 #include "view/inspection.h"
 #include "view/overlay.h"
 #include "view/shapes.h"
+#include "view/world_lists.h"
 
 namespace lamp::app {
 
@@ -66,6 +67,8 @@ struct Shown {
   std::optional<DepthBins> bins;
   std::optional<ShownProxies> proxies;
   std::optional<ShownShadow> shadow;
+  std::optional<ShownWorld> world;
+  std::vector<shared::OrientedBox> probe_volumes;  ///< in the frame's order
 };
 
 }  // namespace lamp::app

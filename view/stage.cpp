@@ -23,15 +23,11 @@ namespace {
 
 constexpr std::size_t MOST_LIGHTINGS = 8;
 
-std::string shadows_key(const Request& r) {
-  return fmt::format("{} {} {} {} {}", r.shadows, r.point_shadows, r.shadow_lights, r.shadow_budget, r.atlas);
-}
-
 std::string key_of(const LightingInfo& info, bool grow) {
-  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
+  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
                      info.width, info.height, info.light_capacity, static_cast<int>(info.path),
                      static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed,
-                     info.shadows ? static_cast<int>(*info.shadows) : -1, grow);
+                     info.shadows ? static_cast<int>(*info.shadows) : -1, info.probes, grow);
 }
 
 bool can_be_laid_over(const ViewState& state) {
@@ -46,47 +42,6 @@ Stage::Stage(Context& context, const ShaderLibrary& shaders, const std::string& 
     : context_(context), shaders_(shaders), chooser_(context, shaders, calibration) {}
 
 Stage::~Stage() = default;
-
-void Stage::need_scene(const std::string& name) {
-  if (scene_ && scene_->name == name) return;
-  auto scene = std::make_unique<KeptScene>();
-  scene->name = name;
-  scene->scene = load_scene(name);
-  scene->gpu = std::make_unique<GpuScene>(context_, scene->scene);
-  display_.reset();
-  renderer_.reset();
-  lightings_.clear();
-  lights_.reset();
-  auto_key_.clear();
-  renderer_key_.clear();
-  scene_ = std::move(scene);
-  made_anew_ = true;
-}
-
-void Stage::need_frame(const ViewState& state) {
-  need_scene(state.request.scene);
-  const View view = requested_view(state.request, scene_->scene);
-  need_lights(state);
-  const auto lights = static_cast<std::uint32_t>(lights_->lights->size());
-  const auto decals = static_cast<std::uint32_t>(lights_->decals.size());
-  const HostDepth depth = parse_depth(state.request.depth, state.request.depth_samples);
-  const std::optional<ShadowSettings> shadows = requested_shadows(state.request);
-  std::string key = fmt::format("{}x{} {} {} {} {} {}", view.width(), view.height(), lights, decals, depth.samples,
-                                depth.reversed, shadows_key(state.request));
-  if (key != renderer_key_) {
-    display_.reset();
-    renderer_.reset();
-    renderer_key_.clear();
-    renderer_ = std::make_unique<Renderer>(context_, shaders_, *scene_->gpu, view.width(), view.height(), lights,
-                                           decals, depth);
-    if (shadows) renderer_->cast_shadows(*shadows);
-    display_ = std::make_unique<Display>(context_.device(), shaders_, view.width(), view.height());
-    renderer_key_ = std::move(key);
-    lights_->brought = false;
-    made_anew_ = true;
-  }
-  move_lights(view);
-}
 
 MethodChoice Stage::choice(const Request& request, const std::string& method, const std::vector<std::string>& options) {
   if (!is_auto(method)) return {.method = &parse_method(method), .options = options};
@@ -109,13 +64,15 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
                     .options = take(resolve_options(*chosen.method, chosen.options)),
                     .width = renderer_->view().width(),
                     .height = renderer_->view().height(),
-                    .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size()),
+                    .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size() +
+                                                                 renderer_->probes().probes().size()),
                     .path = parse_path(request.path),
                     .brdf = parse_brdf(request.brdf),
                     .depth = renderer_->depth(),
                     .transparency = !scene_->gpu->blended().empty(),
                     .captured = scene_->scene.captured.has_value(),
-                    .decals = !lights_->decals.empty()};
+                    .decals = !lights_->decals.empty(),
+                    .probes = renderer_->probes().kind()};
   if (const Shadows* shadows = renderer_->shadows()) info.shadows = shadows->settings().filter;
   std::string key = key_of(info, request.grow);
   const auto found = std::ranges::find(lightings_, key, &KeptLighting::key);
@@ -137,11 +94,14 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
                                       .view = renderer_->view(),
                                       .lights = lights_->lights->size(),
                                       .frames = 1,
-                                      .decals = lights_->decals.size()},
+                                      .decals = lights_->decals.size(),
+                                      .probes = renderer_->probes().probes().size()},
                                      chosen.lighting, std::move(rendered)),
                  .by_auto = chosen.by_auto,
                  .legend = {}};
   made.stats.shadows = shadow_stats(renderer_->shadows());
+  made.stats.mirror = mirror_stats(renderer_->mirrored());
+  if (probes_ && probes_->captures) made.stats.captures = probes_->captures->counts();
   return made;
 }
 
@@ -195,10 +155,10 @@ Inspected Stage::inspected(Lighting& lighting) {
 Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
   ViewState state = asked;
   made_anew_ = false;
-  need_scene(state.request.scene);
+  need_scene(state.request);
   const Scene& scene = scene_->scene;
   if (!scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
-  need_frame(state);
+  need_frame(state, state.paused ? Captures::all : Captures::some);
   const std::uint32_t width = renderer_->view().width();
   const std::optional<float> exposure = parse_exposure(state.exposure);
   const float divider = state.against ? state.against->divider : 1.0F;
@@ -259,7 +219,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
 }
 
 Stage::Picture Stage::picture(const ViewState& state) {
-  need_frame(state);
+  need_frame(state, Captures::all);
   const Chosen chosen = lighting(state.request, state.request.method, state.request.options);
   if (scene_->scene.captured && state.samples > 1)
     throw Error(fmt::format("samples: got {}, but a captured frame has one sample a pixel", state.samples));
@@ -273,7 +233,7 @@ Stage::Picture Stage::picture(const ViewState& state) {
 }
 
 Scene Stage::capture(const ViewState& state) {
-  need_frame(state);
+  need_frame(state, Captures::all);
   const Scene& scene = scene_->scene;
   std::vector<Light> lights = scene.lights;
   if (scene_->air && lights_->lights->size() > lights.size()) {
@@ -296,9 +256,9 @@ glm::uvec2 Stage::picked_pixel(const ViewState& asked) const {
 
 Lighting& Stage::need_drawn(const ViewState& asked, glm::uvec2 size) {
   ViewState state = asked;
-  need_scene(state.request.scene);
+  need_scene(state.request);
   if (!scene_->scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
-  need_frame(state);
+  need_frame(state, Captures::all);
   Lighting& made = lighting(state.request, state.request.method, state.request.options).lighting;
   static_cast<void>(renderer_->draw(made, [](vulkan::Recorder&) {}));
   return made;

@@ -54,15 +54,24 @@ class Stage {
     Lighting& lighting;
     bool by_auto = false;
   };
-  void need_scene(const std::string& name);
+  struct KeptProbes;
+  /// Of captures that are old, those that are renewed before a frame.
+  enum class Captures : std::uint8_t { some, all };
+  void need_scene(const Request& request);
+  /// Its instances where the request's frame has them, where they move.
+  void move_scene(const Request& request);
+  void make_renderer(const Request& request, const View& view, std::string key);
+  void renew_probes(const ViewState& state, const View& view, Captures which);
   void need_lights(const ViewState& state);
   /// The state's lights at its time, seen from there.
   void move_lights(const View& view);
+  /// The scene's instances where they are without moving, on the CPU alone.
+  void at_rest();
   /// The same lights once more, from the CPU.
   void bring_lights();
   [[nodiscard]] static bool needs_lights_here(const Lighting& lighting);
   /// The renderer with the state's frame in it.
-  void need_frame(const ViewState& state);
+  void need_frame(const ViewState& state, Captures which);
   [[nodiscard]] MethodChoice choice(const Request& request, const std::string& method,
                                     const std::vector<std::string>& options);
   [[nodiscard]] Chosen lighting(const Request& request, const std::string& method,
@@ -90,7 +99,10 @@ class Stage {
   [[nodiscard]] std::optional<ShownShadow> read_shadow(const ViewState& state);
   [[nodiscard]] std::vector<float> read_square(const shared::ShadowMap& map, std::uint32_t square);
   /// Words of a buffer that a method made.
-  [[nodiscard]] std::vector<std::uint32_t> read_words(VkBuffer buffer, std::size_t count);
+  [[nodiscard]] std::vector<std::uint32_t> read_words(VkBuffer buffer, std::size_t count, std::size_t first = 0);
+  /// What the ray of a pixel meets; nothing where it mirrors nothing, or the sky.
+  [[nodiscard]] std::optional<glm::vec3> mirrored_point(glm::uvec2 pixel);
+  [[nodiscard]] ShownWorld read_world(const Lighting& lighting, const Inspection& found);
   /// What the other of the two methods walks.
   [[nodiscard]] std::vector<Visit> visits_of_other(const Overlaying& o);
   /// The largest difference of the two methods' pictures.
@@ -108,6 +120,7 @@ class Stage {
   AutoMethod chooser_;
   std::unique_ptr<KeptScene> scene_;
   std::unique_ptr<KeptLights> lights_;
+  std::unique_ptr<KeptProbes> probes_;  ///< null: there are none
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<Display> display_;
   std::string renderer_key_;

@@ -8,13 +8,16 @@
 #include <vector>
 
 #include "render/light_mover.h"
+#include "render/probe_captures.h"
 #include "view/stage.h"
 
 namespace lamp::app {
 
 struct Stage::KeptScene {
   std::string name;
-  Scene scene;
+  Setup setup;
+  Scene& scene = setup.scene;  ///< of it, its instances where they were moved
+  int moved_to = -1;           ///< frame, of instances that move
   std::optional<OpenAir> air;
   std::unique_ptr<GpuScene> gpu;
 };
@@ -29,6 +32,16 @@ struct Stage::KeptLights {
   std::shared_ptr<const FrameLights> lights;
   bool brought = false;  ///< to the renderer, wherever they were then
   std::unique_ptr<LightMover> mover;
+};
+
+/// Probes and what they show. They stay while a renderer refers to them.
+struct Stage::KeptProbes {
+  std::unique_ptr<ProbeAtlas> no_captures;
+  std::unique_ptr<ProbeSet> flat;
+  std::unique_ptr<ProbeCaptures> captures;
+  std::string seen;  ///< what they were renewed for last
+
+  [[nodiscard]] const ProbeSet& set() const { return captures ? captures->set() : *flat; }
 };
 
 }  // namespace lamp::app

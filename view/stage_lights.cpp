@@ -24,6 +24,7 @@ void Stage::need_lights(const ViewState& state) {
   std::string key = lights_key(request);
   if (!lights_ || lights_->key != key) {
     auto lights = std::make_unique<KeptLights>();
+    at_rest();  // where lights, decals and probes are placed
     const bool generates = request.lights != 0 && (!scene.captured || request.lights_given);
     if (generates && !scene_->air) scene_->air = find_open_air(scene);
     lights->made = requested_moving_lights(request, scene, generates ? &*scene_->air : nullptr);
@@ -47,12 +48,19 @@ void Stage::need_lights(const ViewState& state) {
   lights_->lights = std::make_shared<FrameLights>(lights_->moving, time);
 }
 
+void Stage::at_rest() {
+  if (scene_->setup.at_rest.empty()) return;
+  scene_->scene.instances = scene_->setup.at_rest;
+  scene_->moved_to = -1;
+}
+
 void Stage::bring_lights() { renderer_->set_frame(View(renderer_->view()), lights_->lights->all(), lights_->decals); }
 
 /// The renderer's lights are moved where it has them, from the second frame on; where shadows are drawn on the CPU's
 /// word, all are brought from here.
 void Stage::move_lights(const View& view) {
-  const bool on_gpu = renderer_->shadows() == nullptr && !renderer_->depth().several();
+  const bool on_gpu =
+      renderer_->shadows() == nullptr && renderer_->mirrored() == nullptr && !probes_ && !renderer_->depth().several();
   if (!on_gpu || !lights_->brought) renderer_->set_frame(view, lights_->lights->all(), lights_->decals);
   lights_->brought = true;
   if (!on_gpu) return;

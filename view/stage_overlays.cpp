@@ -63,12 +63,12 @@ Overlaid Stage::slice_overlay(const Overlaying& o) {
                     o.state.slice_m);
 }
 
-std::vector<std::uint32_t> Stage::read_words(VkBuffer buffer, std::size_t count) {
+std::vector<std::uint32_t> Stage::read_words(VkBuffer buffer, std::size_t count, std::size_t first) {
   const vulkan::Buffer read = readback_buffer(context_.device(), "words of a method", count * sizeof(std::uint32_t));
   renderer_->also([&](vulkan::Recorder& recorder) {
     recorder.barrier(
         {copies_from(vulkan::Resource::storage(buffer)), copies_to(vulkan::Resource::storage(read.handle()))});
-    const VkBufferCopy part{.size = count * sizeof(std::uint32_t)};
+    const VkBufferCopy part{.srcOffset = first * sizeof(std::uint32_t), .size = count * sizeof(std::uint32_t)};
     vkCmdCopyBuffer(recorder.commands(), buffer, read.handle(), 1, &part);
     recorder.barrier({host_reads(vulkan::Resource::storage(read.handle()))});
   });
@@ -101,6 +101,9 @@ void Stage::add_findings(const ViewState& state, Lighting& lighting, Shown& show
   }
   if (state.proxies != LightMarks::none) shown.proxies = read_proxies(state, lighting, shown);
   shown.shadow = read_shadow(state);
+  shown.probe_volumes = boxes_of(renderer_->probes().probes());
+  if (state.world_cells && shown.inspection && !shown.inspection->sky)
+    shown.world = read_world(lighting, *shown.inspection);
 }
 
 float Stage::picture_difference(const ViewState& state) {

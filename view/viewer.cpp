@@ -23,11 +23,12 @@ std::string drawing_key(ViewState state) {
   state.panels = false;
   state.help = false;
   state.samples = 1;
-  state.paused = false;
+  if (state.request.probes == 0) state.paused = false;  // where time stands still, all captures are renewed
   state.speed = 0.0F;
   state.resolution = 0.0F;
   state.light_marks = LightMarks::none;
   state.decal_boxes = false;
+  state.probe_boxes = false;
   return to_json(state).dump();
 }
 
@@ -45,6 +46,18 @@ nlohmann::json report_of(const DepthBins& bins, const std::optional<Inspection>&
   nlohmann::json json{{"count", bins.bins.size()}, {"longest", longest}, {"lights", bins.lights}};
   const auto bin = picked ? bins.bin_at(picked->pixel) : std::nullopt;
   if (bin) json["picked"] = {{"bin", *bin}, {"length", bins.bins[*bin].length()}};
+  return json;
+}
+
+nlohmann::json report_of(const ShownWorld& world) {
+  nlohmann::json json{{"refused", world.refused},
+                      {"method", world.method},
+                      {"cells", world.cells.size()},
+                      {"longest", world.longest},
+                      {"points", nlohmann::json::array()}};
+  for (const PointList& point : world.points)
+    json["points"].push_back(
+        {{"what", point.what}, {"walked", point.walked}, {"reaching", point.reaching}, {"missed", point.missed}});
   return json;
 }
 
@@ -335,6 +348,8 @@ nlohmann::json Viewer::report() const {
                                {"side", shown_.shadow->map.side},
                                {"age", shown_.shadow->age},
                                {"corners", shown_.shadow->shape.corners.size()}};
+  json["probes_shown"] = shown_.probe_volumes.size();
+  if (shown_.world) json["world"] = report_of(*shown_.world);
   if (shown_.bins) json["bins"] = report_of(*shown_.bins, shown_.inspection);
   if (!shown_.inspection) return json;
   const Inspection& found = *shown_.inspection;
@@ -349,6 +364,8 @@ nlohmann::json Viewer::report() const {
                         {"lost_by_tests", lost},
                         {"missed", found.proof.missed},
                         {"pairs", found.proof.pairs}};
+  for (const ListedProbe& probe : found.probes)
+    json["inspection"]["probes"].push_back({{"slot", probe.slot}, {"weight", probe.weight}, {"share", probe.share}});
   return json;
 }
 

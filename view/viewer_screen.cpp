@@ -11,6 +11,7 @@
 #include "view/light_marks.h"
 #include "view/shape_lines.h"
 #include "view/viewer.h"
+#include "view/world_boxes.h"
 
 namespace lamp::app {
 namespace {
@@ -128,6 +129,8 @@ void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
 void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   if (shown_.number != 0) draw_light_marks(state_.light_marks, shown_, picture_);
   if (shown_.number != 0) draw_light_shapes(shown_, picture_);
+  if (shown_.number != 0) draw_world_cells(shown_, picture_);
+  if (shown_.number != 0) draw_probe_boxes(shown_, picture_);
   if (shown_.number != 0 && state_.decal_boxes) draw_decal_boxes(shown_, picture_);
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);
@@ -159,7 +162,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                  .progress = progress};
     if (widgets.button("help", "All keys. H does the same.")) state_.help = !state_.help;
     for (void (*panel)(PanelFrame&) : {proof_panel, scene_panel, camera_panel, lights_panel, method_panel, shadow_panel,
-                                       against_panel, look_panel, times_panel, save_panel, bookmark_panel})
+                                       world_panel, against_panel, look_panel, times_panel, save_panel, bookmark_panel})
       panel(p);
   }
   ImGui::End();

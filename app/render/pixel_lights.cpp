@@ -3,6 +3,7 @@
 #include "render/pixel_lights.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "gpu/check.h"
@@ -59,25 +60,48 @@ std::vector<Answer> for_lights(Renderer& renderer, const ShaderLibrary& shaders,
   return found;
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel) {
-  const EntityRange lights = renderer.entities().lights;
-  const std::uint32_t words = (lights.count() + 31) / 32;
+std::vector<std::uint32_t> entities_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel,
+                                       const EntityRange& range) {
+  const std::uint32_t words = (range.count() + 31) / 32;
   const vulkan::Buffer marks = readback_buffer(renderer.device(), "marks of a pixel", words * sizeof(std::uint32_t));
   renderer.run({.shader = "visit_marks",
                 .lighting = &lighting,
                 .storage = {{2, vulkan::Resource::storage(marks.handle()),
                              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                              /*zeroed=*/true}},
-                .push = {pixel, pixel + 1, lights.first, lights.end, lights.end}});
+                .push = {pixel, pixel + 1, range.first, range.end, range.end}});
   renderer.forget(marks);
   std::vector<std::uint32_t> found(words);
   if (words != 0) std::memcpy(found.data(), marks.mapped().data(), words * sizeof(std::uint32_t));
   std::vector<std::uint32_t> ids;
-  for (std::uint32_t bit = 0; bit < lights.count(); ++bit)
-    if ((found[bit / 32] >> bit % 32 & 1U) != 0) ids.push_back(lights.first + bit);
+  for (std::uint32_t bit = 0; bit < range.count(); ++bit)
+    if ((found[bit / 32] >> bit % 32 & 1U) != 0) ids.push_back(range.first + bit);
   return ids;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel) {
+  return entities_at(renderer, lighting, pixel, renderer.entities().lights);
+}
+
+std::vector<std::uint32_t> probes_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel) {
+  const EntityRange probes = renderer.entities().probes;
+  std::vector<std::uint32_t> found = entities_at(renderer, lighting, pixel, probes);
+  for (std::uint32_t& id : found) id -= probes.first;
+  return found;
+}
+
+std::vector<ProbeWeight> probe_weights(Renderer& renderer, const ShaderLibrary& shaders, const glm::vec3& position,
+                                       std::span<const std::uint32_t> probes) {
+  if (probes.empty()) return {};
+  LightPass pass{.shader = "probe_weights",
+                 .constants = {{CONSTANT_PROBES, renderer.probes().kind()}},
+                 .bound = renderer.probes().bound(),
+                 .push = {std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y),
+                          std::bit_cast<std::uint32_t>(position.z), static_cast<std::uint32_t>(probes.size())},
+                 .answers = probes.size()};
+  return for_lights<ProbeWeight>(renderer, shaders, probes, std::move(pass));
 }
 
 PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene, const LightingInfo& info,

@@ -17,6 +17,17 @@ namespace lamp::app {
 /// The lights that the walk of a pixel of the last frame brings, ascending; none of sky. Culls anew. `pixel`: numbered
 /// row by row.
 [[nodiscard]] std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel);
+/// The same of reflection probes: their places in the frame's order (Renderer::probes).
+[[nodiscard]] std::vector<std::uint32_t> probes_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel);
+
+/// How much of a surface's reflection a probe asks for: by its volume, and with what its capture sees of the surface.
+struct ProbeWeight {
+  float volume = 0.0F;
+  float weight = 0.0F;
+};
+/// By the functions that shading weighs them with.
+[[nodiscard]] std::vector<ProbeWeight> probe_weights(Renderer& renderer, const ShaderLibrary& shaders,
+                                                     const glm::vec3& position, std::span<const std::uint32_t> probes);
 
 struct PixelTerms {
   std::vector<glm::vec3> lights;  ///< radiance towards the eye, of each light asked for

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -67,6 +68,24 @@ void PointWalks::cull() {
   });
   runner_.finish(runner_.records());
   counts_ = runner_.counts();
+}
+
+std::uint32_t PointWalks::word_of(std::string_view buffer) {
+  const std::vector<BufferDesc>& buffers = plan().buffers;
+  const auto found = std::ranges::find(buffers, buffer, &BufferDesc::name);
+  assert(found != buffers.end() && "a buffer of the plan");
+  const VkBuffer from = runner_.buffer(PLAN_BUFFER + static_cast<ResourceId>(found - buffers.begin()));
+  const vulkan::Buffer read = readback_buffer(context_.device(), "a word", sizeof(std::uint32_t));
+  const vulkan::Resource to = vulkan::Resource::storage(read.handle());
+  context_.submit([&](VkCommandBuffer commands) {
+    vulkan::Recorder recorder(context_.device(), commands, tracker_);
+    recorder.barrier({copies_from(vulkan::Resource::storage(from)), copies_to(to)});
+    const VkBufferCopy part{.size = sizeof(std::uint32_t)};
+    vkCmdCopyBuffer(commands, from, read.handle(), 1, &part);
+    recorder.barrier({host_reads(to)});
+  });
+  tracker_.forget(read.handle());
+  return first_values<std::uint32_t>(read, 1).front();
 }
 
 void PointWalks::walk_part(std::span<const glm::vec3> points, PointLights& to) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "gpu/context.h"
@@ -35,6 +36,8 @@ class PointWalks {
   /// Of the last `walk`, with what the plan counted.
   [[nodiscard]] const vulkan::FrameCounts& counts() const { return counts_; }
   [[nodiscard]] const Plan& plan() const { return runner_.plan(); }
+  /// Of the last `walk`, the first word of a buffer of the plan.
+  [[nodiscard]] std::uint32_t word_of(std::string_view buffer);
 
  private:
   [[nodiscard]] vulkan::PlanInputs inputs() const;

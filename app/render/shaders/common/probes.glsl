@@ -6,12 +6,8 @@
 #define LAMP_PROBES
 #include "common/boxes.glsl"
 #include "common/brdf.glsl"
-#include "common/probe_atlas.glsl"
-#include "common/probe_blend.glsl"
+#include "common/probe_weight.glsl"
 #include "lookup/parts/each.glsl"
-
-layout(constant_id = 20) const uint PROBES = PROBES_OFF;
-layout(set = 0, binding = 30, scalar) readonly buffer ProbeBuffer { ProbeData probes[]; };
 
 // What a surface asks of every probe.
 struct ProbeAsker {
@@ -26,16 +22,6 @@ ProbeAsker probe_asker(Surface s, Reflector r) {
   const vec2 split = split_sum(min(abs(r.half_n_eye) * 2.0, 1.0), s.roughness);
   precise const vec3 specular = fma(r.f0, vec3(split.x), vec3(split.y));
   return ProbeAsker(s.position, reflection, s.roughness, specular);
-}
-
-float probe_weight(ProbeData p, vec3 position) {
-  const float weight = probe_volume_weight(p, position);
-  if (PROBES != PROBES_CAPTURED || weight == 0.0) return weight;
-  const vec3 offset = position - p.capture;
-  const float distance_m = length(offset);
-  if (distance_m == 0.0) return weight;
-  precise const float seen = weight * probe_seen(distance_m, probe_distance(p.slot, offset / distance_m));
-  return seen;
 }
 
 void add_probe(inout ProbeSum sum, ProbeAsker asker, ProbeData p) {

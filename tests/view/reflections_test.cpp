@@ -1,0 +1,123 @@
+// Probes, mirrors and things that move: what the window saves is what `lamp render` makes; weights against double
+// precision; lists in the world against those of pixels.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "system/run_program.h"
+#include "temporary_folder.h"
+#include "view/stage.h"
+#include "view/view_test.h"
+
+namespace lamp::app {
+namespace {
+
+std::string bytes_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class Reflections : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Reflections, AreSavedAsLampRendersThem) {
+  const TemporaryFolder folder;
+  const std::string state = (folder.path() / "state.json").string();
+  const std::string saved = (folder.path() / "saved.exr").string();
+  const std::string script = std::string(R"({"set": {"scene": "atrium", "paused": false}})") + "\n" + R"({"set": )" +
+                             GetParam() + "}\n" + R"({"wait": 4}
+{"set": {"paused": true}}
+{"save_state": ")" + state + "\"}\n" +
+                             R"({"save_picture": ")" + saved + "\"}";
+  run_headless(view_context(), small_viewer(), [&](Player& player) { play(player, parse_script(script, "script")); });
+  const std::string rendered = (folder.path() / "rendered.exr").string();
+  const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "--state", state, "-o", rendered});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  EXPECT_FALSE(bytes_of_file(saved).empty());
+  EXPECT_EQ(bytes_of_file(saved), bytes_of_file(rendered));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Reflections,
+                         ::testing::Values(R"({"mirror": 0.6})", R"({"moving": true, "mirror": 0.6})",
+                                           R"({"probes": 4, "probe_budget": 1})",
+                                           R"({"probes": 4, "probes_show": "flat", "decals": 8})",
+                                           R"({"still": 0.5, "moving": true})"));
+
+/// As tests/gpu/probes_test.cpp has it.
+double weight_of(const gpu::ProbeData& p, const glm::dvec3& position) {
+  const glm::dvec3 half(glm::vec3(Vec3(p.volume.half_extents)));
+  const glm::dvec3 from = position - glm::dvec3(glm::vec3(Vec3(p.volume.center)));
+  const auto along = [&](const Vec3& axis) { return glm::dot(glm::dvec3(glm::vec3(axis)), from); };
+  const glm::dvec3 local(along(p.volume.axis_x), along(p.volume.axis_y), along(p.volume.axis_z));
+  const glm::dvec3 rest = half - glm::abs(local);
+  double inside = std::min({rest.x, rest.y, rest.z});
+  if (p.ellipsoid != 0) inside = (1.0 - glm::length(local / half)) * std::min({half.x, half.y, half.z});
+  if (inside <= 0.0) return 0.0;
+  return p.blend > 0.0F ? std::min(inside / p.blend, 1.0) : 1.0;
+}
+
+/// Every probe that weighs at a pixel is there, with the weight that double precision finds.
+TEST(ProbesOfAPixel, WeighWhatTheReferenceSays) {
+  const ShaderLibrary shaders("");
+  Stage stage(view_context(), shaders, "");
+  ViewState state = small_viewer().state;
+  Request& r = state.request;
+  r.scene = "corridor";
+  r.method = "clustered";
+  r.probes = 300;
+  r.probes_show = "flat";
+  const std::vector<gpu::ProbeData> probes = pack(requested_probes(r, load_scene(r.scene)));
+  std::size_t weighing = 0;
+  for (const glm::uvec2 pixel : {glm::uvec2(48, 40), glm::uvec2(10, 30), glm::uvec2(80, 50), glm::uvec2(48, 20)}) {
+    state.picked = pixel;
+    const Shown shown = stage.draw(state, {96, 54});
+    ASSERT_TRUE(shown.inspection);
+    ASSERT_EQ(shown.probe_volumes.size(), probes.size());
+    double left = 1.0;
+    for (std::uint32_t i = 0; i < probes.size(); ++i) {
+      const double weight = weight_of(probes[i], glm::dvec3(shown.inspection->position));
+      const auto found = std::ranges::find(shown.inspection->probes, i, &ListedProbe::probe);
+      if (found == shown.inspection->probes.end()) {
+        EXPECT_LT(weight, 1e-4) << "probe " << i;
+        continue;
+      }
+      EXPECT_NEAR(found->weight, weight, 1e-4) << "probe " << i;
+      EXPECT_NEAR(found->share, std::min(weight, left), 2e-4) << "probe " << i;
+      left -= std::min(weight, left);
+      weighing += weight > 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(weighing, 3U);
+}
+
+/// The list in the world at a surface is that of its pixel, and that of the cell around it.
+TEST(WorldLists, AreThoseOfThePixel) {
+  const ShaderLibrary shaders("");
+  Stage stage(view_context(), shaders, "");
+  ViewState state = small_viewer().state;
+  state.request.scene = "atrium";
+  state.request.lights = 300;
+  state.world_cells = true;
+  state.picked = glm::uvec2(40, 45);
+  for (const char* method : {"world-cells", "world-tree"}) {
+    state.request.method = method;
+    const Shown shown = stage.draw(state, {96, 54});
+    ASSERT_TRUE(shown.world && shown.inspection);
+    ASSERT_EQ(shown.world->refused, "");
+    const PointList& point = shown.world->points.front();
+    EXPECT_EQ(point.walked, shown.inspection->lights.size()) << method;
+    EXPECT_GT(point.reaching, 0U);
+    EXPECT_EQ(point.missed, 0U);
+    const auto own = std::ranges::find_if(shown.world->cells, [&](const WorldCell& cell) {
+      return glm::all(glm::greaterThanEqual(point.position, cell.low)) &&
+             glm::all(glm::lessThan(point.position, cell.low + cell.side));
+    });
+    ASSERT_NE(own, shown.world->cells.end());
+    EXPECT_EQ(own->lights, point.walked) << method;
+  }
+}
+
+}  // namespace
+}  // namespace lamp::app
