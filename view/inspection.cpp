@@ -178,6 +178,13 @@ std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel)
   return probes;
 }
 
+std::string names_of(std::uint32_t tests) {
+  std::string names;
+  for (std::size_t i = 0; i < test_names().size(); ++i)
+    if ((tests >> i & 1U) != 0) names += fmt::format("{}{}", names.empty() ? "" : ", ", test_names()[i]);
+  return names;
+}
+
 }  // namespace
 
 std::string words_of(const Proof& proof) {
@@ -195,13 +202,14 @@ std::span<const std::string_view> test_names() {
   return NAMES;
 }
 
-std::string why_listed(const ListedLight& light) {
+std::string why_listed(const ListedLight& light, const OwnTests& own) {
   if (light.reach != Reach::outside) return "reaches the pixel";
   if (light.reaches_cell) return "reaches the cell";
-  std::string dropping;
-  for (std::size_t i = 0; i < test_names().size(); ++i)
-    if ((light.passes >> i & 1U) == 0) dropping += fmt::format("{}{}", dropping.empty() ? "" : ", ", test_names()[i]);
-  return dropping.empty() ? "no test drops it" : dropping + " would drop it";
+  const std::uint32_t made = light.spot ? own.passes : own.passes & ~gpu::PASSES_CONE;
+  const std::uint32_t dropping = gpu::PASSES_ALL & ~light.passes;
+  if ((made & dropping) != 0) return "larger cell: " + names_of(made & dropping) + " would drop it";
+  std::string kept = made != 0 ? "kept by " + names_of(made) : std::string(own.otherwise);
+  return kept + (dropping == 0 ? "; no test drops it" : "; not by " + names_of(dropping));
 }
 
 Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
@@ -217,6 +225,7 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.cell_pixels = static_cast<std::uint32_t>(cell.pixels.size());
   found.cell_near_m = static_cast<float>(cell.near_m);
   found.cell_far_m = static_cast<float>(cell.far_m);
+  found.own = own_tests(of.lighting.runner().plan(), of.lighting.info().options);
   found.lights = listed(of, static_cast<std::uint32_t>(number));
   found.probes = listed_probes(of, static_cast<std::uint32_t>(number));
   const Truth truth = truth_of(of, cell);

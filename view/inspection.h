@@ -12,6 +12,7 @@
 #include "render/lighting.h"
 #include "render/renderer.h"
 #include "render/shaders/explain_data.h"
+#include "view/own_tests.h"
 
 namespace lamp::app {
 
@@ -38,9 +39,9 @@ struct Proof {
 /// "0 missed of 1 234 567 pairs in 256 pixels".
 [[nodiscard]] std::string words_of(const Proof& proof);
 
-/// Why a light is in the list: "reaches the pixel", "reaches another pixel of the cell", "box, exact would drop it", or
-/// that no test would.
-[[nodiscard]] std::string why_listed(const ListedLight& light);
+/// Why a light is in the list of a method that makes these tests: "reaches the pixel", "reaches the cell", "kept by
+/// sides, depths; not by exact", "larger cell: depths would drop it", or that no test would.
+[[nodiscard]] std::string why_listed(const ListedLight& light, const OwnTests& own);
 /// The names of the tests in `passes`.
 [[nodiscard]] std::span<const std::string_view> test_names();
 
@@ -63,6 +64,7 @@ struct Inspection {
   float cell_near_m = 0.0F;  ///< of the surfaces in the cell's pixels, z_view
   float cell_far_m = 0.0F;
   std::vector<ListedLight> lights;  ///< ascending
+  OwnTests own;                     ///< of the method
   Proof proof;                      ///< of all pixels of the cell
   std::vector<ListedProbe> probes;  ///< smallest first; the surroundings have the rest of the reflection
 };

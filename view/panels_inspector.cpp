@@ -30,7 +30,7 @@ void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
       cell(fmt::format("{:.2f}", light.distance_m));
       cell(fmt::format("{:.2f}", light.range_m));
       cell(fmt::format("{:.1f}%", 100.0 * light.share));
-      cell(why_listed(light));
+      cell(why_listed(light, found.own));
     }
   }
 }
@@ -125,7 +125,7 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
 
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   if (!p.shown.inspection) return;
-  const float width = std::min(560.0F * scale, static_cast<float>(area.size().x));
+  const float width = std::min(592.0F * scale, static_cast<float>(area.size().x));
   ImGui::SetNextWindowPos({static_cast<float>(area.max.x), static_cast<float>(area.min.y)}, ImGuiCond_Appearing,
                           {1.0F, 0.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(area.size().y)});

@@ -357,11 +357,18 @@ nlohmann::json Viewer::report() const {
   const auto lost = std::ranges::count_if(found.lights, [](const ListedLight& light) {
     return (light.reaches_cell || light.reach == Reach::inside) && light.passes != gpu::PASSES_ALL;
   });
+  nlohmann::json own = nlohmann::json::array();
+  for (std::size_t i = 0; i < test_names().size(); ++i)
+    if ((found.own.passes >> i & 1U) != 0) own.push_back(test_names()[i]);
+  const auto larger = std::ranges::count_if(
+      found.lights, [&](const ListedLight& light) { return why_listed(light, found.own).starts_with("larger cell"); });
   json["inspection"] = {{"pixel", {found.pixel.x, found.pixel.y}},
                         {"sky", found.sky},
                         {"cell", found.cell},
                         {"lights", found.lights.size()},
                         {"lost_by_tests", lost},
+                        {"own_tests", own},
+                        {"of_larger_cells", larger},
                         {"missed", found.proof.missed},
                         {"pairs", found.proof.pairs}};
   for (const ListedProbe& probe : found.probes)
