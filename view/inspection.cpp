@@ -208,7 +208,7 @@ std::string why_listed(const ListedLight& light, const OwnTests& own) {
   const std::uint32_t made = light.spot ? own.passes : own.passes & ~gpu::PASSES_CONE;
   const std::uint32_t dropping = gpu::PASSES_ALL & ~light.passes;
   if ((made & dropping) != 0) return "larger cell: " + names_of(made & dropping) + " would drop it";
-  std::string kept = made != 0 ? "kept by " + names_of(made) : std::string(own.otherwise);
+  const std::string kept = made != 0 ? "kept by " + names_of(made) : std::string(own.otherwise);
   return kept + (dropping == 0 ? "; no test drops it" : "; not by " + names_of(dropping));
 }
 

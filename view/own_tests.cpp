@@ -15,11 +15,11 @@ using namespace gpu;
 /// Tiled culling: its axes say.
 std::uint32_t tests_of_tiles(const Options& options) {
   std::uint32_t passes = 0;
-  const std::string test = options.word("test");
+  const std::string& test = options.word("test");
   if (test == "planes" || test == "planes+aabb") passes |= PASSES_SIDES;
   if (test == "aabb" || test == "planes+aabb") passes |= PASSES_BOX;
   if (test == "exact") passes |= PASSES_EXACT;
-  const std::string bounds = options.word("bounds");
+  const std::string& bounds = options.word("bounds");
   if (bounds != "none") passes |= PASSES_DEPTHS;
   if (bounds == "mask") passes |= PASSES_MASK;
   if (options.word("spot") != "sphere") passes |= PASSES_CONE;
