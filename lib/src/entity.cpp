@@ -1,5 +1,6 @@
-// Boxes among the lights: their check, and the spheres that stand for them.
-// Promise: the sphere holds the box's corners with room for the rounding of a 32-bit containment test.
+// Boxes among the lights: their check, and the spheres and shapes that stand for them.
+// Promise: the sphere holds the box's corners with room for the rounding of a 32-bit containment test, and so does the
+// record's shape, however far the axes are from right angles within their tolerance.
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/entity.h"
 
@@ -7,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 
 namespace lamp {
@@ -32,6 +34,55 @@ std::string fault(const shared::OrientedBox& box) {
       return "axes must be unit and at right angles";
   }
   return {};
+}
+
+// Of the largest half extent. A thinner plate is culled as one of this thickness: 32-bit numbers tell it no better.
+constexpr double THINNEST = 1e-7;
+// What rounding half extents to 32 bits may take from them, and what containment tests add.
+constexpr double SHAPE_ROOM = 1.0 + 1e-6;
+
+/// The axes, right-handed: a mirrored box is the same box with one axis the other way.
+glm::dmat3 turning_axes(const shared::OrientedBox& box) {
+  glm::dmat3 axes(glm::dvec3(glm::vec3(box.axis_x)), glm::dvec3(glm::vec3(box.axis_y)),
+                  glm::dvec3(glm::vec3(box.axis_z)));
+  if (glm::determinant(axes) < 0.0) axes[2] = -axes[2];
+  return axes;
+}
+
+/// A turn to the axes, which need not be quite at right angles, in 32 bits.
+glm::quat turn_of(const glm::dmat3& axes) {
+  const glm::dmat3 turned(axes[0], axes[1], glm::cross(axes[0], axes[1]));
+  return glm::quat(glm::normalize(glm::quat_cast(turned)));
+}
+
+/// Half extents along the turned axes that enclose what `axes` and `half` say. What is written as |a_i . p| < h_i are
+/// the points with p = A^-1 y, |y_i| < h_i.
+glm::dvec3 enclosing_half_extents(const glm::dmat3& axes, const glm::dvec3& half, const glm::quat& turn,
+                                  EntityShape shape) {
+  const glm::dmat3 seen = glm::transpose(glm::mat3_cast(glm::dquat(turn))) * glm::inverse(glm::transpose(axes));
+  glm::dvec3 box(0.0);
+  double apart = 0.0;  // squared: how far the map from the unit ball to that of the record is from the identity
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      box[j] += std::abs(seen[i][j]) * half[i];
+      const double off = seen[i][j] * half[i] / half[j] - (i == j ? 1.0 : 0.0);
+      apart += off * off;
+    }
+  return shape == EntityShape::box ? box : half * (1.0 + std::sqrt(apart));
+}
+
+void write_shape(const shared::OrientedBox& box, EntityShape shape, shared::Light& record) {
+  const glm::dmat3 axes = turning_axes(box);
+  const glm::quat turn = turn_of(axes);
+  const glm::dvec3 half(glm::vec3(box.half_extents));
+  glm::dvec3 enclosing = enclosing_half_extents(axes, half, turn, shape) * SHAPE_ROOM;
+  enclosing = glm::max(enclosing, glm::dvec3(THINNEST * std::max({half.x, half.y, half.z})));
+  record.direction = glm::vec3(turn.x, turn.y, turn.z);
+  record.outer_angle = turn.w;
+  record.inner_angle = static_cast<float>(enclosing.x);
+  record.cos_outer = static_cast<float>(enclosing.y);
+  record.spot_scale = static_cast<float>(enclosing.z);
+  record.sin_outer = shape == EntityShape::box ? shared::SHAPE_BOX : shared::SHAPE_ELLIPSOID;
 }
 
 }  // namespace
@@ -66,7 +117,7 @@ shared::Light bounding_light(const shared::OrientedBox& box, EntityShape shape) 
   record.position = box.center;
   record.range = static_cast<float>(radius * BOUND_ROOM);
   record.type = shared::LIGHT_POINT;
-  record.direction = {0.0F, 0.0F, -1.0F};
+  write_shape(box, shape, record);
   return record;
 }
 

@@ -82,6 +82,37 @@ TEST(Entities, TheSphereEnclosesTheBox) {
   }
 }
 
+// What the record tells of the shape encloses the box or the ellipsoid, also of axes that are mirrored or as far from
+// right angles as is taken, and hardly more.
+TEST(Entities, TheRecordTellsTheShape) {
+  Random random(20261126);
+  for (int round = 0; round < 100000; ++round) {
+    OrientedBox box = random_box(random);
+    if (round % 3 == 0) box.axis_z = -glm::vec3(box.axis_z);
+    if (round % 4 == 0) box.axis_x = glm::vec3(box.axis_x) + random.vector(3e-5F);
+    const bool ball = round % 2 == 0;
+    const lamp::shared::Light record =
+        lamp::bounding_light(box, ball ? lamp::EntityShape::ellipsoid : lamp::EntityShape::box);
+    ASSERT_EQ(record.sin_outer, ball ? lamp::shared::SHAPE_ELLIPSOID : lamp::shared::SHAPE_BOX);
+    const glm::vec3 turn = record.direction;
+    const glm::dmat3 axes = glm::mat3_cast(glm::dquat(record.outer_angle, turn.x, turn.y, turn.z));
+    const glm::dvec3 half(record.inner_angle, record.cos_outer, record.spot_scale);
+    const glm::dvec3 given(glm::vec3(box.half_extents));
+    const double largest = std::max({given.x, given.y, given.z});
+    const double thinnest = std::min({given.x, given.y, given.z});
+    for (int i = 0; i < 3; ++i)
+      ASSERT_LE(half[i], given[i] + 2e-4 * largest * (ball ? given[i] / thinnest : 1.0)) << round;
+    const glm::dvec3 unit = ball ? glm::normalize(glm::dvec3(random.vector(1.0F)) + 1e-3)
+                                 : glm::dvec3(round & 8 ? 1 : -1, round & 16 ? 1 : -1, round & 32 ? 1 : -1);
+    // On the surface: where each |axis . p| is the half extent's.
+    const glm::dmat3 rows = glm::transpose(glm::dmat3(
+        glm::dvec3(glm::vec3(box.axis_x)), glm::dvec3(glm::vec3(box.axis_y)), glm::dvec3(glm::vec3(box.axis_z))));
+    const glm::dvec3 local = (glm::inverse(rows) * (unit * given)) * axes / half;
+    const glm::dvec3 away = glm::abs(local);
+    ASSERT_LE(ball ? glm::length(local) : std::max({away.x, away.y, away.z}), 1.0) << round;
+  }
+}
+
 TEST(Entities, BoxesAreChecked) {
   Random random(3);
   const OrientedBox good = random_box(random);

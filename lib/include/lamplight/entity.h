@@ -1,7 +1,7 @@
 // Entities: what cells hold. Lights have the first ids, boxes (decals, reflection probes) the ids behind them, so that
 // one structure serves all and each kind is a range of ids that a shader walks alone (lookup/parts/each.glsl).
-// Promise: every method culls boxes as it culls lights, by the bounding sphere; no method knows of kinds.
-// SPDX-License-Identifier: Apache-2.0
+// Promise: every method culls boxes as it culls lights, by the bounding sphere, and with option boxes=shape by the
+// shape as well; no method knows of kinds. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,8 @@ enum class EntityShape : std::uint8_t {
 [[nodiscard]] LAMPLIGHT_API std::optional<Error> check_boxes(std::span<const shared::OrientedBox> boxes);
 
 /// The record that stands for a checked box in the light buffer: a point light of no intensity, whose range is the
-/// radius of a sphere that encloses the box and what rounding may add to it.
+/// radius of a sphere that encloses the box and what rounding may add to it. What a point light leaves unread says the
+/// shape (shared/entity.h), which option boxes=shape reads.
 [[nodiscard]] LAMPLIGHT_API shared::Light bounding_light(const shared::OrientedBox& box);
 /// The same of a box or of an ellipsoid, whose sphere is as large as its longest half axis.
 [[nodiscard]] LAMPLIGHT_API shared::Light bounding_light(const shared::OrientedBox& box, EntityShape shape);

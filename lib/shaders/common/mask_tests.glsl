@@ -6,12 +6,17 @@
 #include "common/tile_ranges.glsl"
 #include "common/volume_tests.glsl"
 
-// Which of the mask's parts the sphere may reach, of `scale` parts a metre.
+// Which of the mask's parts lie between two depths, of `scale` parts a metre.
+uint parts_between(vec2 depths, float z_near, float scale, uint mask) {
+  const uint first = mask_part(depths.x, z_near, scale);
+  const uint last = mask_part(depths.y, z_near, scale);
+  return mask & (~0u << first) & (~0u >> (31u - last));
+}
+
+// Which of them the sphere may reach.
 uint parts_near(LightBounds sphere, float z_near, float scale, uint mask) {
   const float z = -sphere.center.z;
-  const uint first = mask_part(z - sphere.radius, z_near, scale);
-  const uint last = mask_part(z + sphere.radius, z_near, scale);
-  return mask & (~0u << first) & (~0u >> (31u - last));
+  return parts_between(vec2(z - sphere.radius, z + sphere.radius), z_near, scale, mask);
 }
 
 uint parts_near(LightBounds sphere, TileRanges ranges) {

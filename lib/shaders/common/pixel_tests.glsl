@@ -1,9 +1,10 @@
 // Pruning by pixel: does a light reach this very pixel? Generous by the rounding of 32-bit arithmetic.
 // Based on: Primal engine, Light Culling with Approximate Sphere-Cone Intersection, listing 8.
-// Needs: TILE_PX.
+// Needs: TILE_PX; SHAPES.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_PIXEL_TESTS
 #define LAMP_COMMON_PIXEL_TESTS
+#include "common/box_tests.glsl"
 #include "common/light_bounds.glsl"
 #include "common/tile_depth.glsl"
 
@@ -34,13 +35,18 @@ PrunePixel prune_pixel(Frame frame, DepthImage depth_image, uvec2 tile, uint i) 
   return PrunePixel(world_position(frame, center, z_view), z_view, spread_m, true);
 }
 
-bool reaches_pixel(Frame frame, Light light, PrunePixel pixel) {
+float pixel_slack(Frame frame, Light light, PrunePixel pixel) {
+  return pixel.spread_m + ROUND_RADIUS * min(light.range, INFINITE_RADIUS) +
+         ROUND_POSITION * (length(light.position) + length(pixel.position) + length(frame.eye_world));
+}
+
+bool reaches_pixel(Frame frame, uint id, Light light, PrunePixel pixel) {
   const vec3 offset = pixel.position - light.position;
-  const float slack = pixel.spread_m + ROUND_RADIUS * min(light.range, INFINITE_RADIUS) +
-                      ROUND_POSITION * (length(light.position) + length(pixel.position) + length(frame.eye_world));
+  const float slack = pixel_slack(frame, light, pixel);
   const float reach = light.range + slack;
   const float distance2 = dot(offset, offset);
   if (!(light.range > 0.0) || (light.range < INFINITE_RADIUS && distance2 > reach * reach)) return false;
+  if (SHAPES && !box_may_hold(frame, id, light, pixel.position, slack)) return false;
   if (light.type != LIGHT_SPOT) return true;
   const float along = dot(offset, light.direction);
   const float distance = sqrt(distance2);

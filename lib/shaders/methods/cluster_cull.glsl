@@ -7,12 +7,14 @@
 #ifndef LAMP_METHODS_CLUSTER_CULL
 #define LAMP_METHODS_CLUSTER_CULL
 #include "common/frame.glsl"
-#include "common/radial_bounds.glsl"
 #include "common/slices.glsl"
 #include "common/tile_volume.glsl"
 #include "common/volume_tests.glsl"
 
-layout(constant_id = 6) const bool RADIAL = false;
+layout(constant_id = 6) const uint FURTHER = 0;  // FURTHER_*
+layout(set = 0, binding = RADIAL_BINDING + 1, scalar) readonly buffer RecordBuffer { Light records[]; };  // SHAPES
+#define RECORD_OF(id) records[id]
+#include "common/further_tests.glsl"
 
 const uint BATCH = 256u;  // the largest work group
 shared uint s_survivors[BATCH / 32u];
@@ -32,14 +34,14 @@ void cluster_box(uvec2 tile, float z_begin, float z_end, out vec3 box_min, out v
   }
 }
 
-// Whether anything of a cluster is lit, as far as the light's radial bound tells.
-bool is_lit_in(uint light, LightBounds sphere, uvec2 tile, float z_begin, float z_end) {
-  if (!RADIAL) return true;
+// The further tests of a cluster.
+bool passes_in_cluster(uint light, LightBounds sphere, uvec2 tile, float z_begin, float z_end) {
+  if (FURTHER == 0u) return true;
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
-  return radial_reaches(frame, light, x_edges, y_edges,
-                        radial_depths(sphere, is_perspective(frame) ? max(z_begin, 0.0) : z_begin, z_end));
+  return passes_further_tests(frame, light, sphere, x_edges, y_edges,
+                              vec2(is_perspective(frame) ? max(z_begin, 0.0) : z_begin, z_end));
 }
 
 uint cluster_index(uvec2 tile, uint slice) {
@@ -74,7 +76,7 @@ void visit_clusters(uvec2 tile) {
           const uint i = word * 32u + uint(findLSB(bits));
           if (sphere_touches_depths(s_bounds[i], z_begin, z_end) &&
               sphere_touches_box(s_bounds[i], box_min, box_max) &&
-              is_lit_in(first + i, s_bounds[i], tile, z_begin, z_end))
+              passes_in_cluster(first + i, s_bounds[i], tile, z_begin, z_end))
             VISIT(first + i);
         }
         END_OF_WORD(first / 32u + word);

@@ -1,4 +1,5 @@
-// One thread a light, as the host keeps it: the record that passes read, of a point light only the half that they read.
+// One thread a light, as the host keeps it: the record that passes read, of a point light that is
+// no box only the half that they read.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +15,7 @@ void main() {
   const Light light = host_light(i);
   records[4u * i] = floatBitsToUint(vec4(light.position, light.range));
   records[4u * i + 1u] = uvec4(0u, 0u, 0u, light.type);
-  if (light.type != LIGHT_SPOT) return;
+  if (light.type != LIGHT_SPOT && i < first_box(frame)) return;  // of boxes without a shape, that there is none
   records[4u * i + 2u] = floatBitsToUint(vec4(light.direction, light.outer_angle));
-  records[4u * i + 3u] = floatBitsToUint(vec4(0.0, light.cos_outer, 0.0, light.sin_outer));
+  records[4u * i + 3u] = floatBitsToUint(vec4(light.inner_angle, light.cos_outer, light.spot_scale, light.sin_outer));
 }

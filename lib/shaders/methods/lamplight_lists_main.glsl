@@ -11,7 +11,7 @@ layout(constant_id = 5) const uint ROWS = 16;        // that a work group looks 
 layout(constant_id = 6) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 7) const uint CELL_ROWS = 16;
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
-layout(constant_id = 9) const bool RADIAL = false;   // lights cut by radial bounds
+layout(constant_id = 9) const uint FURTHER = 0;      // FURTHER_*
 #ifdef SLICED
 layout(constant_id = 15) const uint CELL_SLICES = 4;
 #define SLICE_CONSTANT 16
@@ -45,7 +45,6 @@ layout(set = 0, binding = 9, scalar) readonly buffer PlaceBuffer { uint places[]
 #include "methods/lamplight_list_order.glsl"
 #endif
 #define RADIAL_BINDING (DEPTH_BINDING - 1)
-#include "common/radial_bounds.glsl"
 #ifndef SLICED
 layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { TileDepths tile_depths[]; };
 #endif

@@ -1,5 +1,5 @@
 // Whether a light of a piece reaches a row of its cell: a first look, the exact test of spheres, the test of cones.
-// Needs: RADIAL_BINDING; TILE_PX, CELL_TILES, ROWS, PAIRS; `frame`, `lights`; s_lights.
+// Needs: FURTHER, RADIAL_BINDING; TILE_PX, CELL_TILES, ROWS, PAIRS; `frame`, `lights`; s_lights.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_PAIR_TESTS
 #define LAMP_METHODS_LAMPLIGHT_PAIR_TESTS
@@ -7,7 +7,8 @@
 #include "common/light_bounds.glsl"
 #include "common/sphere_tests.glsl"
 #include "common/spot_tests.glsl"
-#include "common/radial_bounds.glsl"
+#define RECORD_OF(id) lights[id]
+#include "common/further_tests_in_parts.glsl"
 #include "methods/lamplight_pairs.glsl"
 #include "methods/lamplight_rows.glsl"
 
@@ -45,13 +46,14 @@ bool sphere_reaches_row(Pair pair) {
   return sphere_touches_parts(target.sphere, target.sides, target.depths.z_near, target.step, target.parts);
 }
 
-// Whether anything of the row is lit, as far as the light's radial bound tells.
-bool row_is_lit(Pair pair) {
+// The further tests of the row.
+bool passes_in_row(Pair pair) {
   const Target target = target_of(pair);
   if (target.parts == 0u) return false;
-  const vec2 depths = depths_of_parts(target.depths.z_near, target.step, target.parts);
-  return radial_reaches(frame, s_lights[pair.entry], target.sides.x_edges, target.sides.y_edges,
-                        radial_depths(target.sphere, depths.x, depths.y));
+  return passes_further_tests_in_parts(
+      frame, s_lights[pair.entry], target.sphere, target.sides.x_edges, target.sides.y_edges,
+      depths_of_parts(target.depths.z_near, target.step, target.parts), target.depths.z_near, target.depths.scale,
+      target.parts);
 }
 
 // What a thread looks at of a row's occupied parts: from the first to the last of them they are cut into quarters, of

@@ -15,12 +15,13 @@ bool keeps_pair(Cell cell, Pair own, bool reached) {
   bool keeps = false;
   for (uvec4 open = subgroupBallot(reached); open != uvec4(0u);) {
     const uint owner = subgroupBallotFindLSB(open);
-    const Light light = lights[s_lights[subgroupShuffle(own.entry, owner)]];
+    const uint id = s_lights[subgroupShuffle(own.entry, owner)];
+    const Light light = lights[id];
     const uvec2 tile = tile_of_row(cell, subgroupShuffle(own.row, owner));
     bool any_pixel = false;
     for (uint first = 0u; first < tile_samples(depth_image) && !any_pixel; first += gl_SubgroupSize) {
       const PrunePixel pixel = prune_pixel(frame, depth_image, tile, first + gl_SubgroupInvocationID);
-      any_pixel = subgroupAny(pixel.covered && reaches_pixel(frame, light, pixel));
+      any_pixel = subgroupAny(pixel.covered && reaches_pixel(frame, id, light, pixel));
     }
     if (owner == gl_SubgroupInvocationID) keeps = any_pixel;
     open[owner / 32u] &= ~(1u << (owner % 32u));

@@ -13,10 +13,10 @@ layout(constant_id = 7) const uint MODE = 0;
 #define SLICE_CONSTANT 8
 #include "common/slice_constants.glsl"
 layout(constant_id = 12) const uint EARLY_PX = 0;  // side of the squares that `ranges` holds the surfaces' depths of; 0: none
-layout(constant_id = 13) const bool RADIAL = false;
+layout(constant_id = 13) const uint FURTHER = 0;  // FURTHER_*
 layout(constant_id = 14) const bool TO_FIRST_MARK = false;
 #define RADIAL_BINDING 7
-#include "common/radial_bounds.glsl"
+#include "methods/raster_further.glsl"
 #include "common/tile_volume.glsl"
 #include "lamplight/shared/tile.h"
 
@@ -52,15 +52,15 @@ uint first_mark(uvec2 tile, uint bit, uint first, uint last) {
   return last;
 }
 
-// Whether anything of a cluster is lit, as far as the light's radial bound tells.
-bool is_lit_in(uvec2 tile, uint slice, LightProxy proxy) {
-  if (!RADIAL) return true;
+// The further tests of a cluster.
+bool passes_in_cluster(uvec2 tile, uint slice, LightProxy proxy) {
+  if (FURTHER == 0u) return true;
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
   const float eye = is_perspective(frame) ? 0.0 : -BEYOND_ALL_M;
-  return radial_reaches(frame, in_light, x_edges, y_edges,
-                        vec2(max(max(slice_begin(slice), proxy.z_near), eye), min(slice_end(slice), proxy.z_far)));
+  return passes_in_proxy(x_edges, y_edges,
+                         vec2(max(max(slice_begin(slice), proxy.z_near), eye), min(slice_end(slice), proxy.z_far)));
 }
 
 void main() {
@@ -82,5 +82,5 @@ void main() {
   // Marks stay where they are: a walk must not take one that is left out for a back too thin to see.
   if (MODE != CLUSTERS_MARK) slices = uvec2(max(slices.x, surface.x), min(slices.y, surface.y));
   for (uint slice = slices.x; slice <= slices.y; ++slice)
-    if (MODE == CLUSTERS_MARK || is_lit_in(tile, slice, proxy)) set_bit(cluster_word(tile, slice), bit);
+    if (MODE == CLUSTERS_MARK || passes_in_cluster(tile, slice, proxy)) set_bit(cluster_word(tile, slice), bit);
 }

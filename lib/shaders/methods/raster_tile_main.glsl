@@ -17,9 +17,9 @@ layout(set = 0, binding = 8, scalar) readonly buffer StencilBuffer { uint stenci
 layout(constant_id = 7) const uint STEP = 0;  // TILES_ONE_PASS, TILES_STENCIL or TILES_BEHIND
 layout(constant_id = 8) const bool DEPTH_BOUNDS = true;
 
-layout(constant_id = 9) const bool RADIAL = false;
+layout(constant_id = 9) const uint FURTHER = 0;  // FURTHER_*
 #define RADIAL_BINDING 9
-#include "common/radial_bounds.glsl"
+#include "methods/raster_further.glsl"
 
 const float ROUND_DEPTH = 1e-5;  // of a depth: interpolation in 32 bits
 
@@ -30,15 +30,15 @@ vec2 surface_depths(uvec2 pixel, uint tile) {
   return key != SKY_KEY ? vec2(z_view_of_key(frame, key)) : vec2(1.0, -1.0);
 }
 
-// Whether anything between the depths is lit, of the pixel or of all the tile, as far as the light's radial bound tells.
-bool is_lit_in(uvec2 pixel, vec2 depths) {
-  if (!RADIAL) return true;
+// The further tests between the depths, of the pixel or of all the tile.
+bool passes_between(uvec2 pixel, vec2 depths) {
+  if (FURTHER == 0u) return true;
   const uint side = EXACT_PIXEL ? 1u : TILE_PX;
   const uvec2 first = pixel / side * side;
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(first), vec2(first + side), x_edges, y_edges);
-  return radial_reaches(frame, in_light, x_edges, y_edges, depths);
+  return passes_in_proxy(x_edges, y_edges, depths);
 }
 
 void main() {
@@ -58,6 +58,6 @@ void main() {
   else
     meets = meets && (reaches_everywhere() || max(face.y, proxy.z_near) >= surface.x - ROUND_DEPTH * abs(surface.x));
   if (STEP == TILES_BEHIND) meets = meets && (stencil[word] & bit) != 0u;
-  meets = meets && is_lit_in(pixel, vec2(max(surface.x, proxy.z_near), min(surface.y, proxy.z_far)));
+  meets = meets && passes_between(pixel, vec2(max(surface.x, proxy.z_near), min(surface.y, proxy.z_far)));
   if (meets) set_bit(word, bit);
 }

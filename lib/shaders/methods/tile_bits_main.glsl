@@ -23,7 +23,8 @@ void flag_reached(PrunePixel pixel, uint range, uint first) {
     const uint at = range * BATCH_WORDS + word;
     for (uint open = s_found[at] & ~LOAD_OF_GROUP(s_kept[at]); open != 0u; open &= open - 1u) {
       const uint bit = uint(findLSB(open));
-      if (reaches_pixel(cull_frame, cull_lights[first + word * 32u + bit], pixel)) atomicOr(s_kept[at], 1u << bit);
+      const uint light = first + word * 32u + bit;
+      if (reaches_pixel(cull_frame, light, cull_lights[light], pixel)) atomicOr(s_kept[at], 1u << bit);
     }
   }
 }

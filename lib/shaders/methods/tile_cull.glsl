@@ -34,7 +34,8 @@ void flag_reached(PrunePixel pixel, uint range) {
     const uint entry = range * CAPACITY + i;
     const uint bit = 1u << (entry % 32u);
     if ((LOAD_OF_GROUP(s_kept[entry / 32u]) & bit) != 0u) continue;
-    if (reaches_pixel(cull_frame, cull_lights[s_lights[entry] & ~TYPE_BIT], pixel)) atomicOr(s_kept[entry / 32u], bit);
+    const uint light = s_lights[entry] & ~TYPE_BIT;
+    if (reaches_pixel(cull_frame, light, cull_lights[light], pixel)) atomicOr(s_kept[entry / 32u], bit);
   }
 }
 

@@ -20,7 +20,7 @@ layout(constant_id = TILE_CONSTANT + 8) const bool CACHED_FRUSTA = false;  // re
 layout(constant_id = TILE_CONSTANT + 9) const bool OWN_DEPTH_PASS = false; // read from cull_ranges
 layout(constant_id = TILE_CONSTANT + 10) const uint LIST_ENTRIES = 512;    // CAPACITY times the number of ranges
 layout(constant_id = TILE_CONSTANT + 11) const uint RANGES = 1;            // depth ranges a tile: 2 for the halves
-layout(constant_id = TILE_CONSTANT + 12) const bool RADIAL = false;        // cut by radial bounds
+layout(constant_id = TILE_CONSTANT + 12) const uint FURTHER = 0;           // FURTHER_*
 
 layout(set = 0, binding = TILE_BINDING + 0, scalar) TILE_FRAME CullFrame { Frame cull_frame; };
 layout(set = 0, binding = TILE_BINDING + 1) uniform DepthImage cull_depth;
@@ -29,9 +29,9 @@ layout(set = 0, binding = TILE_BINDING + 3, scalar) readonly buffer CullBounds {
 layout(set = 0, binding = TILE_BINDING + 4, scalar) readonly buffer CullFrusta { vec4 cull_frusta[]; };
 layout(set = 0, binding = TILE_BINDING + 5, scalar) readonly buffer CullRanges { TileRanges cull_ranges[]; };
 #define RADIAL_BINDING (TILE_BINDING + 6)
-#include "common/radial_bounds.glsl"
-
+#define RECORD_OF(id) cull_lights[id]
 #include "common/sphere_tests.glsl"
+#include "common/further_tests_in_parts.glsl"
 #include "common/spot_tests.glsl"
 
 uint tile_index(uvec2 tile) {
@@ -87,13 +87,16 @@ bool touches_any_range(LightBounds sphere, TileTarget target) {
          sphere_touches_tile_sides(sphere, target.sides);
 }
 
-// Whether anything of a range is lit, as far as the light's radial bound tells. `parts`: of a mask, those in reach.
-bool is_lit_in(uint light, LightBounds sphere, TileTarget target, uint range, uint parts) {
-  if (!RADIAL) return true;
-  vec2 depths = vec2(target.ranges.z_near[range], target.ranges.z_far[range]);
-  if (BOUNDS == BOUNDS_MASK) depths = depths_of_parts(depths.x, (depths.y - depths.x) / float(MASK_BITS), parts);
-  return radial_reaches(cull_frame, light, target.sides.x_edges, target.sides.y_edges,
-                        radial_depths(sphere, depths.x, depths.y));
+// The further tests of a range. `parts`: of a mask, those in reach.
+bool passes_in_range(uint light, LightBounds sphere, TileTarget target, uint range, uint parts) {
+  if (FURTHER == 0u) return true;
+  const vec2 depths = vec2(target.ranges.z_near[range], target.ranges.z_far[range]);
+  const vec4 x_edges = target.sides.x_edges;
+  const vec4 y_edges = target.sides.y_edges;
+  if (BOUNDS != BOUNDS_MASK) return passes_further_tests(cull_frame, light, sphere, x_edges, y_edges, depths);
+  return passes_further_tests_in_parts(cull_frame, light, sphere, x_edges, y_edges,
+                                       depths_of_parts(depths.x, (depths.y - depths.x) / float(MASK_BITS), parts),
+                                       depths.x, mask_scale(depths.x, depths.y), parts);
 }
 
 // Whether a light that passed it may reach the pixels of one of the tile's ranges.
@@ -107,7 +110,7 @@ bool touches_range(uint light, LightBounds sphere, TileTarget target, uint range
   } else if (!sphere_touches_tile_depths(sphere, target.sides, target.boxes[range], z_near, z_far)) {
     return false;
   }
-  if (!is_lit_in(light, sphere, target, range, parts)) return false;
+  if (!passes_in_range(light, sphere, target, range, parts)) return false;
   if (SPOT == SPOT_SPHERE || cull_lights[light].type != LIGHT_SPOT) return true;
   return spot_touches_tile(cull_frame, cull_lights[light], target.sides, z_near, z_far, parts);
 }

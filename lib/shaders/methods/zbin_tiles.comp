@@ -11,24 +11,26 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 8;
 layout(constant_id = 2) const uint WORDS = 1;  // words a tile: light capacity / 32, rounded up
-layout(constant_id = 3) const bool RADIAL = false;
+layout(constant_id = 3) const uint FURTHER = 0;  // FURTHER_*
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer SortedBuffer { LightBounds sorted[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BitBuffer { uint bits[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer OrderBuffer { uint order[]; };  // by RADIAL alone
+layout(set = 0, binding = 3, scalar) readonly buffer OrderBuffer { uint order[]; };  // FURTHER alone
 #define RADIAL_BINDING 4
-#include "common/radial_bounds.glsl"
+layout(set = 0, binding = 5, scalar) readonly buffer RecordBuffer { Light records[]; };  // SHAPES alone
+#define RECORD_OF(id) records[id]
+#include "common/further_tests.glsl"
 
 shared uint s_found[8];  // 256 threads at most, one bit each
 
-// Whether anything of the tile is lit, at any depth, as far as the light's radial bound tells.
-bool is_lit_in(uint rank, uvec2 tile) {
-  if (!RADIAL) return true;
+// The further tests of the tile, at any depth.
+bool passes_in_tile(uint rank, uvec2 tile) {
+  if (FURTHER == 0u) return true;
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
-  return radial_reaches(frame, order[rank], x_edges, y_edges,
-                        radial_depths(sorted[rank], is_perspective(frame) ? 0.0 : -3e38, 3e38));
+  return passes_further_tests(frame, order[rank], sorted[rank], x_edges, y_edges,
+                              vec2(is_perspective(frame) ? 0.0 : -3e38, 3e38));
 }
 
 void main() {
@@ -41,7 +43,7 @@ void main() {
     if (thread < 8u) s_found[thread] = 0u;
     barrier();  // cleared words before bits are set
     if (first + thread < light_count_of(frame) && sphere_touches_sides(sorted[first + thread], planes) &&
-        is_lit_in(first + thread, tile))
+        passes_in_tile(first + thread, tile))
       atomicOr(s_found[thread / 32u], 1u << (thread % 32u));
     barrier();  // all bits before the words are written
     if (thread < gl_WorkGroupSize.x / 32u && first / 32u + thread < WORDS)

@@ -19,13 +19,13 @@ struct Clusters {
   std::uint64_t tiles;
   std::uint64_t count;
   std::uint32_t threads;
-  std::vector<std::uint32_t> constants;  ///< of the look-up; passes have threads before them, and behind `radial`
-  bool radial;
+  std::vector<std::uint32_t> constants;  ///< of the look-up; passes have threads before them, `further` behind them
+  std::uint32_t further;
   [[nodiscard]] Extent one_group_a_tile() const { return {.cells = {.px = constants[0]}}; }
   [[nodiscard]] std::vector<std::uint32_t> pass_constants(std::initializer_list<std::uint32_t> last) const {
     std::vector<std::uint32_t> all{threads};
     all.insert(all.end(), constants.begin(), constants.end());
-    all.push_back(radial ? 1 : 0);
+    all.push_back(further);
     all.insert(all.end(), last);
     return all;
   }
@@ -39,19 +39,22 @@ Clusters clusters_of(const Problem& problem) {
           .threads = parts::cull_threads(problem),
           .constants = {o.integer("tile"), o.integer("slices"), parts::slice_scale(o.word("scale")),
                         o.integer("near_mm"), o.integer("far_m")},
-          .radial = parts::is_radial(o)};
+          .further = parts::further_tests(o)};
 }
 
 /// Each cluster one flat bit array.
 void add_bits(Plan& plan, const Problem& problem, const Clusters& c, ResourceId bounds) {
   const std::uint32_t words = parts::divide_up(parts::capacity(problem), 32);
   const ResourceId bits = plan.add({.name = "cluster bits", .bytes = c.count * words * 4});
-  plan.passes.push_back(
-      {.name = "cluster bits",
-       .shader = "methods/clustered_bits",
-       .constants = c.pass_constants({words}),
-       .bindings = {{INPUT_FRAME}, {bounds}, {bits, Access::write}, parts::radial_binding(problem, bounds)},
-       .extent = c.one_group_a_tile()});
+  plan.passes.push_back({.name = "cluster bits",
+                         .shader = "methods/clustered_bits",
+                         .constants = c.pass_constants({words}),
+                         .bindings = {{INPUT_FRAME},
+                                      {bounds},
+                                      {bits, Access::write},
+                                      parts::radial_binding(problem, bounds),
+                                      parts::record_binding(problem, bounds)},
+                         .extent = c.one_group_a_tile()});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_bits"),
                  .constants = c.constants,
                  .bindings = {{INPUT_FRAME}, {bits}}};
@@ -88,12 +91,15 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
   const std::uint32_t words = words_of_a_tile(problem, c.tiles);
   // Bound to the list, and not used, where there are none.
   const ResourceId bits = words == 0 ? lists : plan.add({.name = "tile bits", .bytes = c.tiles * words * 4});
-  plan.passes.push_back(
-      {.name = "cluster count",
-       .shader = "methods/clustered_count",
-       .constants = c.pass_constants({}),
-       .bindings = {{INPUT_FRAME}, {bounds}, {ranges, Access::write}, parts::radial_binding(problem, bounds)},
-       .extent = c.one_group_a_tile()});
+  plan.passes.push_back({.name = "cluster count",
+                         .shader = "methods/clustered_count",
+                         .constants = c.pass_constants({}),
+                         .bindings = {{INPUT_FRAME},
+                                      {bounds},
+                                      {ranges, Access::write},
+                                      parts::radial_binding(problem, bounds),
+                                      parts::record_binding(problem, bounds)},
+                         .extent = c.one_group_a_tile()});
   plan.passes.push_back({.name = "cluster scan",
                          .shader = "methods/clustered_scan",
                          .constants = {c.threads, c.constants[0], c.constants[1], entries},
@@ -106,7 +112,8 @@ void add_lists(Plan& plan, const Problem& problem, const Clusters& c, ResourceId
                                       {ranges},
                                       {lists, Access::write},
                                       {bits, Access::write},
-                                      parts::radial_binding(problem, bounds)},
+                                      parts::radial_binding(problem, bounds),
+                                      parts::record_binding(problem, bounds)},
                          .extent = c.one_group_a_tile()});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "cluster_lists"),
                  .constants = c.constants,
@@ -141,6 +148,7 @@ std::vector<OptionSpec> clustered_options(
       parts::slice_far_option(),
       {.key = "container", .help = "what a cluster keeps", .fallback = "list", .choices = {"list", "bits"}},
       parts::occlusion_option(),
+      parts::boxes_option(),
       parts::walk_option(),
       {.key = "mean_capacity",
        .help = "container=list: lights a cluster, on average, that the shared list has room for; from 512 on, all "

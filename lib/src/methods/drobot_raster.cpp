@@ -184,7 +184,7 @@ Plan plan_raster_tile(const Problem& problem) {
   const std::uint32_t depth_bounds = problem.options.word("depth") == "test" ? 0 : 1;
   for (const auto& [draw, step, writes] : with_cut(problem, tile_draws(plan, problem, b))) {
     Pass pass = draw_pass(problem, raster, b, draw);
-    pass.constants.insert(pass.constants.end(), {step, depth_bounds, parts::is_radial(problem.options) ? 1U : 0U});
+    pass.constants.insert(pass.constants.end(), {step, depth_bounds, parts::further_tests(problem.options)});
     pass.bindings.insert(pass.bindings.end(), {{INPUT_DEPTH},
                                                {raster.exact() ? INPUT_LIGHTS : b.ranges},
                                                {writes, Access::read_write},
@@ -237,7 +237,7 @@ Plan plan_raster_cluster(const Problem& problem) {
     pass.constants.push_back(mode);
     pass.constants.insert(pass.constants.end(), slices.begin(), slices.end());
     pass.constants.insert(pass.constants.end(),
-                          {early_px, parts::is_radial(problem.options) ? 1U : 0U, plan.approximate ? 1U : 0U});
+                          {early_px, parts::further_tests(problem.options), plan.approximate ? 1U : 0U});
     pass.bindings.insert(pass.bindings.end(), {{b.bits, Access::read_write},
                                                {early_px != 0 ? b.ranges : INPUT_LIGHTS},
                                                parts::radial_binding(problem, INPUT_LIGHTS)});
@@ -297,6 +297,7 @@ Method drobot_raster_tile_method() {
                   compact_option(),
                   proxy_option(),
                   parts::occlusion_option(),
+                  parts::boxes_option(),
                   parts::walk_option("scalar-entity")},
       .plan = plan_raster_tile,
       .check = check_raster_walk};
@@ -332,6 +333,7 @@ Method drobot_raster_cluster_method() {
            compact_option(),
            proxy_option(),
            parts::occlusion_option(),
+           parts::boxes_option(),
            parts::walk_option("scalar-entity")},
       .plan = plan_raster_cluster,
       .check = check_raster_walk};

@@ -95,14 +95,16 @@ Pass gather_pass(const Buffers& b) {
           .extent = {.lights_per_group = 64}};
 }
 
-void add_bins(Plan& plan, const Sizes& s, const Buffers& b) {
+void add_bins(Plan& plan, const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t leaves = std::bit_ceil(s.bins);
   const ResourceId tree = plan.add({.name = "bin tree", .bytes = std::uint64_t{leaves} * 2 * 8, .zeroed = true});
-  plan.passes.push_back({.name = "mark bins",
-                         .shader = "methods/zbin_mark",
-                         .constants = {s.bins, s.scale, s.near_mm, s.far_m, leaves},
-                         .bindings = {{INPUT_FRAME}, {b.sorted}, {tree, Access::read_write}},
-                         .extent = {.lights_per_group = 64}});
+  plan.passes.push_back(
+      {.name = "mark bins",
+       .shader = "methods/zbin_mark",
+       .constants = {s.bins, s.scale, s.near_mm, s.far_m, leaves, parts::has_shapes(problem.options) ? 1U : 0U},
+       .bindings =
+           {{INPUT_FRAME}, {b.sorted}, {tree, Access::read_write}, {b.order}, parts::record_binding(problem, b.sorted)},
+       .extent = {.lights_per_group = 64}});
   plan.passes.push_back({.name = "bins",
                          .shader = "methods/zbin_bins",
                          .constants = {s.bins, leaves, s.wide ? 1U : 0U},
@@ -120,7 +122,8 @@ Buffers add_sorted_lights(Plan& plan, const Problem& problem, const Sizes& s) {
     b.bins = plan.add(bin_buffer(s, BufferMemory::upload));
     plan.passes = {{.name = "sort and bins",
                     .kind = PassKind::host,
-                    .constants = {s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U},
+                    .constants = {s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U,
+                                  parts::has_shapes(problem.options) ? 1U : 0U},
                     .bindings = {{b.order, Access::write}, {b.bins, Access::write}},
                     .host = sort_into_bins,
                     .option = "sort=cpu"},
@@ -132,7 +135,7 @@ Buffers add_sorted_lights(Plan& plan, const Problem& problem, const Sizes& s) {
   b.order = add_sort(plan, s, b.bounds);
   plan.passes.push_back(gather_pass(b));
   b.bins = plan.add(bin_buffer(s));
-  add_bins(plan, s, b);
+  add_bins(plan, problem, s, b);
   return b;
 }
 
@@ -144,13 +147,16 @@ Plan plan_drobot_zbin(const Problem& problem) {
   plan.ordered = false;
   Buffers b = add_sorted_lights(plan, problem, s);
   b.bits = plan.add({.name = "tile bits", .bytes = s.tiles * s.words * 4});
-  plan.passes.push_back(
-      {.name = "tile bits",
-       .shader = "methods/zbin_tiles",
-       .constants = {s.threads, s.tile_px, s.words, parts::is_radial(problem.options) ? 1U : 0U},
-       .bindings =
-           {{INPUT_FRAME}, {b.sorted}, {b.bits, Access::write}, {b.order}, parts::radial_binding(problem, b.sorted)},
-       .extent = {.cells = {.px = s.tile_px}}});
+  plan.passes.push_back({.name = "tile bits",
+                         .shader = "methods/zbin_tiles",
+                         .constants = {s.threads, s.tile_px, s.words, parts::further_tests(problem.options)},
+                         .bindings = {{INPUT_FRAME},
+                                      {b.sorted},
+                                      {b.bits, Access::write},
+                                      {b.order},
+                                      parts::radial_binding(problem, b.sorted),
+                                      parts::record_binding(problem, b.sorted)},
+                         .extent = {.cells = {.px = s.tile_px}}});
   plan.lookup = {.name = parts::walk_lookup(plan, problem, "tile_zbins"),
                  .constants = {s.tile_px, s.words, s.bins, s.scale, s.near_mm, s.far_m, s.wide ? 1U : 0U},
                  .bindings = {{INPUT_FRAME}, {b.bits}, {b.bins}, {b.order}}};
@@ -179,6 +185,7 @@ Method drobot_zbin_method() {
            parts::slice_near_option(),
            parts::slice_far_option(),
            parts::occlusion_option(),
+           parts::boxes_option(),
            parts::walk_option("scalar-entity"),
            {.key = "sort", .help = "where lights are sorted and binned", .fallback = "gpu", .choices = {"gpu", "cpu"}}},
       .plan = plan_drobot_zbin,

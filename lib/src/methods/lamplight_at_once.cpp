@@ -69,7 +69,7 @@ Plan plan_at_once(const Problem& problem) {
       {.name = bits ? "tile bits" : "tile lists",
        .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
        .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
-                     grid.cell_rows(), mark_words, bits ? 1U : 0U, parts::is_radial(problem.options) ? 1U : 0U},
+                     grid.cell_rows(), mark_words, bits ? 1U : 0U, parts::further_tests(problem.options)},
        .bindings = {{INPUT_FRAME},
                     {INPUT_LIGHTS},
                     {INPUT_SPHERES},

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "lamplight/shared/further_tests.h"
 #include "lamplight/shared/slices.h"
 
 namespace lamp::parts {
@@ -54,8 +55,25 @@ OptionSpec occlusion_option() {
 
 bool is_radial(const Options& options) { return options.word("occlusion") == "radial"; }
 
+OptionSpec boxes_option() {
+  return {.key = "boxes",
+          .help = "decals and probes are culled by their bounding sphere; or also by their shape",
+          .fallback = "sphere",
+          .choices = {"sphere", "shape"}};
+}
+
+bool has_shapes(const Options& options) { return options.word("boxes") == "shape"; }
+
+std::uint32_t further_tests(const Options& options) {
+  return (is_radial(options) ? shared::FURTHER_RADIAL : 0) | (has_shapes(options) ? shared::FURTHER_SHAPES : 0);
+}
+
 Binding radial_binding(const Problem& problem, ResourceId other) {
   return {is_radial(problem.options) ? INPUT_RADIAL : other};
+}
+
+Binding record_binding(const Problem& problem, ResourceId other) {
+  return {has_shapes(problem.options) ? INPUT_LIGHTS : other};
 }
 
 OptionSpec walk_option(std::string_view fallback) {

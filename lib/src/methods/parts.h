@@ -53,8 +53,14 @@ enum class Container : std::uint8_t { list, bits };
 /// Whether lights are cut by how far their shadow maps let them reach (shared/radial.h).
 [[nodiscard]] OptionSpec occlusion_option();
 [[nodiscard]] bool is_radial(const Options& options);
-/// What a pass binds for that: the bounds, or another resource, which is not read.
+/// Whether boxes are tested by the shape that their record tells (shared/entity.h), after their bounding sphere.
+[[nodiscard]] OptionSpec boxes_option();
+[[nodiscard]] bool has_shapes(const Options& options);
+/// Both, as FURTHER_* bits, for the constant of that name.
+[[nodiscard]] std::uint32_t further_tests(const Options& options);
+/// What a pass binds for the first: the bounds, or another resource, which is not read. And for the second: records.
 [[nodiscard]] Binding radial_binding(const Problem& problem, ResourceId other);
+[[nodiscard]] Binding record_binding(const Problem& problem, ResourceId other);
 
 /// How a look-up walks: each thread by itself (plain), or all threads of a subgroup one cell at a time (lists) or one
 /// light at a time (bits).

@@ -16,7 +16,7 @@ struct Buffers {
 };
 
 /// Constants of tile_inputs.glsl.
-std::vector<std::uint32_t> tile_constants(const TiledAxes& axes) {
+std::vector<std::uint32_t> tile_constants(const Problem& problem, const TiledAxes& axes) {
   return {axes.tile_px,
           axes.capacity,
           axes.bounds,
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> tile_constants(const TiledAxes& axes) {
           axes.reduce == TiledAxes::Reduce::parallel ? 1U : 0U,
           axes.ranges() * axes.capacity,
           axes.ranges(),
-          axes.radial ? 1U : 0U};
+          parts::further_tests(problem.options)};
 }
 
 /// Bindings of tile_inputs.glsl. Where the axes do without a buffer, another one is bound, and not read.
@@ -79,7 +79,7 @@ Pass cull_pass(const Problem& problem, const TiledAxes& axes, const Buffers& b) 
             .bindings = tile_bindings(axes, b),
             .extent = {.cells = {.px = axes.tile_px}},
             .shared_bytes = shared_bytes(axes)};
-  const std::vector<std::uint32_t> constants = tile_constants(axes);
+  const std::vector<std::uint32_t> constants = tile_constants(problem, axes);
   pass.constants.insert(pass.constants.end(), constants.begin(), constants.end());
   pass.bindings.push_back({b.lists, Access::write});
   pass.bindings.push_back({b.splits, Access::write});
@@ -186,7 +186,7 @@ Plan plan_tiled(const Problem& problem) {
   fused_bindings.push_back({buffers.counters, Access::read_write});
   plan.fused =
       FusedLookUp{.lookup = {.name = axes.reduce == TiledAxes::Reduce::subgroup ? "tile_fused_subgroup" : "tile_fused",
-                             .constants = tile_constants(axes),
+                             .constants = tile_constants(problem, axes),
                              .bindings = std::move(fused_bindings)},
                   .passes = passes_before(axes, buffers),
                   .group_width = axes.tile_px,

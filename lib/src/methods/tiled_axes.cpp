@@ -52,6 +52,7 @@ TiledAxes tiled_axes(const Options& options) {
           .prune = options.word("prune") == "pixel",
           .aos = options.word("lights") == "aos",
           .radial = parts::is_radial(options),
+          .shapes = parts::has_shapes(options),
           .cached_frusta = options.word("frusta") == "cached"};
 }
 
@@ -73,6 +74,7 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
        .fallback = "soa",
        .choices = {"soa", "aos"}},
       parts::occlusion_option(),
+      parts::boxes_option(),
       {.key = "prune",
        .help = "drop lights that reach none of the tile's pixels",
        .fallback = "none",

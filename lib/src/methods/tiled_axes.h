@@ -29,6 +29,7 @@ struct TiledAxes {
   bool prune = false;          ///< by pixel
   bool aos = false;            ///< bounds made from the light records
   bool radial = false;         ///< lights cut by their radial bounds
+  bool shapes = false;         ///< boxes by their shape
   bool cached_frusta = false;  ///< kept until size or projection changes
 
   [[nodiscard]] std::uint32_t ranges() const {
@@ -36,7 +37,7 @@ struct TiledAxes {
   }
   /// The light records, and not only the bounds.
   [[nodiscard]] bool reads_lights() const {
-    return aos || prune || spot != shared::SPOT_SPHERE || order == shared::ORDER_TYPE;
+    return aos || prune || shapes || spot != shared::SPOT_SPHERE || order == shared::ORDER_TYPE;
   }
   [[nodiscard]] bool cone() const { return test == shared::TEST_CONE || test == shared::TEST_CONE_APPROXIMATE; }
 };

@@ -12,10 +12,12 @@
 #include <cmath>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <utility>
 #include <vector>
 
 #include "lamplight/light.h"
+#include "lamplight/shared/entity.h"
 #include "lamplight/shared/slices.h"
 
 namespace lamp {
@@ -49,16 +51,30 @@ Eye eye_of(const shared::Frame& frame) {
           .of_radius = 1.0F + shared::ROUND_RADIUS + 2.0F * shared::ROUND_POSITION + frame.stretch};
 }
 
+/// How far a box's record reaches ahead of its centre by its shape (shared/entity.h), m, of a sphere that reaches
+/// `reach`. As much too far as depth_span() in common/box_tests.glsl has it.
+float shape_reach(const Eye& eye, const shared::Light& record, float reach) {
+  constexpr float LARGEST_BOX = 1e9F;  // m; as there
+  if (record.sin_outer == shared::SHAPE_UNKNOWN || !(record.range < LARGEST_BOX)) return reach;
+  const glm::vec3 turn = record.direction;
+  const glm::mat3 axes = glm::mat3_cast(glm::quat(record.outer_angle, turn.x, turn.y, turn.z));
+  const glm::vec3 along =
+      glm::abs(glm::vec3(record.inner_angle, record.cos_outer, record.spot_scale) * (eye.ahead * axes));
+  const float of_shape = record.sin_outer == shared::SHAPE_ELLIPSOID ? glm::length(along) : along.x + along.y + along.z;
+  return std::min(reach, of_shape + 4.0F * (reach - record.range));
+}
+
 /// Of the light's bounding sphere, as much too long as view_bounds() in common/light_bounds.glsl makes it. The view is
 /// rigid enough for a distance to the eye to be measured in the world.
-DepthSpan depth_span(const Eye& eye, const shared::Light& light) {
+DepthSpan depth_span(const Eye& eye, const shared::Light& light, bool has_shape) {
   const shared::LightSphere sphere = bounding_sphere(light);
   const glm::vec3 center = sphere.center;
   const float radius = sphere.radius;
   if (radius < 0.0F) return REACHES_NOTHING;
   const float middle = (eye.ahead.x * center.x + eye.ahead.y * center.y) + (eye.ahead.z * center.z + eye.offset);
-  const float reach = radius * eye.of_radius + shared::ROUND_POSITION * (glm::length(center - eye.position) +
-                                                                         glm::length(center) + eye.distance);
+  float reach = radius * eye.of_radius +
+                shared::ROUND_POSITION * (glm::length(center - eye.position) + glm::length(center) + eye.distance);
+  if (has_shape) reach = shape_reach(eye, light, reach);
   return {.middle = middle, .near = middle - reach, .far = middle + reach};
 }
 
@@ -145,7 +161,9 @@ void measure(Scratch& s, const HostContext& context, const Bins& bins, DigitCoun
   s.ranges.resize(count);
   s.entries.resize(count);
   const Eye eye = eye_of(*context.frame);
-  for (std::uint32_t i = 0; i < count; ++i) s.spans[i] = depth_span(eye, context.lights[i]);
+  const std::uint32_t first_shape =
+      context.constants[5] != 0 ? count - std::min(count, context.frame->box_count) : count;
+  for (std::uint32_t i = 0; i < count; ++i) s.spans[i] = depth_span(eye, context.lights[i], i >= first_shape);
   for (std::uint32_t i = 0; i < count; ++i) {
     s.ranges[i] = bin_range(bins, s.spans[i]);
     s.entries[i] = {.key = sort_key(s.spans[i]), .light = i};
