@@ -11,6 +11,7 @@
 #include "commands/pictures.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
+#include "render/box_shapes.h"
 #include "render/pixel_lights.h"
 #include "render/verification.h"
 #include "scene/capture.h"
@@ -60,19 +61,21 @@ MethodChoice Stage::choice(const Request& request, const std::string& method, co
 Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
                               const std::vector<std::string>& options) {
   const MethodChoice chosen = choice(request, method, options);
-  LightingInfo info{.method = chosen.method,
-                    .options = take(resolve_options(*chosen.method, chosen.options)),
-                    .width = renderer_->view().width(),
-                    .height = renderer_->view().height(),
-                    .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size() +
-                                                                 renderer_->probes().probes().size()),
-                    .path = parse_path(request.path),
-                    .brdf = parse_brdf(request.brdf),
-                    .depth = renderer_->depth(),
-                    .transparency = !scene_->gpu->blended().empty(),
-                    .captured = scene_->scene.captured.has_value(),
-                    .decals = !lights_->decals.empty(),
-                    .probes = renderer_->probes().kind()};
+  const bool has_boxes = !lights_->decals.empty() || !renderer_->probes().probes().empty();
+  LightingInfo info{
+      .method = chosen.method,
+      .options = take(resolve_options(*chosen.method, with_box_shapes(*chosen.method, chosen.options, has_boxes))),
+      .width = renderer_->view().width(),
+      .height = renderer_->view().height(),
+      .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size() +
+                                                   renderer_->probes().probes().size()),
+      .path = parse_path(request.path),
+      .brdf = parse_brdf(request.brdf),
+      .depth = renderer_->depth(),
+      .transparency = !scene_->gpu->blended().empty(),
+      .captured = scene_->scene.captured.has_value(),
+      .decals = !lights_->decals.empty(),
+      .probes = renderer_->probes().kind()};
   if (const Shadows* shadows = renderer_->shadows()) info.shadows = shadows->settings().filter;
   std::string key = key_of(info, request.grow);
   const auto found = std::ranges::find(lightings_, key, &KeptLighting::key);

@@ -11,6 +11,7 @@
 
 #include "commands/command_line.h"
 #include "gpu/check.h"
+#include "render/box_shapes.h"
 #include "scene/builtin.h"
 #include "scene/capture.h"
 #include "scene/flight.h"
@@ -367,7 +368,7 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
   const std::size_t listed = setup_.lights.size() - (still == nullptr ? 0 : still->lights());
   return make_lighting(*renderer_, shaders_,
                        {.method = &method,
-                        .options = take(resolve_options(method, options)),
+                        .options = take(resolve_options(method, with_box_shapes(method, options, setup_.boxes() != 0))),
                         .width = setup_.view.width(),
                         .height = setup_.view.height(),
                         .light_capacity = static_cast<std::uint32_t>(listed + setup_.boxes()),

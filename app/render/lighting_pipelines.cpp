@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "gpu/check.h"
+#include "render/box_shapes.h"
 #include "render/decal_pass.h"
 #include "render/mesh_pass.h"
 #include "render/probe_set.h"
@@ -133,7 +134,9 @@ std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, c
   if (plan.any_depth) return std::nullopt;
   LightingInfo any_depth = info;
   any_depth.method = take(find_method("lamplight"));
-  any_depth.options = take(resolve_options(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}));
+  const std::vector<std::string> settings =
+      with_box_shapes(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}, culls_shapes(info.options));
+  any_depth.options = take(resolve_options(*any_depth.method, settings));
   return plan_or_throw(any_depth, device);
 }
 

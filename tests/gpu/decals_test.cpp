@@ -12,6 +12,7 @@
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
 #include "gpu/test_surfaces.h"
+#include "render/box_shapes.h"
 #include "render/decal_pass.h"
 #include "scene/flight.h"
 #include "scene/place_decals.h"
@@ -41,7 +42,7 @@ class DecalTest : public GpuTest {
     return {renderer.device(),
             shader_library(),
             {.method = &method,
-             .options = take(resolve_options(method, settings)),
+             .options = take(resolve_options(method, with_box_shapes(method, settings, /* boxes= */ true))),
              .width = renderer.targets().width,
              .height = renderer.targets().height,
              .light_capacity = LIGHTS + DECALS,

@@ -15,6 +15,7 @@
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
 #include "gpu/test_surfaces.h"
+#include "render/box_shapes.h"
 #include "render/decal_pass.h"
 #include "render/place_probes.h"
 #include "scene/flight.h"
@@ -250,7 +251,7 @@ class ProbeAtrium : public GpuTest {
     return {renderer_->device(),
             shader_library(),
             {.method = &method,
-             .options = take(resolve_options(method, settings)),
+             .options = take(resolve_options(method, with_box_shapes(method, settings, /* boxes= */ true))),
              .width = WIDTH,
              .height = HEIGHT,
              .light_capacity = renderer_->data().entities().boxes.end,
@@ -269,6 +270,16 @@ class ProbeAtrium : public GpuTest {
                   .boxes = boxes,
                   .shapes = shapes,
                   .first_id = renderer_->data().entities().probes.first});
+  }
+
+  /// What the separate look-up walks and misses of the probes.
+  Findings findings_of(const Method& method, const std::vector<std::string>& settings) {
+    Lighting lit = lighting(method, ShadingPath::deferred, settings);
+    (void)renderer_->render(lit);
+    const Truth truth = truth_of_probes(renderer_->read_depth());
+    Verification verification(WIDTH);
+    verification.add(truth, renderer_->visit(lit, truth, vulkan::PlanRunner::Passes::separate, Renderer::Kind::probes));
+    return verification.findings();
   }
 
   void expect_none_missed(Lighting& lit, const Truth& truth, vulkan::PlanRunner::Passes which) {
@@ -324,6 +335,24 @@ std::vector<const Method*> all_methods() {
 
 INSTANTIATE_TEST_SUITE_P(Table, ProbeMethods, ::testing::ValuesIn(all_methods()),
                          [](const auto& test) { return test_name(test.param->name); });
+
+/// By their shape, probes are walked far less in vain than by their spheres; lists that are pruned by pixel hold what
+/// reaches a pixel of their tile and nothing else.
+TEST_F(ProbeAtrium, ShapesShortenTheWalk) {
+  show(frame());
+  for (const char* name : {"tiled-bits", "clustered", "drobot-zbin", "drobot-raster-tile", "lamplight"}) {
+    SCOPED_TRACE(name);
+    const Method& method = *take(find_method(name));
+    const Findings by_sphere = findings_of(method, {"boxes=sphere"});
+    const Findings by_shape = findings_of(method, {"boxes=shape"});
+    EXPECT_EQ(by_shape.missed, 0U) << by_shape.first_miss;
+    EXPECT_EQ(by_shape.useful, by_sphere.useful);
+    EXPECT_LT(by_shape.evaluations - by_shape.useful, (by_sphere.evaluations - by_sphere.useful) * 3 / 4);
+  }
+  const Method& tight = *take(find_method("tight"));
+  EXPECT_EQ(findings_of(tight, {"boxes=shape"}).excess(), 1.0);
+  EXPECT_GT(findings_of(tight, {"boxes=sphere"}).excess(), 1.2);
+}
 
 TEST_F(ProbeAtrium, OtherWalksAndListsThatOverflow) {
   show(frame());
