@@ -132,6 +132,8 @@ void shadow_panel(PanelFrame& p) {
   p.widgets.choose("shadows", r.shadows, shadow_names(), "How shadows are filtered.");
   if (r.shadows != shadow_names().front()) {
     p.widgets.choose("point shadows", r.point_shadows, point_shadow_names(), "A point light's map.");
+    p.widgets.choose("shadow raster", r.shadow_raster, shadow_raster_names(),
+                     "What draws shadow maps: the GPU's rasterizer or compute shaders.");
     p.widgets.write("shadow lights", r.shadow_lights, "How many of the first lights cast shadows, or all.");
     p.widgets.write("shadow budget", r.shadow_budget, "Texels of shadow maps that are drawn in a frame, or all.");
     if (p.shown.first.stats.shadows) Widgets::note(shadow_words(*p.shown.first.stats.shadows));

@@ -108,7 +108,7 @@ std::optional<ShownShadow> Stage::read_shadow(const ViewState& state) {
   for (std::uint32_t square = 0; square < squares; ++square)
     read.squares.push_back(picture_of_square(state.palette, read.map, read_square(read.map, square), read.side));
   if (state.shadow_shape == ShadowShape::none) return read;
-  if (state.shadow_shape == ShadowShape::mesh) renderer_->make_meshes();
+  if (state.shadow_shape == ShadowShape::mesh) renderer_->make_reach(ShadowReach::Kind::meshes);
   const gpu::OutlineJob job{.light = read.light,
                             .shape = state.shadow_shape == ShadowShape::mesh ? gpu::OUTLINE_MESH : gpu::OUTLINE_BOUND};
   read.shape = {.light = read.light,

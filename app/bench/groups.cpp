@@ -82,6 +82,7 @@ Group base_of(const Series& series, const Limits& limits) {
             .depth_samples = series.depth_samples,
             .stereo_m = series.stereo_m,
             .shadows = series.shadows,
+            .shadow_raster = series.shadow_raster,
             .atlas = series.atlas,
             .mirror = series.mirror,
             .mirror_lists = series.mirror_lists,
@@ -99,6 +100,7 @@ Group base_of(const Series& series, const Limits& limits) {
           .depth_samples = series.depth_samples,
           .stereo_m = series.stereo_m,
           .shadows = series.shadows,
+          .shadow_raster = series.shadow_raster,
           .atlas = series.atlas,
           .mirror = series.mirror,
           .mirror_lists = series.mirror_lists,
@@ -190,6 +192,7 @@ std::string depth_words(const Group& group) {
 /// Likewise.
 std::string shadow_words(const Group& group) {
   return (group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas)) +
+         (group.shadow_raster == "auto" ? "" : fmt::format(" shadow_raster={}", group.shadow_raster)) +
          (group.mirror == 0.0 ? "" : fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists));
 }
 

@@ -153,6 +153,7 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .mirror = static_cast<float>(group.mirror),
           .mirror_lists = group.mirror_lists,
           .shadows = group.shadows,
+          .shadow_raster = group.shadow_raster,
           .atlas = group.atlas,
           .camera = group.camera,
           .frame = group.frame,

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::string_view ALL = "all";
 constexpr std::array<std::string_view, 5> FILTERS{"off", "hard", "pcf", "vsm",
-                                                  "evsm"};                // then in the order of ShadowFilter
-constexpr std::array<std::string_view, 2> POINTS{"faces", "octahedron"};  // in the order of PointShadows
+                                                  "evsm"};                         // then in the order of ShadowFilter
+constexpr std::array<std::string_view, 2> POINTS{"faces", "octahedron"};           // in the order of PointShadows
+constexpr std::array<std::string_view, 3> RASTERS{"auto", "hardware", "compute"};  // in the order of ShadowRaster
 
 /// A whole number, or all.
 template <class Number>
@@ -39,6 +40,7 @@ std::size_t parse_name(const char* option, const std::string& text, std::span<co
 
 std::span<const std::string_view> shadow_names() { return FILTERS; }
 std::span<const std::string_view> point_shadow_names() { return POINTS; }
+std::span<const std::string_view> shadow_raster_names() { return RASTERS; }
 
 std::string_view shadow_filter_name(ShadowFilter filter) { return FILTERS[static_cast<std::size_t>(filter) + 1]; }
 
@@ -47,6 +49,7 @@ std::optional<ShadowSettings> requested_shadows(const Request& request) {
   const ShadowSettings settings{
       .filter = filter == 0 ? ShadowFilter::hard : static_cast<ShadowFilter>(filter - 1),
       .points = static_cast<PointShadows>(parse_name("--point-shadows", request.point_shadows, POINTS)),
+      .raster = static_cast<ShadowRaster>(parse_name("--shadow-raster", request.shadow_raster, RASTERS)),
       .atlas_size = request.atlas,
       .lights = parse_count("--shadow-lights", request.shadow_lights, ~0U),
       .budget_texels = parse_count("--shadow-budget", request.shadow_budget, ALL_TEXELS)};
@@ -75,6 +78,14 @@ void add_shadow_options(CLI::App& command, Request& r) {
       ->group("Shadows")
       ->capture_default_str();
   command.add_option("--point-shadows", r.point_shadows, "a point light's map: six faces or one octahedron")
+      ->type_name("NAME")
+      ->group("Shadows")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--shadow-raster", r.shadow_raster,
+          "what draws shadow maps: the GPU's rasterizer (hardware) or compute shaders (compute); auto takes compute, "
+          "but not on Mesa's llvmpipe")
       ->type_name("NAME")
       ->group("Shadows")
       ->capture_default_str();

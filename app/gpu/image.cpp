@@ -15,6 +15,7 @@ std::uint32_t full_mip_count(std::uint32_t width, std::uint32_t height) {
 
 GpuImage::GpuImage(const vulkan::Device& device, const GpuImageInfo& info) : info_(info) {
   const VkImageCreateInfo create{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .flags = info.flags,
                                  .imageType = VK_IMAGE_TYPE_2D,
                                  .format = info.format,
                                  .extent = {info.width, info.height, 1},

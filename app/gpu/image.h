@@ -17,6 +17,7 @@ struct GpuImageInfo {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
   VkImageUsageFlags usage = 0;
+  VkImageCreateFlags flags = 0;
 };
 
 class GpuImage {

@@ -117,8 +117,10 @@ std::vector<VkVertexInputAttributeDescription> vertex_attributes() {
 }
 
 GpuScene::GpuScene(Context& context, const Scene& scene) : scene_(&scene) {
-  vertices_ = upload_buffer(context, "vertices", bytes_of(scene.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  indices_ = upload_buffer(context, "indices", bytes_of(scene.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  vertices_ = upload_buffer(context, "vertices", bytes_of(scene.vertices),
+                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  indices_ = upload_buffer(context, "indices", bytes_of(scene.indices),
+                           VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   upload_materials(context);
   surroundings_ = upload_buffer(context, "surroundings", surroundings_bytes(scene), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   upload_textures(context);

@@ -34,6 +34,8 @@ class GpuScene {
   [[nodiscard]] const CapturedSurfaces* captured() const { return captured_ ? &*captured_ : nullptr; }
   [[nodiscard]] const Material& material_of(const Draw& draw) const;
 
+  [[nodiscard]] vulkan::Resource vertices() const { return vulkan::Resource::storage(vertices_.handle()); }
+  [[nodiscard]] vulkan::Resource indices() const { return vulkan::Resource::storage(indices_.handle()); }
   [[nodiscard]] vulkan::Resource instances() const { return vulkan::Resource::storage(instances_.handle()); }
   [[nodiscard]] vulkan::Resource surroundings() const { return vulkan::Resource::storage(surroundings_.handle()); }
   /// A material: its uniform block at binding 1, its five textures at bindings 5 .. 9.

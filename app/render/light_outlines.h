@@ -16,7 +16,7 @@ namespace lamp::app {
 using Outline = std::vector<glm::vec3>;
 
 /// Of a frame that was drawn. `proxies`: shared::LightProxy of each light, where a job asks for them (OUTLINE_PROXY,
-/// OUTLINE_CUT); shadows know the rest (Shadows::need_meshes, before the frame).
+/// OUTLINE_CUT); shadows know the rest (Renderer::make_reach of meshes).
 [[nodiscard]] std::vector<Outline> outlines(Renderer& renderer, const ShaderLibrary& shaders, VkBuffer proxies,
                                             std::span<const gpu::OutlineJob> jobs);
 

@@ -13,6 +13,13 @@ inline constexpr VkPipelineStageFlags2 GRAPHICS_SHADERS =
 
 enum class Load : std::uint8_t { keep, clear };
 
+/// Read and written in compute shaders.
+[[nodiscard]] inline vulkan::Use changes(const vulkan::Resource& resource) {
+  return {.resource = resource,
+          .stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+          .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+}
+
 /// Read in shaders.
 [[nodiscard]] inline vulkan::Use reads(const vulkan::Resource& resource, VkPipelineStageFlags2 stages) {
   const bool image = resource.image != VK_NULL_HANDLE;

@@ -49,7 +49,7 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
   submit(pass.lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     if (pass.prepares) record_upload(recorder);
-    if (pass.prepares && pass.lighting != nullptr) record_meshes(recorder, *pass.lighting);
+    if (pass.prepares && pass.lighting != nullptr) record_reach(recorder, *pass.lighting);
     const vulkan::PlanInputs inputs = plan_inputs();
     if (pass.prepares && pass.lighting != nullptr)
       static_cast<void>(take(pass.lighting->runner().record(recorder, inputs, pass.which)));

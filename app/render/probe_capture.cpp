@@ -102,7 +102,6 @@ void ProbeCapture::capture(const glm::vec3& position, const ProbeAtlas& atlas, s
 
 LightingFrame ProbeCapture::frame(const View& view, bool culled) const {
   vulkan::PlanInputs inputs = data_.plan_inputs(depths_);
-  if (shadows_) inputs.radial = shadows_->radial_bounds().handle();
   return {.scene = scene_,
           .data = data_,
           .targets = targets_,

@@ -70,6 +70,12 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 
 void Renderer::cast_shadows(const ShadowSettings& settings) {
   assert(!shadows_ && "once");
+  if (settings.raster == ShadowRaster::compute && device().traits.max_loop_rounds != ~0U)
+    throw Error(
+        fmt::format("--shadow-raster compute: device {} ends a shader's loops after {} rounds, and triangles might "
+                    "be lost; expected hardware or auto",
+                    context_.row().name, device().traits.max_loop_rounds),
+        Exit::no_device);
   // Where lights stand still, a box's number is between those of two lights.
   const auto boxes = static_cast<std::uint32_t>(decal_capacity_ + probes().probes().size());
   shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : boxes));
@@ -166,8 +172,8 @@ vulkan::Resource Renderer::light_meshes() const { return vulkan::Resource::stora
 vulkan::PlanInputs Renderer::plan_inputs() const {
   vulkan::PlanInputs inputs = (all_pictures_ ? all_pictures_->data : data_).plan_inputs(culled_depths_);
   if (!shadows_) return inputs;
-  inputs.radial = shadows_->radial_bounds().handle();
-  if (const vulkan::Buffer* meshes = shadows_->meshes()) inputs.meshes = meshes->handle();
+  if (const vulkan::Buffer* radial = shadows_->reach(ShadowReach::Kind::radial)) inputs.radial = radial->handle();
+  if (const vulkan::Buffer* meshes = shadows_->reach(ShadowReach::Kind::meshes)) inputs.meshes = meshes->handle();
   return inputs;
 }
 
@@ -177,10 +183,18 @@ void Renderer::record_upload(vulkan::Recorder& recorder) {
   if (all_pictures_) all_pictures_->data.record_upload(recorder);
 }
 
-void Renderer::record_meshes(vulkan::Recorder& recorder, const Lighting& lighting) {
-  if (!shadows_ || !lighting.runner().plan().binds(INPUT_MESHES)) return;
-  shadows_->need_meshes();
-  shadows_->record_meshes(recorder);
+void Renderer::record_reach(vulkan::Recorder& recorder, const Lighting& lighting) {
+  const Plan& plan = lighting.runner().plan();
+  if (!shadows_ || !(plan.binds(INPUT_RADIAL) || plan.binds(INPUT_MESHES))) return;
+  if (plan.binds(INPUT_RADIAL)) shadows_->need(ShadowReach::Kind::radial);
+  if (plan.binds(INPUT_MESHES)) shadows_->need(ShadowReach::Kind::meshes);
+  shadows_->record_reach(recorder);
+}
+
+void Renderer::make_reach(ShadowReach::Kind kind) {
+  if (!shadows_) return;
+  shadows_->need(kind);
+  also([this](vulkan::Recorder& recorder) { shadows_->record_reach(recorder); });
 }
 
 LightingFrame Renderer::lighting_frame() const {
@@ -211,7 +225,7 @@ void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuff
 void Renderer::record_frame(vulkan::Recorder& recorder, Lighting& lighting, bool relights) {
   record_upload(recorder);
   if (shadows_) shadows_->record(recorder);
-  record_meshes(recorder, lighting);
+  record_reach(recorder, lighting);
   LightingFrame frame = lighting_frame();
   frame.surfaces_drawn = relights && surfaces_drawn_;
   if (mirror_) frame.mirror = &*mirror_;
@@ -283,7 +297,7 @@ vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
-    record_meshes(recorder, lighting);
+    record_reach(recorder, lighting);
     lighting.record_cull(recorder, lighting_frame());
     lighting.record_counts(recorder);
   });
@@ -297,7 +311,7 @@ void Renderer::cull_as(Lighting& lighting, const View& other) {
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
-    record_meshes(recorder, lighting);
+    record_reach(recorder, lighting);
     lighting.record_cull(recorder, lighting_frame());
   });
   shown_view_ = shown;

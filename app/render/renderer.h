@@ -90,12 +90,8 @@ class Renderer {
   [[nodiscard]] const ProbeSet& probes() const { return probes_ == nullptr ? no_probes_ : *probes_; }
   /// Of each light, as far as a method asked for them.
   [[nodiscard]] vulkan::Resource light_meshes() const;
-  /// Makes them for the frame that was drawn, whoever asked for them.
-  void make_meshes() {
-    if (!shadows_) return;
-    shadows_->need_meshes();
-    also([this](vulkan::Recorder& recorder) { shadows_->record_meshes(recorder); });
-  }
+  /// Makes them for the frame that was drawn, whether or not a method asks for them.
+  void make_reach(ShadowReach::Kind kind);
   /// What shading binds for them.
   [[nodiscard]] ShadowBound shadow_bound() const { return shadows_ ? shadows_->bound() : no_shadows_.bound(); }
 
@@ -212,7 +208,7 @@ class Renderer {
   [[nodiscard]] std::vector<shared::Light> shadowed_records() const;
   void record_upload(vulkan::Recorder& recorder);
   /// Where the lighting's method reads them.
-  void record_meshes(vulkan::Recorder& recorder, const Lighting& lighting);
+  void record_reach(vulkan::Recorder& recorder, const Lighting& lighting);
   void forget_surfaces();
   void draw_depths();
   template <class Texel>

@@ -36,6 +36,6 @@ NoShadows::NoShadows(const vulkan::Device& device)
 
 ShadowBound NoShadows::bound() const { return bound_of(maps_, atlas_, atlas_); }
 
-ShadowBound Shadows::bound() const { return bound_of(map_buffer_, atlas_, moments_ ? moments_->image() : atlas_); }
+ShadowBound Shadows::bound() const { return bound_of(map_buffer_, atlas(), moments_ ? moments_->image() : atlas()); }
 
 }  // namespace lamp::app

@@ -49,7 +49,10 @@ void add_casters(const GpuScene& scene, const Draw& draw, ShadowCasters& to) {
   const std::vector<Cluster> clusters = clusters_of(scene.scene(), mesh);
   for (std::uint32_t i = 0; i < draw.instances; ++i)
     for (const Cluster& cluster : clusters) {
-      to.casters.push_back({.center = cluster.center, .radius = cluster.radius, .instance = draw.first_instance + i});
+      to.casters.push_back({.center = cluster.center,
+                            .radius = cluster.radius,
+                            .instance = draw.first_instance + i,
+                            .group = static_cast<std::uint32_t>(to.groups.size())});
       to.draws.push_back(
           {.indices = cluster.index_count, .first_index = cluster.first_index, .vertex_offset = mesh.vertex_offset});
     }

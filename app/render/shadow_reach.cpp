@@ -44,7 +44,7 @@ bool same(const shared::ShadowMap& a, const shared::ShadowMap& b) {
 
 ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
                          std::uint32_t light_capacity)
-    : maps_(light_capacity), shows_all_(light_capacity), pending_(light_capacity) {
+    : name_(made(kind).name), maps_(light_capacity), shows_all_(light_capacity), pending_(light_capacity) {
   const auto [name, shader, bytes] = made(kind);
   const std::uint64_t lights = std::max(1U, light_capacity);
   buffer_ = take(
@@ -92,6 +92,7 @@ void ShadowReach::record(vulkan::Recorder& recorder, const vulkan::Resource& map
   if (!std::exchange(begun_, true)) record_nothing_known(recorder);
   const std::uint32_t count = std::exchange(job_count_, 0);
   if (count == 0) return;
+  recorder.begin_pass(name_, {});
   std::ranges::fill(pending_, std::uint8_t{0});
   const vulkan::Resource written = vulkan::Resource::storage(buffer_.handle());
   const vulkan::Resource jobs = vulkan::Resource::storage(jobs_.handle());
@@ -103,6 +104,7 @@ void ShadowReach::record(vulkan::Recorder& recorder, const vulkan::Resource& map
   vkCmdPushConstants(recorder.commands(), pipeline_.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(count), &count);
   const std::uint32_t wide = std::min(count, MOST_GROUPS_X);
   vkCmdDispatch(recorder.commands(), wide, (count + wide - 1) / wide, 1);
+  recorder.end_pass();
 }
 
 }  // namespace lamp::app

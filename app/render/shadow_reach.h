@@ -33,6 +33,7 @@ class ShadowReach {
  private:
   void record_nothing_known(vulkan::Recorder& recorder);
 
+  const char* name_;
   vulkan::Buffer buffer_;
   vulkan::Buffer jobs_;
   vulkan::Pipeline pipeline_;

@@ -56,6 +56,8 @@ std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shade
   if (pairs.empty()) return {};
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const Targets& targets = renderer.targets();
+  renderer.make_reach(ShadowReach::Kind::radial);
+  const vulkan::Buffer* radial = renderer.shadows()->reach(ShadowReach::Kind::radial);
   const vulkan::Buffer asked = upload_buffer(renderer.context(), "pairs of pixel and light", bytes_of(pairs),
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const vulkan::Buffer answers = readback_buffer(renderer.device(), "shadow answers", pairs.size() * sizeof(LookedUp));
@@ -66,7 +68,7 @@ std::vector<LookedUp> ask_look_up(Renderer& renderer, const ShaderLibrary& shade
                                    {3, renderer.data().lights()},
                                    {5, targets.base_color.sampled()},
                                    {6, targets.surface.sampled()},
-                                   {9, vulkan::Resource::storage(renderer.shadows()->radial_bounds().handle())},
+                                   {9, vulkan::Resource::storage(radial->handle())},
                                    {10, renderer.light_meshes()}};
   for (const vulkan::Bound& b : renderer.shadow_bound()) bound.push_back(b);
   std::vector<vulkan::Use> uses;
@@ -188,7 +190,8 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
         thinned.add({.pixel = first + i, .light = truth.lights[k]});
   });
   const std::vector<Pair>& pairs = thinned.pairs();
-  ShadowFindings found{.thinned = thinned.stride(), .has_meshes = renderer.shadows()->meshes() != nullptr};
+  ShadowFindings found{.thinned = thinned.stride(),
+                       .has_meshes = renderer.shadows()->reach(ShadowReach::Kind::meshes) != nullptr};
   if (pairs.empty()) return found;
   const std::vector<LookedUp> looked_up = ask_look_up(renderer, shaders, pairs);
   const Occluders occluders = scene_occluders(scene);

@@ -1,10 +1,10 @@
 // Shadow maps of a scene's lights: the atlas's image, what is drawn into it each frame, and what shading reads.
-// Promise: the library's atlas decides, the GPU finds which casters each square shows; a batch of views is one indirect
-// draw for all opaque casters and one for each masked material.
+// Promise: the library's atlas decides which squares are drawn, the GPU finds which casters each of them shows.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,15 +12,20 @@
 #include "lamplight/shadow_atlas.h"
 #include "render/pass_uses.h"
 #include "render/shader_library.h"
-#include "render/shadow_casters.h"
+#include "render/shadow_drawing.h"
 #include "render/shadow_moments.h"
 #include "render/shadow_reach.h"
 
 namespace lamp::app {
 
+/// What draws maps. automatic: compute, but on a device that ends loops the hardware's rasterizer.
+enum class ShadowRaster : std::uint8_t { automatic, hardware, compute };
+
 struct ShadowSettings {
   ShadowFilter filter = ShadowFilter::pcf;
   PointShadows points = PointShadows::faces;
+  ShadowRaster raster = ShadowRaster::automatic;
+  std::uint32_t raster_items = 1U << 22;     ///< in compute: room for blocks of large triangles, 8 bytes each
   std::uint32_t atlas_size = 4096;           ///< texels
   std::uint32_t lights = ~0U;                ///< so many of the first have shadows, at most
   std::uint64_t budget_texels = ALL_TEXELS;  ///< drawn in a frame
@@ -69,53 +74,34 @@ class Shadows {
   [[nodiscard]] std::span<const shared::ShadowMap> maps() const { return maps_; }
   /// Of each light that has a map, in how many frames it was not drawn.
   [[nodiscard]] std::span<const std::uint32_t> ages() const { return ages_; }
-  [[nodiscard]] const GpuImage& atlas() const { return atlas_; }
+  [[nodiscard]] const GpuImage& atlas() const { return drawing_->atlas(); }
   /// Of vsm and evsm; else null.
   [[nodiscard]] const ShadowMoments* moments() const { return moments_ ? &*moments_ : nullptr; }
   [[nodiscard]] ShadowBound bound() const;
-  /// How far each light reaches before something stops it.
-  [[nodiscard]] const vulkan::Buffer& radial_bounds() const { return radial_.buffer(); }
 
-  /// Meshes around what each light lights take memory and time, so they are made from the first call on.
-  void need_meshes();
-  /// Nothing where they are up to date, or not needed.
-  void record_meshes(vulkan::Recorder& recorder);
-  /// shared::LightMesh of each light; null until they are needed.
-  [[nodiscard]] const vulkan::Buffer* meshes() const { return meshes_ ? &meshes_->buffer() : nullptr; }
+  /// Bounds of what lights light take memory and time, so each kind is made from the first call on.
+  void need(ShadowReach::Kind kind);
+  /// Draws the maps, too, if they are not up to date.
+  void record_reach(vulkan::Recorder& recorder);
+  /// shared::RadialBound or shared::LightMesh of each light; null until they are needed.
+  [[nodiscard]] const vulkan::Buffer* reach(ShadowReach::Kind kind) const;
 
  private:
-  void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
   void record_uploads(vulkan::Recorder& recorder);
-  void record_clears(vulkan::Recorder& recorder) const;
-  void record_batch(vulkan::Recorder& recorder, std::uint32_t first_view, std::uint32_t count);
-  void record_draws(vulkan::Recorder& recorder) const;
-  void begin_atlas(VkCommandBuffer commands) const;
 
   ShadowSettings settings_;
   const vulkan::Device& device_;
   const ShaderLibrary& shaders_;
-  const GpuScene& scene_;
   std::uint32_t light_capacity_;
-  ShadowCasters casters_;
-  std::uint32_t views_a_batch_ = 1;
   ShadowAtlas schedule_;
-  GpuImage atlas_;
-  bool cleared_ = false;  ///< all of the image, once
-  vulkan::Buffer caster_buffer_;
-  vulkan::Buffer draw_template_;
-  vulkan::Buffer draws_;
-  vulkan::Buffer pairs_;
+  std::unique_ptr<ShadowDrawing> drawing_;
   vulkan::Buffer views_;
   vulkan::Buffer map_buffer_;
   vulkan::Buffer staging_;  ///< maps, then views
-  vulkan::Pipeline cull_;
-  vulkan::Pipeline opaque_;
-  vulkan::Pipeline masked_;
 
   std::optional<ShadowMoments> moments_;
-  ShadowReach radial_;
-  std::optional<ShadowReach> meshes_;
-  bool changed_ = false;  ///< since the last `record`
+  std::array<std::optional<ShadowReach>, 2> reaches_;  ///< by kind
+  bool changed_ = false;                               ///< since the last `record`
   ShadowCounts counts_;
   std::vector<std::uint32_t> waiting_;
   std::vector<std::uint32_t> without_;
@@ -123,7 +109,7 @@ class Shadows {
   std::vector<std::uint32_t> ages_;
   std::vector<shared::Light> lights_;       ///< of the last `schedule`
   std::vector<shared::LightSphere> moved_;  ///< since then
-  std::vector<VkClearRect> clears_;
+  std::vector<gpu::ShadowSquare> redrawn_squares_;
   std::uint32_t view_count_ = 0;
 };
 

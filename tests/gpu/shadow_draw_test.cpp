@@ -125,15 +125,20 @@ std::vector<Light> lights_of_all_kinds() {
            .outer_angle = 1.5F}};
 }
 
-class ShadowDraw : public GpuTest, public ::testing::WithParamInterface<PointShadows> {};
+class ShadowDraw : public GpuTest, public ::testing::WithParamInterface<std::tuple<PointShadows, ShadowRaster>> {
+ protected:
+  static ShadowSettings settings() {
+    const auto [points, raster] = GetParam();
+    return {.points = points, .raster = raster, .atlas_size = ATLAS};
+  }
+};
 
 TEST_P(ShadowDraw, ShowsWhatRaysMeet) {
   const TestScene& scene = atrium_without_holes();
   const Occluders occluders = scene_occluders(scene.scene);
   const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
   const std::vector<shared::Light> lights = pack(lights_of_all_kinds());
-  Shadows shadows(test_context(), shader_library(), scene.gpu, {.points = GetParam(), .atlas_size = ATLAS},
-                  static_cast<std::uint32_t>(lights.size()));
+  Shadows shadows(test_context(), shader_library(), scene.gpu, settings(), static_cast<std::uint32_t>(lights.size()));
   vulkan::AccessTracker tracker;
   shadows.schedule({&view, 1}, lights);
   EXPECT_GE(shadows.counts().redrawn, 3U);
@@ -163,14 +168,13 @@ TEST_P(ShadowDraw, ShowsWhatRaysMeet) {
   EXPECT_EQ(shadows.counts().redrawn, 0U);
 }
 
-TEST_F(GpuTest, LeavesCastShadowsWithHoles) {
+TEST_P(ShadowDraw, LeavesHaveHoles) {
   const TestScene& scene = builtin_test_scene("atrium");
   const Occluders leaves = scene_occluders(scene.scene);
   const Occluders cards = scene_occluders(atrium_without_holes().scene);
   const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
   const std::vector<shared::Light> lights = pack(lights_of_all_kinds());
-  Shadows shadows(test_context(), shader_library(), scene.gpu, {.atlas_size = ATLAS},
-                  static_cast<std::uint32_t>(lights.size()));
+  Shadows shadows(test_context(), shader_library(), scene.gpu, settings(), static_cast<std::uint32_t>(lights.size()));
   vulkan::AccessTracker tracker;
   shadows.schedule({&view, 1}, lights);
   draw(shadows, tracker);
@@ -189,8 +193,34 @@ TEST_F(GpuTest, LeavesCastShadowsWithHoles) {
   EXPECT_GT(holes, through * 7 / 10) << holes << " of " << through;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ShadowDraw, ::testing::Values(PointShadows::faces, PointShadows::octahedron),
-                         [](const auto& test) { return test.param == PointShadows::faces ? "faces" : "octahedron"; });
+std::string name_of(const ::testing::TestParamInfo<std::tuple<PointShadows, ShadowRaster>>& test) {
+  return std::string(std::get<0>(test.param) == PointShadows::faces ? "faces" : "octahedron") +
+         (std::get<1>(test.param) == ShadowRaster::hardware ? "" : "InCompute");
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ShadowDraw,
+                         ::testing::Combine(::testing::Values(PointShadows::faces, PointShadows::octahedron),
+                                            ::testing::Values(ShadowRaster::hardware, ShadowRaster::compute)),
+                         name_of);
+
+// Blocks of large triangles that find no room are drawn by the thread that found them.
+TEST_F(GpuTest, ShadowRasterizerWithoutRoomDrawsTheSame) {
+  const TestScene& scene = builtin_test_scene("atrium");
+  const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
+  const std::vector<shared::Light> lights = pack(lights_of_all_kinds());
+  const auto atlas_with = [&](std::uint32_t items) {
+    Shadows shadows(test_context(), shader_library(), scene.gpu,
+                    {.raster = ShadowRaster::compute, .raster_items = items, .atlas_size = ATLAS},
+                    static_cast<std::uint32_t>(lights.size()));
+    vulkan::AccessTracker tracker;
+    shadows.schedule({&view, 1}, lights);
+    draw(shadows, tracker);
+    return read_atlas(shadows, tracker);
+  };
+  const std::vector<float> with_room = atlas_with(1U << 20);
+  EXPECT_GT(std::ranges::count_if(with_room, [](float depth) { return depth > 0.0F; }), 10000);
+  EXPECT_EQ(atlas_with(100), with_room);
+}
 
 TEST_F(GpuTest, ShadowAtlasBeyondTheDeviceIsAnError) {
   const TestScene& scene = builtin_test_scene("plane");

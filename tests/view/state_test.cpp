@@ -46,6 +46,7 @@ ViewState full_state() {
                  {.light = 1, .value = {.position = {1.0F, 2.0F, 3.0F}}}};
   state.request.shadows = "pcf";
   state.request.point_shadows = "octahedron";
+  state.request.shadow_raster = "compute";
   state.request.shadow_lights = "5";
   state.request.shadow_budget = "65536";
   state.request.atlas = 1024;

@@ -16,6 +16,7 @@ struct ShadowCaster {
   vec3 center;  // of a sphere around it, in the object's space
   float radius;
   uint instance;
+  uint group;  // of casters of one material
 };
 
 // VkDrawIndexedIndirectCommand
@@ -27,15 +28,40 @@ struct ShadowDraw {
   uint first_instance;  // where the caster's views begin among the pairs
 };
 
-// Push constants.
+// Push constants of finding pairs.
 struct ShadowBatch {
   uint first_view;
-  uint views;
   uint casters;
 };
 
+// Rasterization in compute.
+
+// Casters of one material, and how much of them there is to draw.
+struct ShadowGroup {
+  uint first_caster;
+  uint pairs;  // of caster and view, from first_caster times the views of a batch on
+  uint items;  // blocks of large triangles; more than there is room for count too
+};
+
+// A square to clear.
+struct ShadowSquare {
+  uvec2 corner;  // texel
+  uint side;
+};
+
+// Push constants of drawing them.
+struct ShadowRasterBatch {
+  uint first_view;
+  uint group;
+  uint most_items;
+};
+
+// An item: the pair; the triangle in its caster, and from these bits on the block in the square.
+LAMP_CONST SHADOW_BLOCK_X_BIT = 16u;
+LAMP_CONST SHADOW_BLOCK_Y_BIT = 24u;
+
 #ifdef __cplusplus
-static_assert(sizeof(ShadowCaster) == 20 && sizeof(ShadowDraw) == 20 && sizeof(ShadowBatch) == 12);
+static_assert(sizeof(ShadowCaster) == 24 && sizeof(ShadowDraw) == 20 && sizeof(ShadowGroup) == 12);
 }  // namespace lamp::app::gpu
 #endif
 

@@ -20,7 +20,9 @@ layout(push_constant) uniform Push { uint job_count; };
 const uint CELLS = RADIAL_SIDE * RADIAL_SIDE;
 const uint BLOCKS = 16u;             // a side of a square, a quarter of a cell's angle and less
 const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
+const uint MOST_BLOCKS = OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS;
 shared uint s_bytes[CELLS];
+shared uint s_nearest_stored[MOST_BLOCKS];  // bits of near / w of a block's farthest texel
 
 void reach(RadialCells cells, uint value) {
   if (!cells.any) return;
@@ -28,9 +30,26 @@ void reach(RadialCells cells, uint value) {
     for (uint x = cells.first.x; x <= cells.last.x; ++x) atomicMax(s_bytes[y * RADIAL_SIDE + x], value);
 }
 
-void reach_of_block(uint light, uint square, uvec2 first, uint size, float unit_m, float scale) {
+// Threads go along rows, which lie together in memory; each finds the farthest of its texels in a row of blocks.
+void farthest_of_blocks(uint light, uint square, uint side, uint blocks) {
+  const uint size = side / blocks;
+  const uint columns = min(side, gl_WorkGroupSize.x);
+  const uint rows = gl_WorkGroupSize.x / columns;
+  const uint first_row = gl_LocalInvocationIndex / columns;
+  for (uint x = gl_LocalInvocationIndex % columns; x < side; x += columns)
+    for (uint block = 0u; block < blocks; ++block) {
+      float stored = 1.0;
+      for (uint y = first_row; y < size; y += rows) {
+        const ivec2 texel = ivec2(x, block * size + y);
+        stored = min(stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
+      }
+      atomicMin(s_nearest_stored[block * blocks + x / size], floatBitsToUint(max(stored, 0.0)));
+    }
+}
+
+void reach_of_block(uint light, uint square, uvec2 first, uint size, float stored, float unit_m, float scale) {
   const RadialBox box = radial_box(light, square, vec2(first), float(size));
-  const float w = radial_farthest_lit(light, radial_farthest_of_block(light, square, first, size));
+  const float w = radial_farthest_lit(light, radial_depth_of(light, stored));
   const float reach_m = w * radial_longest(light, box);
   const uint value = reach_m < unit_m * float(RADIAL_ANY - 1u) ? uint(reach_m / unit_m * 1.00001) + 1u : RADIAL_ANY;
   if (shadow_maps[light].kind == SHADOW_SPOT) {
@@ -64,13 +83,16 @@ void main() {
   const uint side = shadow_maps[light].side;
   const uint blocks = min(side, kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
   const uint squares = !known ? 0u : kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
-  for (uint i = thread; i < squares * blocks * blocks; i += gl_WorkGroupSize.x) {
-    const uint block = i % (blocks * blocks);
-    const uint size = side / blocks;
-    reach_of_block(light, i / (blocks * blocks), uvec2(block % blocks, block / blocks) * size, size, bound.unit_m,
-                   bound.scale);
+  for (uint square = 0u; square < squares; ++square) {
+    for (uint i = thread; i < blocks * blocks; i += gl_WorkGroupSize.x) s_nearest_stored[i] = floatBitsToUint(1.0);
+    barrier();  // initial values before texels are nearer
+    farthest_of_blocks(light, square, side, blocks);
+    barrier();  // all texels before blocks reach
+    for (uint i = thread; i < blocks * blocks; i += gl_WorkGroupSize.x)
+      reach_of_block(light, square, uvec2(i % blocks, i / blocks) * (side / blocks), side / blocks,
+                     uintBitsToFloat(s_nearest_stored[i]), bound.unit_m, bound.scale);
+    barrier();  // all blocks before the next square's, and before bytes are packed
   }
-  barrier();  // all blocks before bytes are packed
   if (thread == 0u) {
     bounds[light].position = bound.position;
     bounds[light].kind = bound.kind;

@@ -55,14 +55,19 @@ bool radial_is_bounded(uint light) {
   return range > 0.0 && range < 1e18 && radial_offset(light) >= 0.0;
 }
 
-// The greatest depth of a block's texels; infinite where nothing was drawn.
+// Of what a texel stores, near / w; infinite where nothing was drawn.
+float radial_depth_of(uint light, float stored) {
+  return stored > 0.0 ? shadow_maps[light].near_m / stored : RADIAL_UNBOUNDED;
+}
+
+// The greatest depth of a block's texels.
 float radial_farthest_of_block(uint light, uint square, uvec2 first, uint size) {
   float nearest_stored = 1.0;  // near / w
   for (uint i = 0u; i < size * size; ++i) {
     const ivec2 texel = ivec2(first + uvec2(i % size, i / size));
     nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
   }
-  return nearest_stored > 0.0 ? shadow_maps[light].near_m / nearest_stored : RADIAL_UNBOUNDED;
+  return radial_depth_of(light, nearest_stored);
 }
 
 // The depth up to which a texel of that depth may light M.
