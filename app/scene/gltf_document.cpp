@@ -130,14 +130,18 @@ std::vector<GltfImage> read_images(const json& document, const std::string& file
   return images;
 }
 
-/// Of an object's extras nothing but a probe.
+/// Of an object's extras nothing but a probe. tinygltf drops what is empty, and an empty probe is a mistake to be
+/// named: an object gets a member that says what it says without, anything else becomes what is no object either.
 void keep_probe(json& value) {
   const auto extras = value.find("extras");
   if (extras == value.end()) return;
-  if (extras->is_object() && extras->contains(PROBE_KEY))
-    *extras = json{{PROBE_KEY, extras->at(PROBE_KEY)}};
-  else
+  if (!extras->is_object() || !extras->contains(PROBE_KEY)) {
     value.erase(extras);
+    return;
+  }
+  json probe = extras->at(PROBE_KEY);
+  if (probe.empty()) probe = probe.is_object() ? json{{"shape", "box"}} : json(false);
+  *extras = json{{PROBE_KEY, std::move(probe)}};
 }
 
 /// Drops what the loader never reads, so that it is neither converted nor stored.

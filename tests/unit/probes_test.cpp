@@ -157,6 +157,9 @@ TEST(GltfProbes, MistakesAreNamed) {
   EXPECT_EQ(error({{"half_extents", {1, 1, 1}}}, {{"scale", {1, 0, 1}}}),
             where + "its node's scale is 0 along an axis, expected another");
   EXPECT_EQ(error("box"), where + "is not an object");
+  EXPECT_EQ(error(json::object()), where + "has no half_extents, expected three numbers > 0");
+  EXPECT_EQ(error(nullptr), where + "is not an object");
+  EXPECT_EQ(error(json::array()), where + "is not an object");
 }
 
 }  // namespace
