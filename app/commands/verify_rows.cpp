@@ -22,8 +22,8 @@ std::string number_or_dash(const char* format, const std::optional<Number>& numb
 
 /// `kind`: of boxes, in the singular.
 void print_boxes(std::string_view kind, const Findings& f) {
-  print_out("  {}s: {} missed, {} walked for {} that hold their pixel, {} on a boundary\n", kind, f.missed,
-            f.evaluations, f.useful, f.boundary_pairs);
+  print_out("  {}s: {} missed, {} walked for {} that hold their pixel ({:.2f} each), {} on a boundary\n", kind,
+            f.missed, f.evaluations, f.useful, f.waste(), f.boundary_pairs);
   if (!f.first_miss.empty()) print_out("  first miss of a {}, by its id behind the lights: {}\n", kind, f.first_miss);
 }
 
