@@ -69,9 +69,10 @@ void draw_triangle(SquareView square, ShadowTriangle t, uint pair, uint triangle
 }
 
 void main() {
-  const ShadowGroup group = groups[batch.group];
-  for (uint i = gl_WorkGroupID.x; i < group.pairs; i += gl_NumWorkGroups.x) {
-    const uint pair = pairs[group.first_caster * VIEWS_A_BATCH + i];
+  const uint first_pair = groups[batch.group].first_caster * VIEWS_A_BATCH;
+  const uint count = groups[batch.group].pairs;
+  for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
+    const uint pair = pairs[first_pair + i];
     const uint caster = pair / VIEWS_A_BATCH;
     const SquareView square = square_view(batch.first_view + pair % VIEWS_A_BATCH, float(imageSize(atlas).x));
     const uint triangles = draws[caster].indices / 3u;

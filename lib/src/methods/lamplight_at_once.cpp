@@ -45,6 +45,8 @@ std::uint64_t list_bytes(const Problem& problem, const Grid& grid) {
 
 bool can_gather(const Problem& problem) {
   if (parts::capacity(problem) > PIECE || problem.options.word("depth") == "none") return false;
+  // An NVIDIA driver (580, H200) makes empty lists of the shader with these tests, at tiles of 16 pixels.
+  if (parts::further_tests(problem.options) != 0) return false;
   const Grid grid = grid_of(problem);
   const CellGrid across{.px = grid.cell_px()};
   return list_bytes(problem, grid) <= std::min(MOST_LIST_BYTES, problem.traits.max_storage_buffer_bytes) &&
