@@ -101,7 +101,7 @@ void ProbeCapture::capture(const glm::vec3& position, const ProbeAtlas& atlas, s
 }
 
 LightingFrame ProbeCapture::frame(const View& view, bool culled) const {
-  vulkan::PlanInputs inputs = data_.plan_inputs(depths_);
+  const vulkan::PlanInputs inputs = data_.plan_inputs(depths_);
   return {.scene = scene_,
           .data = data_,
           .targets = targets_,
