@@ -10,7 +10,12 @@
 namespace lamp::app {
 namespace {
 
-using namespace gpu;
+using gpu::PASSES_BOX;
+using gpu::PASSES_CONE;
+using gpu::PASSES_DEPTHS;
+using gpu::PASSES_EXACT;
+using gpu::PASSES_MASK;
+using gpu::PASSES_SIDES;
 
 /// Tiled culling: its axes say.
 std::uint32_t tests_of_tiles(const Options& options) {
