@@ -8,6 +8,7 @@
 
 #include "commands/pictures.h"
 #include "render/shaders/shadow_heat_data.h"
+#include "render/shadow_squares.h"
 
 namespace lamp::app {
 namespace {
@@ -19,16 +20,6 @@ constexpr std::uint32_t NOBODY = ~0U;
 constexpr std::uint32_t BEHIND = 0xE0000000U;  // black that lets a little of the picture through
 constexpr std::uint32_t FREE = 0xFF202020U;
 constexpr std::uint32_t EDGE = 0xFF808080U;
-
-std::uint32_t squares_of(const ShadowMap& map) {
-  if (map.kind == shared::SHADOW_NONE) return 0;
-  return map.kind == shared::SHADOW_FACES ? shared::SQUARES_A_LIGHT : 1;
-}
-
-glm::uvec2 top_left(const ShadowMap& map, std::uint32_t square) {
-  const std::uint32_t place = map.squares[square];
-  return LEAST_SQUARE * glm::uvec2(place & 0xFFFFU, place >> 16U);
-}
 
 std::uint32_t color_of(Palette palette, const ShadowMap& map, float texel) {
   if (!(texel > 0.0F)) return 0xFF000000U;
@@ -45,7 +36,7 @@ std::vector<std::uint32_t> owners_of(const AtlasSeen& seen) {
   std::vector<std::uint32_t> owners(std::size_t{blocks} * blocks, NOBODY);
   for (std::uint32_t light = 0; light < seen.maps.size(); ++light)
     for (std::uint32_t square = 0; square < squares_of(seen.maps[light]); ++square) {
-      const glm::uvec2 first = top_left(seen.maps[light], square) / LEAST_SQUARE;
+      const glm::uvec2 first = glm::uvec2(square_at(seen.maps[light], square).corner) / LEAST_SQUARE;
       const std::uint32_t count = seen.maps[light].side / LEAST_SQUARE;
       for (std::uint32_t y = first.y; y < std::min(first.y + count, blocks); ++y)
         for (std::uint32_t x = first.x; x < std::min(first.x + count, blocks); ++x)
@@ -99,7 +90,8 @@ std::size_t number_of(const AtlasSeen& seen, glm::uvec2 texel) {
 Overlaid draw_light(Palette palette, const AtlasSeen& seen, const ShadowMap& map) {
   const Board board{.picture = seen.picture, .squares = squares_of(map) == 1 ? glm::uvec2(1) : glm::uvec2(3, 2)};
   Overlaid made = draw(board, [&](const Board::Spot& spot) {
-    const glm::uvec2 texel = top_left(map, spot.square) + glm::uvec2(spot.place * static_cast<float>(map.side));
+    const glm::uvec2 texel =
+        glm::uvec2(square_at(map, spot.square).corner) + glm::uvec2(spot.place * static_cast<float>(map.side));
     return color_of(palette, map, seen.texels[number_of(seen, texel)]);
   });
   made.legend.max = map.side;

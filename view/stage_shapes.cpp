@@ -9,6 +9,7 @@
 #include "lamplight/shared/proxy.h"
 #include "render/light_outlines.h"
 #include "render/pass_uses.h"
+#include "render/shadow_squares.h"
 #include "view/shadow_overlay.h"
 #include "view/stage_kept.h"
 
@@ -78,10 +79,9 @@ std::vector<float> Stage::read_square(const shared::ShadowMap& map, std::uint32_
   const GpuImage& atlas = renderer_->shadows()->atlas();
   const std::size_t texels = std::size_t{map.side} * map.side;
   const vulkan::Buffer read = readback_buffer(context_.device(), "square of a shadow map", texels * sizeof(float));
-  const std::uint32_t place = map.squares[square];
+  const UVec2 corner = square_at(map, square).corner;
   VkBufferImageCopy part = atlas.whole();
-  part.imageOffset = {static_cast<std::int32_t>(shared::LEAST_SQUARE * (place & 0xFFFFU)),
-                      static_cast<std::int32_t>(shared::LEAST_SQUARE * (place >> 16U)), 0};
+  part.imageOffset = {static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y), 0};
   part.imageExtent = {map.side, map.side, 1};
   renderer_->also([&](vulkan::Recorder& recorder) {
     const vulkan::Resource to = vulkan::Resource::storage(read.handle());
@@ -104,13 +104,12 @@ std::optional<ShownShadow> Stage::read_shadow(const ViewState& state) {
   if (read.light < shadows->ages().size()) read.age = shadows->ages()[read.light];
   constexpr std::uint32_t MOST_SIDE = 48;  // of a picture
   read.side = std::min(MOST_SIDE, read.map.side);
-  const std::uint32_t squares = read.map.kind == shared::SHADOW_FACES ? shared::SQUARES_A_LIGHT : 1;
-  for (std::uint32_t square = 0; square < squares; ++square)
+  for (std::uint32_t square = 0; square < squares_of(read.map); ++square)
     read.squares.push_back(picture_of_square(state.palette, read.map, read_square(read.map, square), read.side));
   if (state.shadow_shape == ShadowShape::none) return read;
-  if (state.shadow_shape == ShadowShape::mesh) renderer_->make_reach(ShadowReach::Kind::meshes);
-  const gpu::OutlineJob job{.light = read.light,
-                            .shape = state.shadow_shape == ShadowShape::mesh ? gpu::OUTLINE_MESH : gpu::OUTLINE_BOUND};
+  const bool mesh = state.shadow_shape == ShadowShape::mesh;
+  renderer_->make_reach(mesh ? ShadowReach::Kind::meshes : ShadowReach::Kind::radial);
+  const gpu::OutlineJob job{.light = read.light, .shape = mesh ? gpu::OUTLINE_MESH : gpu::OUTLINE_BOUND};
   read.shape = {.light = read.light,
                 .corners = std::move(outlines(*renderer_, shaders_, VK_NULL_HANDLE, {&job, 1}).front())};
   return read;

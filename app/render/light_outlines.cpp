@@ -23,13 +23,12 @@ std::vector<Outline> outlines(Renderer& renderer, const ShaderLibrary& shaders, 
   const vulkan::Resource written = vulkan::Resource::storage(corners.handle());
   const vulkan::Resource meshes = renderer.light_meshes();
   const Shadows* shadows = renderer.shadows();
-  renderer.make_reach(ShadowReach::Kind::radial);
-  std::vector<vulkan::Bound> bound{
-      {0, renderer.data().frame()},
-      {1, proxies == VK_NULL_HANDLE ? meshes : vulkan::Resource::storage(proxies)},
-      {2, meshes},
-      {3, shadows == nullptr ? meshes : vulkan::Resource::storage(shadows->reach(ShadowReach::Kind::radial)->handle())},
-      {4, vulkan::Resource::storage(asked.handle())}};
+  const vulkan::Buffer* radial = shadows == nullptr ? nullptr : shadows->reach(ShadowReach::Kind::radial);
+  std::vector<vulkan::Bound> bound{{0, renderer.data().frame()},
+                                   {1, proxies == VK_NULL_HANDLE ? meshes : vulkan::Resource::storage(proxies)},
+                                   {2, meshes},
+                                   {3, radial == nullptr ? meshes : vulkan::Resource::storage(radial->handle())},
+                                   {4, vulkan::Resource::storage(asked.handle())}};
   std::vector<vulkan::Use> uses;
   for (const vulkan::Bound& b : bound)
     if (std::ranges::find(uses, b.resource.buffer, [](const vulkan::Use& use) { return use.resource.buffer; }) ==

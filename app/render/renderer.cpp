@@ -70,12 +70,7 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 
 void Renderer::cast_shadows(const ShadowSettings& settings) {
   assert(!shadows_ && "once");
-  if (settings.raster == ShadowRaster::compute && device().traits.max_loop_rounds != ~0U)
-    throw Error(
-        fmt::format("--shadow-raster compute: device {} ends a shader's loops after {} rounds, and triangles might "
-                    "be lost; expected hardware or auto",
-                    context_.row().name, device().traits.max_loop_rounds),
-        Exit::no_device);
+  check_shadow_raster(context_, settings.raster);
   // Where lights stand still, a box's number is between those of two lights.
   const auto boxes = static_cast<std::uint32_t>(decal_capacity_ + probes().probes().size());
   shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : boxes));
@@ -189,12 +184,6 @@ void Renderer::record_reach(vulkan::Recorder& recorder, const Lighting& lighting
   if (plan.binds(INPUT_RADIAL)) shadows_->need(ShadowReach::Kind::radial);
   if (plan.binds(INPUT_MESHES)) shadows_->need(ShadowReach::Kind::meshes);
   shadows_->record_reach(recorder);
-}
-
-void Renderer::make_reach(ShadowReach::Kind kind) {
-  if (!shadows_) return;
-  shadows_->need(kind);
-  also([this](vulkan::Recorder& recorder) { shadows_->record_reach(recorder); });
 }
 
 LightingFrame Renderer::lighting_frame() const {

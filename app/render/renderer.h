@@ -91,7 +91,11 @@ class Renderer {
   /// Of each light, as far as a method asked for them.
   [[nodiscard]] vulkan::Resource light_meshes() const;
   /// Makes them for the frame that was drawn, whether or not a method asks for them.
-  void make_reach(ShadowReach::Kind kind);
+  void make_reach(ShadowReach::Kind kind) {
+    if (!shadows_) return;
+    shadows_->need(kind);
+    also([this](vulkan::Recorder& recorder) { shadows_->record_reach(recorder); });
+  }
   /// What shading binds for them.
   [[nodiscard]] ShadowBound shadow_bound() const { return shadows_ ? shadows_->bound() : no_shadows_.bound(); }
 

@@ -21,22 +21,45 @@ struct ShadowJob {
   std::span<const gpu::ShadowSquare> squares;  ///< those of the views
 };
 
+struct ShadowDrawingInfo {
+  std::uint32_t atlas_size = 0;
+  std::uint64_t most_views = 0;    ///< of a frame
+  std::uint64_t most_squares = 0;  ///< likewise
+};
+
+/// What both have: casters, and pairs of caster and view, found in batches of views.
 class ShadowDrawing {
  public:
-  ShadowDrawing() = default;
   ShadowDrawing(const ShadowDrawing&) = delete;
   ShadowDrawing& operator=(const ShadowDrawing&) = delete;
   virtual ~ShadowDrawing() = default;
 
   /// Its shaders read it as one channel of floats.
-  [[nodiscard]] virtual const GpuImage& atlas() const = 0;
-  virtual void record(vulkan::Recorder& recorder, const ShadowJob& job) = 0;
-};
+  [[nodiscard]] const GpuImage& atlas() const { return atlas_; }
+  void record(vulkan::Recorder& recorder, const ShadowJob& job);
 
-struct ShadowDrawingInfo {
-  std::uint32_t atlas_size = 0;
-  std::uint64_t most_views = 0;    ///< of a frame
-  std::uint64_t most_squares = 0;  ///< likewise
+ protected:
+  ShadowDrawing(Context& context, const GpuScene& scene, const ShadowDrawingInfo& info, const GpuImageInfo& atlas);
+
+  /// The pipeline that finds pairs.
+  [[nodiscard]] vulkan::Pipeline pair_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
+                                               const char* shader) const;
+  /// Pairs of the `count` views from `first_view` on; `counts`: what the pipeline counts them in, at first `zeros`.
+  void record_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline, const vulkan::Buffer& zeros,
+                    const vulkan::Buffer& counts, const ShadowJob& job, std::uint32_t first_view, std::uint32_t count);
+
+  const GpuScene& scene_;
+  ShadowCasters casters_;
+  std::uint32_t views_a_batch_ = 1;
+  GpuImage atlas_;
+  vulkan::Buffer caster_buffer_;
+  vulkan::Buffer pairs_;
+
+ private:
+  /// The first time all of the image, too.
+  virtual void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) = 0;
+  virtual void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
+                            std::uint32_t count) = 0;
 };
 
 /// Throws Error for a device that cannot draw it.
@@ -48,15 +71,8 @@ struct ShadowDrawingInfo {
                                                                const GpuScene& scene, const ShadowDrawingInfo& info,
                                                                std::uint32_t most_items);
 
-/// How many views are drawn at once: pairs of caster and view have room for 16 MiB. With more views than that there is
-/// a further batch, so nothing is lost whatever a scene has.
-[[nodiscard]] std::uint32_t views_a_batch(const ShadowCasters& casters, std::uint64_t most_views);
-
+/// At least 16 bytes, as a descriptor wants some.
 [[nodiscard]] vulkan::Buffer shadow_buffer(const vulkan::Device& device, const char* name, std::uint64_t bytes,
                                            VkBufferUsageFlags usage);
-
-/// Finds the pairs of caster and view of a batch; `bound` has views, casters, instances, and what is written.
-void record_shadow_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline,
-                         std::span<const vulkan::Bound> bound, const gpu::ShadowBatch& batch, std::uint32_t views);
 
 }  // namespace lamp::app

@@ -13,9 +13,6 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t BATCH_PAIRS = 1U << 22;
-constexpr std::uint32_t MOST_BATCH_VIEWS = 32768;  // group counts along y have at least 16 bits
-constexpr std::uint32_t CULL_GROUP = 64;
 constexpr std::uint32_t BINDING_VIEWS = 10;
 constexpr std::uint32_t BINDING_CASTERS = 11;
 constexpr std::uint32_t BINDING_PAIRS = 12;
@@ -40,29 +37,30 @@ VkClearRect clear_rect(const gpu::ShadowSquare& square) {
 
 vulkan::Resource storage(const vulkan::Buffer& buffer) { return vulkan::Resource::storage(buffer.handle()); }
 
+GpuImageInfo depth_atlas(std::uint32_t size) {
+  return {.name = "shadow atlas",
+          .width = size,
+          .height = size,
+          .format = VK_FORMAT_D32_SFLOAT,
+          .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+}
+
 class ShadowDraws final : public ShadowDrawing {
  public:
   ShadowDraws(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowDrawingInfo& info);
 
-  [[nodiscard]] const GpuImage& atlas() const override { return atlas_; }
-  void record(vulkan::Recorder& recorder, const ShadowJob& job) override;
-
  private:
   void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
   void begin_atlas(VkCommandBuffer commands) const;
-  void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares);
-  void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view, std::uint32_t count);
+  void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) override;
+  void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
+                    std::uint32_t count) override;
   void record_draws(vulkan::Recorder& recorder, const ShadowJob& job) const;
 
-  const GpuScene& scene_;
-  ShadowCasters casters_;
-  std::uint32_t views_a_batch_ = 1;
-  GpuImage atlas_;
   bool cleared_ = false;  ///< all of the image, once
-  vulkan::Buffer caster_buffer_;
   vulkan::Buffer draw_template_;
   vulkan::Buffer draws_;
-  vulkan::Buffer pairs_;
   vulkan::Pipeline cull_;
   vulkan::Pipeline opaque_;
   vulkan::Pipeline masked_;
@@ -70,40 +68,23 @@ class ShadowDraws final : public ShadowDrawing {
 
 ShadowDraws::ShadowDraws(Context& context, const ShaderLibrary& shaders, const GpuScene& scene,
                          const ShadowDrawingInfo& info)
-    : scene_(scene), casters_(shadow_casters(scene)), views_a_batch_(views_a_batch(casters_, info.most_views)) {
+    : ShadowDrawing(context, scene, info, depth_atlas(info.atlas_size)) {
   check_features(context);
-  const vulkan::Device& device = context.device();
-  const auto casters = static_cast<std::uint32_t>(casters_.casters.size());
-  for (std::uint32_t i = 0; i < casters; ++i) casters_.draws[i].first_instance = i * views_a_batch_;
-  atlas_ = GpuImage(device, {.name = "shadow atlas",
-                             .width = info.atlas_size,
-                             .height = info.atlas_size,
-                             .format = VK_FORMAT_D32_SFLOAT,
-                             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-  caster_buffer_ =
-      upload_buffer(context, "shadow casters", bytes_of(casters_.casters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   draw_template_ =
       upload_buffer(context, "shadow draws without views", bytes_of(casters_.draws), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  draws_ = shadow_buffer(device, "shadow draws", casters_.draws.size() * sizeof(gpu::ShadowDraw),
+  draws_ = shadow_buffer(context.device(), "shadow draws", casters_.draws.size() * sizeof(gpu::ShadowDraw),
                          VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-  pairs_ = shadow_buffer(device, "shadow pairs", std::uint64_t{casters} * views_a_batch_ * sizeof(std::uint32_t), 0);
-  make_pipelines(device, shaders);
+  make_pipelines(context.device(), shaders);
 }
 
 void ShadowDraws::make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders) {
-  const std::vector<vulkan::Constant> constants{{0, views_a_batch_}};
-  vulkan::PipelineInfo cull{
-      .name = "shadow cull", .constants = constants, .push_constant_bytes = sizeof(gpu::ShadowBatch)};
-  for (std::uint32_t i = 0; i < 5; ++i) cull.bindings.push_back({i});
-  cull_ = take(vulkan::Pipeline::compute(device, cull, shaders.spirv("shadow_cull")));
-
+  cull_ = pair_pipeline(device, shaders, "shadow_cull");
   vulkan::GraphicsState state = mesh_state(VK_COMPARE_OP_GREATER, {});
   std::erase_if(state.attributes,
                 [](const auto& attribute) { return attribute.location == 1 || attribute.location == 2; });
   state.dynamic_cull = false;  // both sides: what is closed casts the same, what is a sheet is seen from both
   state.depth_clamp = true;
-  vulkan::PipelineInfo draw{.name = "shadow maps, opaque", .constants = constants};
+  vulkan::PipelineInfo draw{.name = "shadow maps, opaque", .constants = {{0, views_a_batch_}}};
   for (const std::uint32_t binding : {2U, BINDING_VIEWS, BINDING_CASTERS, BINDING_PAIRS})
     draw.bindings.push_back({binding});
   opaque_ = take(vulkan::Pipeline::graphics(device, draw, shaders.spirv("shadow"), {}, state));
@@ -111,12 +92,6 @@ void ShadowDraws::make_pipelines(const vulkan::Device& device, const ShaderLibra
   draw.bindings.push_back({1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER});
   for (std::uint32_t i = 5; i < 10; ++i) draw.bindings.push_back({i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   masked_ = take(vulkan::Pipeline::graphics(device, draw, shaders.spirv("shadow"), shaders.spirv("depth"), state));
-}
-
-void ShadowDraws::record(vulkan::Recorder& recorder, const ShadowJob& job) {
-  record_clears(recorder, job.squares);
-  for (std::uint32_t at = 0; at < job.view_count && !casters_.casters.empty(); at += views_a_batch_)
-    record_batch(recorder, job, at, std::min(views_a_batch_, job.view_count - at));
 }
 
 void ShadowDraws::begin_atlas(VkCommandBuffer commands) const {
@@ -150,21 +125,7 @@ void ShadowDraws::record_clears(vulkan::Recorder& recorder, std::span<const gpu:
 
 void ShadowDraws::record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
                                std::uint32_t count) {
-  recorder.barrier({copies_to(storage(draws_))});
-  const VkBufferCopy all{.size = casters_.draws.size() * sizeof(gpu::ShadowDraw)};
-  vkCmdCopyBuffer(recorder.commands(), draw_template_.handle(), draws_.handle(), 1, &all);
-
-  recorder.barrier(
-      {changes(storage(draws_)), changes(storage(pairs_)), reads(job.views, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
-  const std::vector<vulkan::Bound> bound{{0, job.views},
-                                         {1, storage(caster_buffer_)},
-                                         {2, scene_.instances()},
-                                         {3, storage(draws_)},
-                                         {4, storage(pairs_)}};
-  record_shadow_pairs(recorder, cull_, bound,
-                      {.first_view = first_view, .casters = static_cast<std::uint32_t>(casters_.casters.size())},
-                      count);
-
+  record_pairs(recorder, cull_, draw_template_, draws_, job, first_view, count);
   recorder.barrier({{.resource = storage(draws_),
                      .stages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                      .access = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT},
@@ -199,26 +160,6 @@ void ShadowDraws::record_draws(vulkan::Recorder& recorder, const ShadowJob& job)
 std::unique_ptr<ShadowDrawing> shadow_draws(Context& context, const ShaderLibrary& shaders, const GpuScene& scene,
                                             const ShadowDrawingInfo& info) {
   return std::make_unique<ShadowDraws>(context, shaders, scene, info);
-}
-
-std::uint32_t views_a_batch(const ShadowCasters& casters, std::uint64_t most_views) {
-  const auto count = std::max(1U, static_cast<std::uint32_t>(casters.casters.size()));
-  return static_cast<std::uint32_t>(
-      std::clamp<std::uint64_t>(std::min<std::uint64_t>(BATCH_PAIRS / count, most_views), 1, MOST_BATCH_VIEWS));
-}
-
-vulkan::Buffer shadow_buffer(const vulkan::Device& device, const char* name, std::uint64_t bytes,
-                             VkBufferUsageFlags usage) {
-  return take(vulkan::Buffer::create(device, {.name = name,
-                                              .bytes = std::max<std::uint64_t>(bytes, 16),
-                                              .usage = usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}));
-}
-
-void record_shadow_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline,
-                         std::span<const vulkan::Bound> bound, const gpu::ShadowBatch& batch, std::uint32_t views) {
-  recorder.bind(pipeline, {bound.begin(), bound.end()});
-  vkCmdPushConstants(recorder.commands(), pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(batch), &batch);
-  vkCmdDispatch(recorder.commands(), (batch.casters + CULL_GROUP - 1) / CULL_GROUP, views, 1);
 }
 
 }  // namespace lamp::app

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "gpu/check.h"
+#include "render/shadow_squares.h"
 
 namespace lamp::app {
 namespace {
@@ -70,8 +71,7 @@ void ShadowMoments::set(std::span<const shared::ShadowMap> maps, std::span<const
   std::vector<Block> blocks;
   for (const ShadowRedraw& redraw : redraws) {
     const shared::ShadowMap& map = maps[redraw.light];
-    const std::uint32_t squares = map.kind == shared::SHADOW_FACES ? shared::SQUARES_A_LIGHT : 1;
-    for (std::uint32_t square = 0; square < squares; ++square)
+    for (std::uint32_t square = 0; square < squares_of(map); ++square)
       for (std::uint32_t i = 0; i < map.side * map.side / BLOCK_TEXELS; ++i)
         blocks.push_back({.light = redraw.light, .square = square, .block = i});
   }

@@ -21,34 +21,35 @@ constexpr std::uint32_t MOST_GROUPS_Y = 32768;
 
 vulkan::Resource storage(const vulkan::Buffer& buffer) { return vulkan::Resource::storage(buffer.handle()); }
 
+GpuImageInfo float_atlas(std::uint32_t size) {
+  return {.name = "shadow atlas",
+          .width = size,
+          .height = size,
+          .format = VK_FORMAT_R32_SFLOAT,
+          .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+          .flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT};
+}
+
 class ShadowRasterizer final : public ShadowDrawing {
  public:
   ShadowRasterizer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowDrawingInfo& info,
                    std::uint32_t most_items);
 
-  [[nodiscard]] const GpuImage& atlas() const override { return atlas_; }
-  void record(vulkan::Recorder& recorder, const ShadowJob& job) override;
-
  private:
-  void make_atlas(const vulkan::Device& device, std::uint32_t size);
+  void make_bits(const vulkan::Device& device);
   void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
   [[nodiscard]] vulkan::Resource texels() const;
-  void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares);
-  void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view, std::uint32_t count);
+  void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) override;
+  void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
+                    std::uint32_t count) override;
   void record_group(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view, std::uint32_t group);
 
-  const GpuScene& scene_;
-  ShadowCasters casters_;
-  std::uint32_t views_a_batch_ = 1;
   std::uint32_t most_items_ = 0;
-  GpuImage atlas_;
   vulkan::OwnedImageView bits_;  ///< the atlas's floats as whole numbers, for atomics
   bool cleared_ = false;         ///< all of the image, once
-  vulkan::Buffer caster_buffer_;
   vulkan::Buffer draws_;
   vulkan::Buffer group_template_;
   vulkan::Buffer groups_;
-  vulkan::Buffer pairs_;
   vulkan::Buffer items_;
   vulkan::Buffer squares_;
   vulkan::Pipeline clear_;
@@ -65,21 +66,15 @@ std::vector<gpu::ShadowGroup> group_data(const ShadowCasters& casters) {
 
 ShadowRasterizer::ShadowRasterizer(Context& context, const ShaderLibrary& shaders, const GpuScene& scene,
                                    const ShadowDrawingInfo& info, std::uint32_t most_items)
-    : scene_(scene),
-      casters_(shadow_casters(scene)),
-      views_a_batch_(views_a_batch(casters_, info.most_views)),
-      most_items_(most_items) {
+    : ShadowDrawing(context, scene, info, float_atlas(info.atlas_size)), most_items_(most_items) {
   const vulkan::Device& device = context.device();
-  make_atlas(device, info.atlas_size);
-  caster_buffer_ =
-      upload_buffer(context, "shadow casters", bytes_of(casters_.casters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  make_bits(device);
   draws_ =
       upload_buffer(context, "shadow casters' triangles", bytes_of(casters_.draws), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   group_template_ = upload_buffer(context, "shadow groups without pairs", bytes_of(group_data(casters_)),
                                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   groups_ = shadow_buffer(device, "shadow groups", casters_.groups.size() * sizeof(gpu::ShadowGroup),
                           VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-  pairs_ = shadow_buffer(device, "shadow pairs", casters_.casters.size() * views_a_batch_ * sizeof(std::uint32_t), 0);
   items_ =
       shadow_buffer(device, "shadow blocks of triangles", std::uint64_t{most_items} * 2 * sizeof(std::uint32_t), 0);
   squares_ = take(vulkan::Buffer::create(
@@ -90,14 +85,7 @@ ShadowRasterizer::ShadowRasterizer(Context& context, const ShaderLibrary& shader
   make_pipelines(device, shaders);
 }
 
-void ShadowRasterizer::make_atlas(const vulkan::Device& device, std::uint32_t size) {
-  atlas_ = GpuImage(device,
-                    {.name = "shadow atlas",
-                     .width = size,
-                     .height = size,
-                     .format = VK_FORMAT_R32_SFLOAT,
-                     .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                     .flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT});
+void ShadowRasterizer::make_bits(const vulkan::Device& device) {
   const VkImageViewCreateInfo create{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                      .image = atlas_.handle(),
                                      .viewType = VK_IMAGE_VIEW_TYPE_2D,
@@ -117,8 +105,7 @@ void ShadowRasterizer::make_pipelines(const vulkan::Device& device, const Shader
   clear_ =
       make("shadow_clear",
            {.bindings = {{1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, .push_constant_bytes = sizeof(std::uint32_t)}, {0});
-  list_ = make("shadow_list", {.constants = {{0, views_a_batch_}}, .push_constant_bytes = sizeof(gpu::ShadowBatch)},
-               {0, 1, 2, 3, 4});
+  list_ = pair_pipeline(device, shaders, "shadow_list");
   for (std::uint32_t masked = 0; masked < 2; ++masked) {
     const vulkan::PipelineInfo info{.constants = {{0, views_a_batch_}, {1, masked}},
                                     .bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
@@ -134,12 +121,6 @@ vulkan::Resource ShadowRasterizer::texels() const {
   vulkan::Resource resource = atlas_.storage();
   resource.view = bits_.get();
   return resource;
-}
-
-void ShadowRasterizer::record(vulkan::Recorder& recorder, const ShadowJob& job) {
-  record_clears(recorder, job.squares);
-  for (std::uint32_t at = 0; at < job.view_count && !casters_.casters.empty(); at += views_a_batch_)
-    record_batch(recorder, job, at, std::min(views_a_batch_, job.view_count - at));
 }
 
 void ShadowRasterizer::record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) {
@@ -159,18 +140,7 @@ void ShadowRasterizer::record_clears(vulkan::Recorder& recorder, std::span<const
 
 void ShadowRasterizer::record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
                                     std::uint32_t count) {
-  recorder.barrier({copies_to(storage(groups_))});
-  const VkBufferCopy all{.size = casters_.groups.size() * sizeof(gpu::ShadowGroup)};
-  vkCmdCopyBuffer(recorder.commands(), group_template_.handle(), groups_.handle(), 1, &all);
-  recorder.barrier({changes(storage(groups_)), changes(storage(pairs_)), reads(job.views, COMPUTE)});
-  const std::vector<vulkan::Bound> bound{{0, job.views},
-                                         {1, storage(caster_buffer_)},
-                                         {2, scene_.instances()},
-                                         {3, storage(groups_)},
-                                         {4, storage(pairs_)}};
-  record_shadow_pairs(recorder, list_, bound,
-                      {.first_view = first_view, .casters = static_cast<std::uint32_t>(casters_.casters.size())},
-                      count);
+  record_pairs(recorder, list_, group_template_, groups_, job, first_view, count);
   for (std::uint32_t group = 0; group < casters_.groups.size(); ++group) record_group(recorder, job, first_view, group);
 }
 

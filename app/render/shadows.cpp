@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shadows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
 #include "gpu/check.h"
 #include "gpu/transfer.h"
+#include "render/shadow_squares.h"
 
 namespace lamp::app {
 namespace {
@@ -19,15 +22,6 @@ ShadowAtlas make_atlas(const vulkan::Device& device, const ShadowSettings& setti
                                    .points = settings.points,
                                    .filter = settings.filter,
                                    .texels_per_pixel = settings.texels_per_pixel}));
-}
-
-std::uint32_t squares_of(const shared::ShadowMap& map) {
-  return map.kind == shared::SHADOW_FACES ? shared::SQUARES_A_LIGHT : 1;
-}
-
-gpu::ShadowSquare square_at(const shared::ShadowMap& map, std::uint32_t square) {
-  const std::uint32_t at = map.squares[square];
-  return {.corner = {(at & 0xffffU) * shared::LEAST_SQUARE, (at >> 16U) * shared::LEAST_SQUARE}, .side = map.side};
 }
 
 bool ends_loops(const vulkan::Device& device) { return device.traits.max_loop_rounds != ~0U; }
@@ -48,6 +42,16 @@ vulkan::Use transfer_writes(const vulkan::Buffer& buffer) {
 }
 
 }  // namespace
+
+void check_shadow_raster(const Context& context, ShadowRaster raster) {
+  if (raster != ShadowRaster::compute || !ends_loops(context.device())) return;
+  throw Error(
+      fmt::format(
+          "--shadow-raster compute: device {} ends a shader's loops after {} rounds, and triangles might be lost; "
+          "expected hardware or auto",
+          context.row().name, context.device().traits.max_loop_rounds),
+      Exit::no_device);
+}
 
 Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowSettings& settings,
                  std::uint32_t light_capacity)

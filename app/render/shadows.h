@@ -21,6 +21,9 @@ namespace lamp::app {
 /// What draws maps. automatic: compute, but on a device that ends loops the hardware's rasterizer.
 enum class ShadowRaster : std::uint8_t { automatic, hardware, compute };
 
+/// Throws Error for a device on which it might lose triangles of large squares.
+void check_shadow_raster(const Context& context, ShadowRaster raster);
+
 struct ShadowSettings {
   ShadowFilter filter = ShadowFilter::pcf;
   PointShadows points = PointShadows::faces;
