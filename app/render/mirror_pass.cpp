@@ -114,7 +114,7 @@ MirrorPipelines mirror_pipelines(const vulkan::Device& device, const ShaderLibra
 }
 
 MirrorPass::MirrorPass(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const MirrorInfo& info)
-    : of_(scene.scene()), info_(info), scene_(context, scene.scene()) {
+    : of_(scene.scene()), info_(info), scene_(context, scene) {
   const vulkan::Device& device = context.device();
   hits_ = pixel_buffer(device, info, "mirror hits", sizeof(gpu::MirrorHit));
   surfaces_ = pixel_buffer(device, info, "mirrored surfaces", sizeof(gpu::MirrorSurface));
@@ -176,9 +176,7 @@ void MirrorPass::trace(vulkan::Recorder& recorder, const LightingFrame& frame) {
   append(bound, scene_.bound());
   std::vector<vulkan::Use> uses = reads_all(bound);
   uses.push_back(writes(hits_));
-  uses.push_back({.resource = counts,
-                  .stages = COMPUTE,
-                  .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+  uses.push_back(changes(counts));
   append(bound, {{2, vulkan::Resource::storage(hits_.handle())}, {3, counts}});
   dispatch(recorder, "trace", trace_, bound, uses);
 }
@@ -203,9 +201,7 @@ void MirrorPass::shade(vulkan::Recorder& recorder, const LightingFrame& frame, b
   bound.insert(bound.end(), frame.shadows.begin(), frame.shadows.end());
   std::vector<vulkan::Use> uses = reads_all(bound);
   for (const vulkan::Use& use : walked.buffer_uses(COMPUTE)) uses.push_back(use);
-  uses.push_back({.resource = frame.targets.hdr.storage(),
-                  .stages = COMPUTE,
-                  .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+  uses.push_back(changes(frame.targets.hdr.storage()));
   if (walks_alone) uses.push_back(writes(walked_));
   append(bound, {{2, frame.targets.hdr.storage()}, {10, vulkan::Resource::storage(walked_.handle())}});
   append(bound, walked.resources);

@@ -71,14 +71,12 @@ std::vector<std::uint32_t> first_levels(std::span<const Image> images, std::uint
 
 }  // namespace
 
-MirrorScene::MirrorScene(Context& context, const Scene& scene) : bvh_(make_bvh(scene)) {
+MirrorScene::MirrorScene(Context& context, const GpuScene& drawn) : drawn_(drawn), bvh_(make_bvh(drawn.scene())) {
   upload_bvh(context);
-  vertices_ = upload_buffer(context, "vertices of rays", bytes_of(scene.vertices), STORAGE);
-  indices_ = upload_buffer(context, "indices of rays", bytes_of(scene.indices), STORAGE);
   std::vector<gpu::MirrorMaterial> materials;
-  for (const Material& material : scene.materials) materials.push_back(mirror_material(material));
+  for (const Material& material : drawn.scene().materials) materials.push_back(mirror_material(material));
   materials_ = upload_buffer(context, "materials of rays", bytes_of(materials), STORAGE);
-  upload_images(context, scene);
+  upload_images(context, drawn.scene());
 }
 
 void MirrorScene::upload_bvh(Context& context) {
@@ -142,19 +140,15 @@ void MirrorScene::record_upload(vulkan::Recorder& recorder) {
 
 std::uint64_t MirrorScene::bytes() const {
   std::uint64_t sum = 0;
-  for (const vulkan::Buffer* buffer :
-       {&nodes_, &triangles_, &instances_, &vertices_, &indices_, &materials_, &images_, &texels_})
+  for (const vulkan::Buffer* buffer : {&nodes_, &triangles_, &instances_, &materials_, &images_, &texels_})
     sum += buffer->bytes();
   return sum;
 }
 
 std::vector<vulkan::Bound> MirrorScene::bound() const {
-  std::vector<vulkan::Bound> bound;
-  std::uint32_t binding = 8;
-  for (const vulkan::Buffer* buffer :
-       {&nodes_, &triangles_, &instances_, &vertices_, &indices_, &materials_, &images_, &texels_})
-    bound.push_back({binding++, vulkan::Resource::storage(buffer->handle())});
-  return bound;
+  const auto storage = [](const vulkan::Buffer& buffer) { return vulkan::Resource::storage(buffer.handle()); };
+  return {{8, storage(nodes_)},   {9, storage(triangles_)},  {10, storage(instances_)}, {11, drawn_.vertices()},
+          {12, drawn_.indices()}, {13, storage(materials_)}, {14, storage(images_)},    {15, storage(texels_)}};
 }
 
 }  // namespace lamp::app

@@ -9,13 +9,15 @@
 #include "gpu/transfer.h"
 #include "lamplight/vulkan.h"
 #include "render/bvh.h"
+#include "render/gpu_scene.h"
 #include "render/shaders/mirror_data.h"
 
 namespace lamp::app {
 
 class MirrorScene {
  public:
-  MirrorScene(Context& context, const Scene& scene);
+  /// Shares its vertices, which must live on.
+  MirrorScene(Context& context, const GpuScene& scene);
 
   /// Its instances have moved: they are uploaded anew with the next `record_upload`, and boxes of the upper level.
   void move(Context& context, const Scene& scene);
@@ -31,9 +33,10 @@ class MirrorScene {
   void upload_bvh(Context& context);
   void upload_images(Context& context, const Scene& scene);
 
+  const GpuScene& drawn_;
   Bvh bvh_;
   std::vector<std::string> notes_;
-  vulkan::Buffer nodes_, triangles_, instances_, vertices_, indices_, materials_, images_, texels_;
+  vulkan::Buffer nodes_, triangles_, instances_, materials_, images_, texels_;
   vulkan::Buffer staging_;  ///< of instances, then of the upper level's nodes
   bool moved_ = false;      ///< since the last upload
 };

@@ -128,9 +128,7 @@ void PointWalks::dispatch(const vulkan::Buffer& points, const vulkan::Buffer& li
   for (const auto& [binding, buffer] : outputs) {
     const vulkan::Resource resource = vulkan::Resource::storage(buffer->handle());
     bound.push_back({binding, resource});
-    uses.push_back({.resource = resource,
-                    .stages = COMPUTE,
-                    .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+    uses.push_back(changes(resource));
     to_host.push_back(host_reads(resource));
   }
   const std::array<std::uint32_t, 3> push{count, writes ? 1U : 0U, /*two*/ 2U};

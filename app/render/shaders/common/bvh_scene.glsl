@@ -10,34 +10,28 @@
 #include "mirror_data.h"
 #include "common/srgb.glsl"
 
-const uint VERTEX_WORDS = 15u;  // of a Vertex, scene.h: position 3, normal 3, tangent 4, two uv of 2, colour 1
+#define VERTEX_BINDING 11
+#define INDEX_BINDING 12
+#include "common/vertex_words.glsl"
 
 layout(set = 0, binding = 8, scalar) readonly buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer BvhTriangleBuffer { BvhTriangle bvh_triangles[]; };
 layout(set = 0, binding = 10, scalar) readonly buffer BvhInstanceBuffer { BvhInstance bvh_instances[]; };
-layout(set = 0, binding = 11, std430) readonly buffer VertexBuffer { uint vertex_words[]; };
-layout(set = 0, binding = 12, std430) readonly buffer IndexBuffer { uint vertex_indices[]; };
 layout(set = 0, binding = 13, scalar) readonly buffer MaterialBuffer { MirrorMaterial materials[]; };
 layout(set = 0, binding = 14, scalar) readonly buffer ImageBuffer { MirrorImage images[]; };
 layout(set = 0, binding = 15, std430) readonly buffer TexelBuffer { uint texels[]; };
 
 // The corners' vertices.
-uvec3 vertices_of(BvhTriangle t, BvhInstance instance) {
-  const uint i = t.first_index;
-  return VERTEX_WORDS * (uvec3(vertex_indices[i], vertex_indices[i + 1u], vertex_indices[i + 2u]) + instance.vertex_offset);
-}
-
-vec2 vertex_2(uint word) { return uintBitsToFloat(uvec2(vertex_words[word], vertex_words[word + 1u])); }
-vec3 vertex_3(uint word) { return vec3(vertex_2(word), uintBitsToFloat(vertex_words[word + 2u])); }
-vec4 vertex_color(uint vertex) { return unpackUnorm4x8(vertex_words[vertex + 14u]); }
+uvec3 vertices_of(BvhTriangle t, BvhInstance instance) { return vertices_at(t.first_index, instance.vertex_offset); }
 
 // Of the second and the third corner, and the rest of the first.
 vec3 all_weights(vec2 uv) { return vec3(1.0 - uv.x - uv.y, uv); }
 
 // A place on a texture, 0 .. 1 over its image.
 vec2 texture_place(MirrorTexture t, uvec3 vertices, vec3 weights) {
-  const uvec3 at = vertices + 10u + 2u * t.place.uv;
-  const vec2 uv = weights.x * vertex_2(at.x) + weights.y * vertex_2(at.y) + weights.z * vertex_2(at.z);
+  const uint set = t.place.uv;
+  const vec2 uv = weights.x * vertex_uv(vertices.x, set) + weights.y * vertex_uv(vertices.y, set) +
+                  weights.z * vertex_uv(vertices.z, set);
   return vec2(dot(t.place.u_row, uv), dot(t.place.v_row, uv)) + t.place.offset;
 }
 
@@ -91,10 +85,9 @@ vec4 read_level(MirrorTexture t, vec2 place, uint number) {
 // `width`: the ray's cone's on the triangle, over the length of its sides (the root of twice its area).
 vec4 read_texture(MirrorTexture t, uvec3 vertices, vec3 weights, float width) {
   if (t.image == MIRROR_NO_IMAGE) return vec4(1.0);
-  const uvec3 at = vertices + 10u + 2u * t.place.uv;
-  const vec2 a = vertex_2(at.x);
-  const vec2 b = vertex_2(at.y) - a;
-  const vec2 c = vertex_2(at.z) - a;
+  const vec2 a = vertex_uv(vertices.x, t.place.uv);
+  const vec2 b = vertex_uv(vertices.y, t.place.uv) - a;
+  const vec2 c = vertex_uv(vertices.z, t.place.uv) - a;
   const vec2 size = vec2(images[t.image].width, images[t.image].height);
   const float turned_area = abs((t.place.u_row.x * t.place.v_row.y - t.place.u_row.y * t.place.v_row.x) * (b.x * c.y - b.y * c.x));
   const float side_texels = sqrt(turned_area * size.x * size.y);

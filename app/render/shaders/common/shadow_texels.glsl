@@ -10,18 +10,15 @@ layout(set = 0, binding = 1, scalar) uniform MaterialBlock { MaterialData materi
 layout(set = 0, binding = 5) uniform sampler2D base_color_image;
 
 vec2 corner_uv(uint vertex) {
-  const uint at = vertex + 10u + 2u * material.base_color_texture.uv;
-  const vec2 uv = uintBitsToFloat(uvec2(vertex_words[at], vertex_words[at + 1u]));
   const TextureData t = material.base_color_texture;
+  const vec2 uv = vertex_uv(vertex, t.uv);
   return vec2(dot(t.u_row, uv), dot(t.v_row, uv)) + t.offset;
 }
-
-float corner_alpha(uint vertex) { return unpackUnorm4x8(vertex_words[vertex + 14u]).a; }
 
 // `edges`: of edges_at. A place on a texture is a quotient of two functions that are linear over the square.
 bool is_hole(ShadowTriangle t, vec3 edges) {
   const mat3x2 uv = mat3x2(corner_uv(t.vertices.x), corner_uv(t.vertices.y), corner_uv(t.vertices.z));
-  const vec3 alpha = vec3(corner_alpha(t.vertices.x), corner_alpha(t.vertices.y), corner_alpha(t.vertices.z));
+  const vec3 alpha = vec3(vertex_color(t.vertices.x).a, vertex_color(t.vertices.y).a, vertex_color(t.vertices.z).a);
   const float sum = edges.x + edges.y + edges.z;
   const vec2 place = uv * edges / sum;
   const vec2 along_x = (uv * t.edge_x - place * dot(t.edge_x, vec3(1.0))) / sum;

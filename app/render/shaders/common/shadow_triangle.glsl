@@ -15,10 +15,10 @@ layout(set = 0, binding = 10, scalar) readonly buffer ViewBuffer { ShadowView vi
 layout(set = 0, binding = 11, scalar) readonly buffer CasterBuffer { ShadowCaster casters[]; };
 layout(set = 0, binding = 12, scalar) readonly buffer MapBuffer { ShadowMap maps[]; };
 layout(set = 0, binding = 13, scalar) readonly buffer DrawBuffer { ShadowDraw draws[]; };
-layout(set = 0, binding = 14, std430) readonly buffer VertexBuffer { uint vertex_words[]; };
-layout(set = 0, binding = 15, std430) readonly buffer IndexBuffer { uint vertex_indices[]; };
+#define VERTEX_BINDING 14
+#define INDEX_BINDING 15
+#include "common/vertex_words.glsl"
 
-const uint VERTEX_WORDS = 15u;  // of a Vertex, scene.h
 const int SHADOW_BLOCK = 64;  // texels a side that one item is of
 const float SLACK_TEXELS = 1.0 / 64.0;
 
@@ -65,8 +65,7 @@ struct ShadowTriangle {
 };
 
 vec3 vertex_in(SquareView square, uint instance, uint word) {
-  const vec3 p = uintBitsToFloat(uvec3(vertex_words[word], vertex_words[word + 1u], vertex_words[word + 2u]));
-  precise const vec3 rel = (instances[instance].world_from_object * vec4(p, 1.0)).xyz - square.position;
+  precise const vec3 rel = (instances[instance].world_from_object * vec4(vertex_3(word), 1.0)).xyz - square.position;
   precise const vec3 seen = rel * square.rows;
   return seen;
 }
@@ -93,9 +92,7 @@ void bound_texels(vec3 a, vec3 b, vec3 c, int side, inout ShadowTriangle t) {
 
 ShadowTriangle shadow_triangle(SquareView square, uint caster, uint number) {
   ShadowTriangle t;
-  const uint at = draws[caster].first_index + 3u * number;
-  t.vertices = VERTEX_WORDS * (uvec3(vertex_indices[at], vertex_indices[at + 1u], vertex_indices[at + 2u]) +
-                               draws[caster].vertex_offset);
+  t.vertices = vertices_at(draws[caster].first_index + 3u * number, draws[caster].vertex_offset);
   const uint instance = casters[caster].instance;
   const vec3 a = vertex_in(square, instance, t.vertices.x);
   const vec3 b = vertex_in(square, instance, t.vertices.y);
