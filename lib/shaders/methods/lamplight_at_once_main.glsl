@@ -11,7 +11,7 @@ layout(constant_id = 5) const uint PAIRS = 1024;     // of light and row that wa
 layout(constant_id = 6) const uint ROWS = 16;        // tiles of the cell
 layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
-layout(constant_id = 9) const uint FURTHER = 0;      // FURTHER_*
+const uint FURTHER = 0u;                             // no FURTHER_* tests: can_gather
 const bool LIGHTS_MISS = false;                      // a work group has all rows of its cell
 #include "methods/lamplight_exact.glsl"
 
@@ -19,7 +19,7 @@ layout(set = 0, binding = 3) uniform DepthSquares depth_squares;
 layout(set = 0, binding = 4, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };    // LightSpan, or PIECE_WORDS words
 layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[]; };  // of rows, or with BITS of cells
-#define RADIAL_BINDING 7
+#define RADIAL_BINDING 7  // not read
 #ifdef PRUNED
 layout(set = 0, binding = 8) uniform DepthImage depth_image;
 #endif

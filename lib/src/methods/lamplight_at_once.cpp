@@ -71,7 +71,7 @@ Plan plan_at_once(const Problem& problem) {
       {.name = bits ? "tile bits" : "tile lists",
        .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
        .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
-                     grid.cell_rows(), mark_words, bits ? 1U : 0U, parts::further_tests(problem.options)},
+                     grid.cell_rows(), mark_words, bits ? 1U : 0U},
        .bindings = {{INPUT_FRAME},
                     {INPUT_LIGHTS},
                     {INPUT_SPHERES},
@@ -79,7 +79,7 @@ Plan plan_at_once(const Problem& problem) {
                     {cells, Access::write},
                     {rows, Access::write},
                     {lists, Access::write},
-                    parts::radial_binding(problem, INPUT_SPHERES)},
+                    {INPUT_SPHERES}},
        .extent = {.cells = {.px = grid.cell_px()}},
        .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
        .full_subgroups = grid.threads}};
