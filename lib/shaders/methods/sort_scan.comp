@@ -1,4 +1,4 @@
-// Radix sort of lights by depth, second pass: one work group a digit turns the blocks' counts into places.
+// Radix sort of lights, second pass: one work group a digit turns the blocks' counts into places.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "lamplight/shared/slices.h"
+#include "light_sort.h"
 #include "methods.h"
 #include "parts.h"
 #include "zbin_host.h"
@@ -42,50 +43,8 @@ struct Buffers {
   ResourceId bounds, order, sorted, bins, bits;
 };
 
-/// A buffer of one word a light. Whole words of bits, so that any bit of a tile has an entry.
-BufferDesc order_buffer(const char* name, const Sizes& s, BufferMemory memory = BufferMemory::device) {
-  return {.name = name, .bytes = std::uint64_t{s.words} * 32 * 4, .memory = memory};
-}
-
 BufferDesc bin_buffer(const Sizes& s, BufferMemory memory = BufferMemory::device) {
   return {.name = "bins", .bytes = std::uint64_t{s.bins} * (s.wide ? 8 : 4), .memory = memory};
-}
-
-/// Three passes a digit, least digit first; returns the final order.
-ResourceId add_sort(Plan& plan, const Sizes& s, ResourceId bounds) {
-  const std::uint64_t blocks = (s.lights + shared::SORT_BLOCK - 1) / shared::SORT_BLOCK;
-  ResourceId from = plan.add(order_buffer("light order, other", s));
-  ResourceId to = plan.add(order_buffer("light order", s));
-  const ResourceId counts = plan.add({.name = "sort counts", .bytes = blocks * shared::SORT_DIGITS * 4});
-  const ResourceId totals = plan.add({.name = "sort totals", .bytes = shared::SORT_DIGITS * 4});
-  constexpr const char* NAMES[][3] = {{"sort count 0", "sort scan 0", "sort scatter 0"},
-                                      {"sort count 1", "sort scan 1", "sort scatter 1"},
-                                      {"sort count 2", "sort scan 2", "sort scatter 2"},
-                                      {"sort count 3", "sort scan 3", "sort scatter 3"}};
-  std::swap(from, to);  // an even number of digits: the last one writes "light order"
-  for (std::uint32_t digit = 0; digit < std::size(NAMES); ++digit) {
-    const bool first = digit == 0;
-    const ResourceId order = first ? bounds : from;
-    const std::vector<std::uint32_t> constants{s.threads, digit * shared::SORT_DIGIT_BITS, first ? 1U : 0U};
-    plan.passes.push_back({.name = NAMES[digit][0],
-                           .shader = "methods/sort_count",
-                           .constants = constants,
-                           .bindings = {{INPUT_FRAME}, {bounds}, {order}, {counts, Access::write}},
-                           .extent = {.lights_per_group = shared::SORT_BLOCK}});
-    plan.passes.push_back({.name = NAMES[digit][1],
-                           .shader = "methods/sort_scan",
-                           .constants = {s.threads},
-                           .bindings = {{INPUT_FRAME}, {counts, Access::read_write}, {totals, Access::write}},
-                           .extent = {.x = shared::SORT_DIGITS}});
-    plan.passes.push_back({.name = NAMES[digit][2],
-                           .shader = "methods/sort_scatter",
-                           .constants = constants,
-                           .bindings = {{INPUT_FRAME}, {bounds}, {order}, {counts}, {totals}, {to, Access::write}},
-                           .extent = {.lights_per_group = shared::SORT_BLOCK},
-                           .shared_bytes = 10 * shared::SORT_DIGITS * 4});
-    std::swap(from, to);
-  }
-  return from;
 }
 
 Pass gather_pass(const Buffers& b) {
@@ -118,7 +77,7 @@ Buffers add_sorted_lights(Plan& plan, const Problem& problem, const Sizes& s) {
   b.bounds = parts::add_light_bounds(plan, problem);
   b.sorted = plan.add({.name = "sorted bounds", .bytes = s.lights * sizeof(shared::LightBounds)});
   if (problem.options.word("sort") == "cpu") {
-    b.order = plan.add(order_buffer("light order", s, BufferMemory::upload));
+    b.order = plan.add(parts::order_buffer("light order", s.lights, BufferMemory::upload));
     b.bins = plan.add(bin_buffer(s, BufferMemory::upload));
     plan.passes = {{.name = "sort and bins",
                     .kind = PassKind::host,
@@ -132,7 +91,7 @@ Buffers add_sorted_lights(Plan& plan, const Problem& problem, const Sizes& s) {
     return b;
   }
   plan.passes.push_back(parts::light_bounds_pass(b.bounds));
-  b.order = add_sort(plan, s, b.bounds);
+  b.order = parts::add_light_sort(plan, {.by = b.bounds, .lights = s.lights, .threads = s.threads});
   plan.passes.push_back(gather_pass(b));
   b.bins = plan.add(bin_buffer(s));
   add_bins(plan, problem, s, b);
