@@ -22,7 +22,7 @@ void add_mirror_options(CLI::App& command, Request& r) {
           ->capture_default_str();
   command
       .add_option("--mirror-lists", r.mirror_lists,
-                  "what the points that rays meet look lights up in: world-cells or brute-force")
+                  "what the points that rays meet look lights up in: world-cells, ikkala-grid or brute-force")
       ->needs(mirror)
       ->type_name("NAME")
       ->group("Lights")

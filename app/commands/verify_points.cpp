@@ -87,7 +87,7 @@ PointFindings check_kind(PointWalks& walks, const Setup& setup, std::span<const 
     const auto part = points.subspan(first, std::min(AT_ONCE, points.size() - first));
     const PointTruth reaching = truth_at(part, setup.lights);
     const PointTruth seen = occluders != nullptr ? seen_at(reaching, part, setup.lights, *occluders) : reaching;
-    PointFindings findings = check_points(walks.walk(part), seen, setup.lights.size());
+    PointFindings findings = check_points(walks.walk(part), seen, setup.lights.size(), order_of(walks.plan()));
     findings.reaching = reaching.lights.size();
     sum.add(findings, first);
   }

@@ -148,7 +148,7 @@ PointFindings check_lists(Renderer& renderer, const ShaderLibrary& shaders, std:
                           std::span<const glm::vec3> points) {
   PointWalks walks(renderer.context(), shaders, mirror_plan(renderer.device(), renderer.mirrored()->info()),
                    renderer.view(), lights);
-  return check_points(walks.walk(points), truth_at(points, lights), lights.size());
+  return check_points(walks.walk(points), truth_at(points, lights), lights.size(), order_of(walks.plan()));
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, co
                                          distance_of(frame, pixel));
   }
   findings.hits = points.size();
-  if (mirror.info().settings.lists == MirrorLists::world_cells)
+  if (mirror.info().settings.lists != MirrorLists::brute_force)
     findings.lists = check_lists(renderer, shaders, lights, points);
   return findings;
 }

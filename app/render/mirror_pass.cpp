@@ -21,8 +21,8 @@ constexpr std::uint32_t CONSTANT_STACK = 30;
 constexpr std::uint32_t CONSTANT_WALKS_ALONE = 31;
 constexpr VkDescriptorType STORAGE = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 
-constexpr std::array<std::string_view, 2> LISTS{"world-cells", "brute-force"};
-constexpr std::array<const char*, 2> METHODS{"world-cells", "all"};
+constexpr std::array<std::string_view, 3> LISTS{"world-cells", "ikkala-grid", "brute-force"};
+constexpr std::array<const char*, 3> METHODS{"world-cells", "ikkala-grid", "all"};
 
 vulkan::Use writes(const vulkan::Buffer& buffer) {
   return {.resource = vulkan::Resource::storage(buffer.handle()),

@@ -1,6 +1,6 @@
 // Mirrored light: a ray for each pixel of a surface smooth enough, its hit found in compute, and lit with lights looked
-// up by position. docs/methods/mirror.md. Promise: whatever finds a hit's lights, the picture is the same to the bit,
-// since lists ascend. What is not known (a search that the device ended) is counted. SPDX-License-Identifier:
+// up by position. docs/methods/mirror.md. Promise: whatever finds a hit's lights, the picture is the same: to the bit
+// where lists ascend. What is not known (a search that the device ended) is counted. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
 
@@ -19,8 +19,8 @@ namespace lamp::app {
 struct LightingFrame;
 
 /// What hits look lights up in.
-enum class MirrorLists : std::uint8_t { world_cells, brute_force };
-/// "world-cells", "brute-force", in the order of MirrorLists.
+enum class MirrorLists : std::uint8_t { world_cells, ikkala_grid, brute_force };
+/// "world-cells", "ikkala-grid", "brute-force", in the order of MirrorLists.
 [[nodiscard]] std::span<const std::string_view> mirror_list_names();
 
 struct MirrorSettings {

@@ -38,7 +38,7 @@ class PipelineLister {
   }
 
   void add_mirrors() {
-    for (const MirrorLists lists : {MirrorLists::world_cells, MirrorLists::brute_force}) {
+    for (const MirrorLists lists : {MirrorLists::world_cells, MirrorLists::ikkala_grid, MirrorLists::brute_force}) {
       const MirrorInfo info{
           .settings = {.roughness = 1.0F, .lists = lists}, .width = 1920, .height = 1080, .light_capacity = LIGHTS};
       const Plan plan = mirror_plan(device_, info);

@@ -18,7 +18,8 @@ struct PointFindings {
   std::uint64_t reaching = 0;        ///< lights that reach their point, seen or not; as useful where nothing hides them
   std::uint64_t boundary_pairs = 0;  ///< pairs in the boundary band, which are not checked
   std::uint64_t list_max = 0;
-  std::uint64_t unordered = 0;   ///< points whose lights did not ascend
+  std::uint64_t unordered = 0;   ///< points whose lights did not ascend, where they should
+  std::uint64_t repeated = 0;    ///< points whose walk named a light twice, where they need not
   std::uint64_t nowhere = 0;     ///< lights walked that there are not
   std::uint64_t unfollowed = 0;  ///< points whose walk the device ended; of no other number here
   struct Miss {
@@ -34,7 +35,14 @@ struct PointFindings {
   [[nodiscard]] std::string reason() const;  ///< of a verdict that is not ok, one line
 };
 
+/// How a method's walks come (Plan::ordered).
+enum class WalkOrder : std::uint8_t { ascending, any };
+[[nodiscard]] inline WalkOrder order_of(const Plan& plan) {
+  return plan.ordered ? WalkOrder::ascending : WalkOrder::any;
+}
+
 /// Both of the same points, of so many lights.
-[[nodiscard]] PointFindings check_points(const PointLights& found, const PointTruth& truth, std::size_t lights);
+[[nodiscard]] PointFindings check_points(const PointLights& found, const PointTruth& truth, std::size_t lights,
+                                         WalkOrder order = WalkOrder::ascending);
 
 }  // namespace lamp::app

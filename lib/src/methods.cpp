@@ -20,6 +20,7 @@ std::span<const Method> methods() {
     rows.push_back(drobot_raster_cluster_method());
     rows.push_back(lamplight_method());
     rows.push_back(world_cells_method());
+    rows.push_back(ikkala_grid_method());
     rows.push_back(world_tree_method());
     return rows;
   }();

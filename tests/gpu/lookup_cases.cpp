@@ -33,6 +33,9 @@ std::vector<LookUpCase> lookup_cases() {
           {"world_cells", "world-cells", {}},
           {"world_cells", "world-cells", {"brick=800"}},
           {"world_cells", "world-cells", {"mean_bricks=1"}},
+          {"implicit_grid", "ikkala-grid", {}},
+          {"implicit_grid", "ikkala-grid", {"cells=8"}},
+          {"implicit_grid", "ikkala-grid", {"order=index"}},
           {"world_tree", "world-tree", {}},
           {"cell_lists_stepped", "lamplight", {"container=list", "cells=list"}, LOOKUP_LIGHTS},
           {"cell_bits_stepped", "lamplight", {"container=bits", "cells=list"}, LOOKUP_LIGHTS}};

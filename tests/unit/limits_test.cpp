@@ -223,11 +223,13 @@ TEST_P(Limits, SmallProblemsHaveRoomForEveryLightInEveryCell) {
   constexpr std::uint64_t SMALL = 5U << 18;
   const Method& method = *GetParam();
   std::uint32_t checked = 0;
+  bool has_lists = false;
   for (const glm::uvec2 size : {glm::uvec2(1, 1), {320, 180}, {640, 360}, {4000, 3}, {1920, 1080}})
     for (const std::uint32_t lights : {1U, 129U, 600U, 1400U, 5000U, 65536U}) {
       const Plan plan = make_plan(method, problem_of(method, size.x, size.y, lights, test::LARGE_DEVICE)).value();
       // A list in shared memory holds no more than 2048.
       const bool is_limited = entries_of(plan, "capacity") != ~0ULL && lights > 2048;
+      has_lists = has_lists || !plan.capacities.empty();
       if (plan.cells * lights > SMALL || is_limited) continue;
       SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + ", " + std::to_string(lights) + " lights");
       ++checked;
@@ -238,7 +240,7 @@ TEST_P(Limits, SmallProblemsHaveRoomForEveryLightInEveryCell) {
       const std::uint64_t pieces = (lights + shared::PIECE - 1) / shared::PIECE;
       EXPECT_GE(entries_of(plan, "mean_cells"), cell_bytes / sizeof(shared::LightCell) * pieces * shared::PIECE);
     }
-  EXPECT_GT(checked, 1U);
+  EXPECT_TRUE(checked > 1U || !has_lists);
 }
 
 TEST(SmallProblems, TakeNoMoreThanAskedForBelowADefault) {

@@ -17,5 +17,6 @@ namespace lamp {
 [[nodiscard]] Method lamplight_method();
 [[nodiscard]] Method world_cells_method();
 [[nodiscard]] Method world_tree_method();
+[[nodiscard]] Method ikkala_grid_method();
 
 }  // namespace lamp

@@ -17,3 +17,5 @@
 #define lookup_entries LookupEntries(LOOKUP_ADDRESSES[lookup_entries_PLACE]).at_address
 #define lookup_tree LookupTree(LOOKUP_ADDRESSES[lookup_tree_PLACE]).at_address
 #define lookup_level_bits LookupLevels(LOOKUP_ADDRESSES[lookup_level_bits_PLACE]).at_address
+#define lookup_grids LookupGrids(LOOKUP_ADDRESSES[lookup_grids_PLACE]).at_address
+#define lookup_block_words LookupBlockWords(LOOKUP_ADDRESSES[lookup_block_words_PLACE]).at_address

@@ -1,0 +1,116 @@
+// Look-ups by position of every method that has one for moving lights: no light missed at any point, whatever the
+// lights; ids ascend where the method says so. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gpu/check.h"
+#include "gpu/point_asks.h"
+#include "gpu/test_lights.h"
+#include "gpu/test_scenes.h"
+#include "scene/flight.h"
+#include "scene/procedural_random.h"
+#include "scene/random_points.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr std::size_t POINTS = 2000;  // of each kind
+constexpr std::uint32_t LIGHTS = 1000;
+constexpr float INF = std::numeric_limits<float>::infinity();
+
+using procedural::Random;
+using test::lights_around;
+using test::Points;
+using test::points_in;
+
+std::vector<Method> moving_world_methods() {
+  std::vector<Method> found;
+  std::ranges::copy_if(methods(), std::back_inserter(found), [](const Method& m) { return m.any_point && !m.still; });
+  return found;
+}
+
+class WorldPoints : public GpuTest, public ::testing::WithParamInterface<Method> {
+ protected:
+  static Answered ask(const Asked& asked) { return answer(GetParam(), asked); }
+};
+
+TEST_P(WorldPoints, MissNoLightInAnyScene) {
+  for (const BuiltinScene& of : builtin_scenes()) {
+    SCOPED_TRACE(of.name);
+    const TestScene& scene = builtin_test_scene(of.name);
+    Asked asked{.view = view_of(find_camera(scene.scene, ""), ASK_SIDE, ASK_SIDE, "infinite")};
+    asked.lights = test_lights(scene.air, asked.view, {.count = LIGHTS});
+    const PointSource source(scene.scene, scene.air, glm::vec3(glm::dmat4(asked.view.world_from_view())[3]));
+    for (const PointKind kind : POINT_KINDS)
+      for (const glm::vec3& point : source.draw(kind, POINTS, 1)) asked.points.push_back(point);
+    EXPECT_GE(asked.points.size(), 4 * POINTS);
+    const Answered answered = ask(asked);
+    EXPECT_GT(answered.findings.useful, asked.points.size());
+    EXPECT_EQ(answered.counters.overflowed_cells, 0);
+  }
+}
+
+TEST_P(WorldPoints, AreRightAHundredKilometresAway) {
+  const glm::vec3 there(1e5F, -1e5F, 1e5F);
+  for (const glm::vec3& eye : {there, glm::vec3(0.0F)}) {
+    const Asked asked{.view = view_from(eye),
+                      .lights = lights_around(there, 20.0F, 1.0F, 8.0F, LIGHTS),
+                      .points = points_in(1, POINTS, there - 20.0F, there + 20.0F)};
+    EXPECT_GT(ask(asked).findings.useful, POINTS);
+  }
+}
+
+TEST_P(WorldPoints, KnowLightsOfEveryRange) {
+  std::vector<Light> lights;
+  Points points;
+  Random random(5);
+  for (int exponent = -20; exponent <= 59; ++exponent) {
+    const float range = std::ldexp(random.between(1.0F, 2.0F), exponent);
+    lights.push_back({.position = {range, 0.0F, 0.0F}, .range = range});
+    points.emplace_back(range * 0.25F, 0.0F, 0.0F);
+    points.emplace_back(range * 1.5F, -0.5F * range, 0.0F);
+  }
+  for (const float range : {0.0F, 1e18F, 3e38F, INF}) lights.push_back({.position{}, .range = range});
+  const Answered answered = ask({.lights = pack(lights), .points = points});
+  EXPECT_GT(answered.findings.useful, 3 * points.size());
+}
+
+TEST_P(WorldPoints, NameTheLightsOfInfiniteRangeWherePositionsAreNone) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<shared::Light> lights = lights_around({}, 1.0F, 0.5F, 1.5F, 100);
+  lights.push_back(pack(Light{}));
+  const Asked asked{.lights = lights, .points = {{INF, 0, 0}, {0, -INF, INF}, {nan, 0, 0}, {3e38F, 3e38F, -3e38F}}};
+  PointWalks walks(test_context(), shader_library(), plan_of(GetParam(), asked), asked.view, asked.lights);
+  const PointLights found = walks.walk(asked.points);
+  for (std::size_t point = 0; point < asked.points.size(); ++point) {
+    const auto walked = found.of(point);
+    EXPECT_EQ(std::ranges::count(walked, 100U), 1) << point;
+    EXPECT_TRUE(walked.size() == 1 || point == 3) << point;  // the last is a position
+  }
+}
+
+TEST_P(WorldPoints, TakeAllLightsInOneCell) {
+  for (const std::uint32_t count : {129U, 2000U}) {
+    SCOPED_TRACE(count);
+    const Asked asked{.lights = lights_around(glm::vec3(0.37F), 0.001F, 0.4F, 0.5F, count),
+                      .points = points_in(1, 64, glm::vec3(0.0F), glm::vec3(0.7F))};
+    ask(asked);
+  }
+}
+
+TEST_P(WorldPoints, AreTheSameInEveryRun) {
+  const Asked asked{.lights = lights_around({}, 5.0F, 1.0F, 4.0F, LIGHTS),
+                    .points = points_in(1, POINTS, glm::vec3(-5.0F), glm::vec3(5.0F))};
+  PointWalks walks(test_context(), shader_library(), plan_of(GetParam(), asked), asked.view, asked.lights);
+  const PointLights first = walks.walk(asked.points);
+  for (int run = 0; run < 3; ++run) EXPECT_EQ(walks.walk(asked.points).lights, first.lights);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, WorldPoints, ::testing::ValuesIn(moving_world_methods()),
+                         [](const auto& test) { return test_name(std::string(test.param.name)); });
+
+}  // namespace
+}  // namespace lamp::app
