@@ -131,7 +131,8 @@ std::vector<GltfImage> read_images(const json& document, const std::string& file
 }
 
 /// Of an object's extras nothing but a probe. tinygltf drops what is empty, and an empty probe is a mistake to be
-/// named: an object gets a member that says what it says without, anything else becomes what is no object either.
+/// named, as is one of its members: an object gets a member that says what it says without, anything else becomes what
+/// no member may be.
 void keep_probe(json& value) {
   const auto extras = value.find("extras");
   if (extras == value.end()) return;
@@ -140,6 +141,9 @@ void keep_probe(json& value) {
     return;
   }
   json probe = extras->at(PROBE_KEY);
+  if (probe.is_object())
+    for (json& member : probe)
+      if (member.empty()) member = false;  // null, {} and []
   if (probe.empty()) probe = probe.is_object() ? json{{"shape", "box"}} : json(false);
   *extras = json{{PROBE_KEY, std::move(probe)}};
 }

@@ -154,6 +154,14 @@ TEST(GltfProbes, MistakesAreNamed) {
   EXPECT_EQ(error({{"half_extents", {1, 1, 1}}, {"shape", "cone"}}),
             where + "shape is cone, expected box or ellipsoid");
   EXPECT_EQ(error({{"half_extents", {1, 1, 1}}, {"blend", -1}}), where + "blend is -1, expected a number >= 0");
+  EXPECT_EQ(error({{"half_extents", nullptr}}), where + "half_extents is not an array of three numbers");
+  EXPECT_EQ(error({{"half_extents", {1, 1, 1}}, {"blend", nullptr}}), where + "blend is not a number, expected one");
+  EXPECT_EQ(error({{"half_extents", {1, 1, 1}}, {"shape", nullptr}}),
+            where + "shape is not a string, expected box or ellipsoid");
+  EXPECT_EQ(error({{"half_extents", {1, 1, 1}}, {"capture", json::array()}}),
+            where + "capture is not an array of three numbers");
+  EXPECT_EQ(error({{"half_extents", {1, 1, 1}}, {"parallax_center", json::object()}}),
+            where + "parallax_center is not an array of three numbers");
   EXPECT_EQ(error({{"half_extents", {1, 1, 1}}}, {{"scale", {1, 0, 1}}}),
             where + "its node's scale is 0 along an axis, expected another");
   EXPECT_EQ(error("box"), where + "is not an object");
