@@ -141,7 +141,11 @@ void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth
 std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
   const glm::dvec3 position = position_of(of, pixel);
   const std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
-  const PixelTerms terms = terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, ids);
+  const std::vector<std::uint32_t> probes = of.renderer.probes().probes().empty()
+                                                ? std::vector<std::uint32_t>()
+                                                : probes_at(of.renderer, of.lighting, pixel);
+  const PixelTerms terms =
+      terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, {.lights = ids, .probes = probes});
   double sum = luminance(terms.surroundings);
   for (const glm::vec3& term : terms.lights) sum += luminance(term);
   std::vector<ListedLight> lights;

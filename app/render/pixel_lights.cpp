@@ -105,17 +105,23 @@ std::vector<ProbeWeight> probe_weights(Renderer& renderer, const ShaderLibrary& 
 }
 
 PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene, const LightingInfo& info,
-                    std::uint32_t pixel, std::span<const std::uint32_t> lights) {
+                    std::uint32_t pixel, const PixelEntities& walked) {
   if (info.path == ShadingPath::forward) renderer.need_surfaces();
   const Targets& targets = renderer.targets();
   LightPass pass{.shader = "light_shares",
                  .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
                  .bound = gbuffer_bound(targets),
-                 .push = {pixel % targets.width, pixel / targets.width, static_cast<std::uint32_t>(lights.size())},
-                 .answers = lights.size() + 1};
+                 .push = {pixel % targets.width, pixel / targets.width,
+                          static_cast<std::uint32_t>(walked.lights.size()),
+                          static_cast<std::uint32_t>(walked.probes.size())},
+                 .answers = walked.lights.size() + 1};
+  pass.constants.push_back({CONSTANT_PROBES, info.probes});
+  for (const vulkan::Bound& b : renderer.probes().bound()) pass.bound.push_back(b);
   pass.bound.push_back({4, scene.surroundings()});
   for (const vulkan::Bound& b : renderer.shadow_bound()) pass.bound.push_back(b);
-  const std::vector<glm::vec4> terms = for_lights<glm::vec4>(renderer, shaders, lights, std::move(pass));
+  std::vector<std::uint32_t> ids(walked.lights.begin(), walked.lights.end());
+  ids.insert(ids.end(), walked.probes.begin(), walked.probes.end());
+  const std::vector<glm::vec4> terms = for_lights<glm::vec4>(renderer, shaders, ids, std::move(pass));
   return {.lights = {terms.begin(), terms.end() - 1}, .surroundings = glm::vec3(terms.back())};
 }
 

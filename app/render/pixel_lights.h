@@ -31,11 +31,16 @@ struct ProbeWeight {
 
 struct PixelTerms {
   std::vector<glm::vec3> lights;  ///< radiance towards the eye, of each light asked for
-  glm::vec3 surroundings{0.0F};   ///< of all that is no light of the frame
+  glm::vec3 surroundings{0.0F};   ///< of all that is no light of the frame: probes, what is emitted, and so on
+};
+/// What a pixel's walk brings.
+struct PixelEntities {
+  std::span<const std::uint32_t> lights;
+  std::span<const std::uint32_t> probes;  ///< as probes_at gives them
 };
 /// Of an opaque surface, from the G-buffer of the last frame, which is drawn first if a forward path left none.
 [[nodiscard]] PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene,
-                                  const LightingInfo& info, std::uint32_t pixel, std::span<const std::uint32_t> lights);
+                                  const LightingInfo& info, std::uint32_t pixel, const PixelEntities& walked);
 
 /// Which of the library's tests each light passes against the cell (gpu::PASSES_SIDES and so on). `cell.count` is set.
 [[nodiscard]] std::vector<std::uint32_t> explain(Renderer& renderer, const ShaderLibrary& shaders,

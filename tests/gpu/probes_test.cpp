@@ -11,6 +11,7 @@
 #include "gpu/test_surfaces.h"
 #include "render/box_shapes.h"
 #include "render/decal_pass.h"
+#include "render/pixel_lights.h"
 #include "render/place_probes.h"
 #include "scene/flight.h"
 #include "scene/place_decals.h"
@@ -235,6 +236,35 @@ TEST_F(ProbeAtrium, OnesThatWereNotCulledAreMissed) {
   Verification verification(WIDTH);
   verification.add(truth, renderer_->visit(lit, truth, vulkan::PlanRunner::Passes::separate, Renderer::Kind::probes));
   EXPECT_EQ(verification.findings().missed, truth.lights.size());
+}
+
+// As the inspector shows it.
+TEST_F(ProbeAtrium, TermsOfAPixelAddUpToItsRadiance) {
+  Renderer& renderer = show(frame());
+  const LightingInfo info{.method = &brute_force(),
+                          .width = WIDTH,
+                          .height = HEIGHT,
+                          .light_capacity = renderer.data().entities().boxes.end,
+                          .decals = true,
+                          .probes = renderer.probes().kind()};
+  Lighting lit(renderer.device(), shader_library(), info);
+  const HdrImage picture = renderer.render(lit).image;
+  const std::vector<float> depth = renderer.read_depth();
+  std::uint32_t checked = 0;
+  for (std::uint32_t pixel = 7; pixel < WIDTH * HEIGHT; pixel += 197) {
+    if (depth[pixel] == 0.0F) continue;
+    const std::vector<std::uint32_t> lights = lights_at(renderer, lit, pixel);
+    const std::vector<std::uint32_t> probes = probes_at(renderer, lit, pixel);
+    const PixelTerms terms =
+        terms_at(renderer, shader_library(), scene_.gpu, info, pixel, {.lights = lights, .probes = probes});
+    glm::vec3 sum = terms.surroundings;
+    for (const glm::vec3& term : terms.lights) sum += term;
+    const glm::vec3 shown(picture.pixels[pixel]);
+    EXPECT_LT(glm::length(sum - shown), 1e-4F * (1.0F + glm::length(shown))) << pixel;
+    const PixelTerms bare = terms_at(renderer, shader_library(), scene_.gpu, info, pixel, {.lights = lights});
+    checked += glm::length(bare.surroundings - terms.surroundings) > 1e-3F ? 1 : 0;
+  }
+  EXPECT_GT(checked, 3U) << "probes are seen";
 }
 
 }  // namespace
