@@ -29,6 +29,15 @@ void check_features(const Context& context) {
   need(has.drawIndirectFirstInstance, "drawIndirectFirstInstance");
 }
 
+/// Whether clip distances hold in a pipeline without a fragment shader, as Vulkan has it. SwiftShader reads them with a
+/// fragment's other inputs, and without a shader not at all: what lies outside of a light's square fills the atlas.
+bool clips_without_fragments(VkPhysicalDevice physical) {
+  VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  return driver.driverID != VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+}
+
 VkClearRect clear_rect(const gpu::ShadowSquare& square) {
   return {.rect = {.offset = {static_cast<std::int32_t>(square.corner.x), static_cast<std::int32_t>(square.corner.y)},
                    .extent = {square.side, square.side}},
@@ -87,7 +96,9 @@ void ShadowDraws::make_pipelines(const vulkan::Device& device, const ShaderLibra
   vulkan::PipelineInfo draw{.name = "shadow maps, opaque", .constants = {{0, views_a_batch_}}};
   for (const std::uint32_t binding : {2U, BINDING_VIEWS, BINDING_CASTERS, BINDING_PAIRS})
     draw.bindings.push_back({binding});
-  opaque_ = take(vulkan::Pipeline::graphics(device, draw, shaders.spirv("shadow"), {}, state));
+  std::vector<std::uint32_t> fragments;
+  if (!clips_without_fragments(device.physical)) fragments = shaders.spirv("shadow_opaque");
+  opaque_ = take(vulkan::Pipeline::graphics(device, draw, shaders.spirv("shadow"), fragments, state));
   draw.name = "shadow maps, masked";
   draw.bindings.push_back({1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER});
   for (std::uint32_t i = 5; i < 10; ++i) draw.bindings.push_back({i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
