@@ -187,6 +187,7 @@ std::vector<Candidate> make_candidates(const VerifyOptions& o, Session& session,
                                        std::span<const std::string> wanted, std::vector<Stats>& refused) {
   std::vector<Candidate> candidates;
   for (const MethodChoice& chosen : chosen_methods(session, setup, o.request, wanted, o.json)) {
+    show_progress(fmt::format("verify: pipelines of {}", chosen.method->name));
     try {
       candidates.emplace_back(session.lighting(*chosen.method, chosen.options, parse_path(o.request.path)),
                               chosen.options, setup.view.width());

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/verify_shadows.h"
 
+#include <string>
+
+#include "system/progress.h"
+
 namespace lamp::app {
 
 bool is_cut(Session& session, const Lighting& lighting) { return is_cut(session.renderer(), lighting); }
@@ -9,7 +13,15 @@ bool is_cut(Session& session, const Lighting& lighting) { return is_cut(session.
 std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
   Renderer& renderer = session.renderer();
   if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().several()) return std::nullopt;
-  return check_shadows(renderer, session.shaders(), setup.scene, setup.lights);
+  std::optional<Progress> progress;  // of one part
+  std::string part;
+  const auto show = [&](const std::string& what, double done) {
+    if (part != what) progress.emplace();
+    part = what;
+    progress->show("verify shadows: " + what, done);
+  };
+  show_progress("verify shadows");
+  return check_shadows(renderer, session.shaders(), setup.scene, setup.lights, show);
 }
 
 }  // namespace lamp::app

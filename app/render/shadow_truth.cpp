@@ -17,7 +17,8 @@ namespace {
 constexpr std::uint32_t GROUP = 64;          // threads of shadow_pairs.comp
 constexpr std::size_t MOST_PAIRS = 1 << 19;  // five rays each, in a few seconds
 
-constexpr std::size_t ASKED_PAIRS = 1 << 21;  // at once, of the GPU
+constexpr std::size_t ASKED_PAIRS = 1 << 21;   // at once, of the GPU
+constexpr std::size_t TRACED_PAIRS = 1 << 14;  // between two reports of progress
 
 struct Pair {
   std::uint32_t pixel = 0;
@@ -178,7 +179,7 @@ Truth lit_truth(Renderer& renderer, const ShaderLibrary& shaders, const Truth& t
 }
 
 ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
-                             std::span<const shared::Light> lights) {
+                             std::span<const shared::Light> lights, const ShadowProgress& progress) {
   renderer.need_surfaces();
   const View& view = renderer.view();
   const std::vector<float> depth = renderer.read_depth();
@@ -188,6 +189,8 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
     for (std::uint32_t i = 0; i + 1 < truth.offsets.size(); ++i)
       for (std::uint32_t k = truth.offsets[i]; k < truth.offsets[i + 1]; ++k)
         thinned.add({.pixel = first + i, .light = truth.lights[k]});
+    if (progress)
+      progress("pairs of pixel and light", static_cast<double>(truth.first_row + truth.rows) / view.height());
   });
   const std::vector<Pair>& pairs = thinned.pairs();
   ShadowFindings found{.thinned = thinned.stride(),
@@ -196,10 +199,14 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
   const std::vector<LookedUp> looked_up = ask_look_up(renderer, shaders, pairs);
   const Occluders occluders = scene_occluders(scene);
   std::vector<Answers> answers(pairs.size());
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-    if (looked_up[i].light > 0.0F)
-      answers[i] = by_rays(occluders, view, depth, pairs[i].pixel, glm::dvec3(lights[pairs[i].light].position));
-  });
+  for (std::size_t first = 0; first < pairs.size(); first += TRACED_PAIRS) {
+    const std::size_t end = std::min(first + TRACED_PAIRS, pairs.size());
+    tbb::parallel_for(first, end, [&](std::size_t i) {
+      if (looked_up[i].light > 0.0F)
+        answers[i] = by_rays(occluders, view, depth, pairs[i].pixel, glm::dvec3(lights[pairs[i].light].position));
+    });
+    if (progress) progress("rays", static_cast<double>(end) / static_cast<double>(pairs.size()));
+  }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const double light = double{looked_up[i].light};
     if (!(light > 0.0)) continue;  // it faces away

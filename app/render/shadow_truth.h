@@ -3,6 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "oracle/occluders.h"
 #include "oracle/reference.h"
 #include "render/renderer.h"
@@ -44,9 +47,12 @@ struct ShadowFindings {
   ShadowLight away;  ///< of the pairs away from edges
 };
 
+/// Told what is done now, and how much of that, 0 .. 1.
+using ShadowProgress = std::function<void(const std::string& what, double done)>;
+
 /// Of the renderer's frame, which casts shadows and whose surfaces are drawn anew.
 [[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
-                                           std::span<const shared::Light> lights);
+                                           std::span<const shared::Light> lights, const ShadowProgress& progress = {});
 
 /// Whether a method's lights are cut by what their shadow maps hold.
 [[nodiscard]] bool is_cut(const Renderer& renderer, const Lighting& lighting);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t WIDTH = 128;
 constexpr std::uint32_t HEIGHT = 72;
 
-ShadowFindings findings(const ShadowSettings& settings) {
+ShadowFindings findings(const ShadowSettings& settings, const ShadowProgress& progress = {}) {
   const TestScene& scene = builtin_test_scene("corridor");
   const std::vector<shared::Light> lights =
       pack(place_lights(scene.air, {.count = 24, .spots = 0.5F, .min_range = 3.0F, .max_range = 8.0F}));
@@ -28,7 +28,7 @@ ShadowFindings findings(const ShadowSettings& settings) {
   info.options = take(resolve_options(*info.method, {}));
   Lighting lighting(test_context().device(), shader_library(), info);
   static_cast<void>(renderer.render(lighting));  // draws the maps
-  return check_shadows(renderer, shader_library(), scene.scene, lights);
+  return check_shadows(renderer, shader_library(), scene.scene, lights, progress);
 }
 
 TEST_F(GpuTest, WithoutMapsAllThatRaysStopLeaks) {
@@ -40,6 +40,23 @@ TEST_F(GpuTest, WithoutMapsAllThatRaysStopLeaks) {
   EXPECT_EQ(none.all.false_shadows(), 0.0);
   EXPECT_EQ(none.away.leaks(), 1.0);
   EXPECT_GT(none.all.stopped, none.away.stopped) << "some lie at edges";
+}
+
+TEST_F(GpuTest, ShadowProgressGoesFromPairsToTheLastRay) {
+  std::vector<std::string> parts;
+  double last = 0.0;
+  const ShadowFindings found = findings({.filter = ShadowFilter::hard}, [&](const std::string& what, double done) {
+    if (parts.empty() || parts.back() != what) {
+      parts.push_back(what);
+      last = 0.0;
+    }
+    EXPECT_GT(done, last);
+    EXPECT_LE(done, 1.0);
+    last = done;
+  });
+  EXPECT_GT(found.pairs, 0U);
+  EXPECT_EQ(parts, (std::vector<std::string>{"pairs of pixel and light", "rays"}));
+  EXPECT_EQ(last, 1.0);
 }
 
 TEST_F(GpuTest, ShadowsAreNearTheTruth) {
