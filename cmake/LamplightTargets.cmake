@@ -1,9 +1,9 @@
 # What every target of the project has in common: language level, warnings, sanitizers.
 include_guard()
 
-set(LAMPLIGHT_JOIN "" CACHE STRING "What to compile several files at once: nothing, tests or all. Quicker from scratch, \
-slower after a change; hides a missing #include; needs Python")
-set_property(CACHE LAMPLIGHT_JOIN PROPERTY STRINGS "" tests all)
+set(LAMPLIGHT_JOIN "" CACHE STRING "What to compile several files at once: nothing, tests, tools (all but the library) or \
+all. Quicker from scratch, slower after a change; hides a missing #include; needs Python")
+set_property(CACHE LAMPLIGHT_JOIN PROPERTY STRINGS "" tests tools all)
 if(LAMPLIGHT_JOIN)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
 endif()
@@ -77,6 +77,6 @@ function(lamplight_library target)
   endforeach()
   add_library(${target} STATIC ${sources})
   lamplight_configure(${target})
-  lamplight_join(${target} all)
+  lamplight_join(${target} tools all)
   target_link_libraries(${target} PUBLIC ${arg_LINK})
 endfunction()
