@@ -91,29 +91,32 @@ TEST_P(Overflow, IsCountedAndTheListsStayComplete) {
 }
 
 /// Rows that scatter lights into cells: the cells' entries and the tiles' lists are two buffers, either may be short.
-class ScatterOverflow : public LitCorridor {};
+/// For each size of subgroups that plans know.
+class ScatterOverflow : public LitCorridor, public ::testing::WithParamInterface<std::uint32_t> {};
 
-TEST_F(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
+TEST_P(ScatterOverflow, OfEitherBufferIsCountedAndTheListsStayComplete) {
   std::vector<shared::Light> wide = lit_.lights;
   for (shared::Light& light : wide) light.range *= 30.0F;
   const LitCase lit = make_case(renderer_, view_, wide);
   const Method& method = *take(find_method("lamplight"));
-  const auto overflowed = [&](std::uint32_t subgroup, const std::vector<std::string>& settings) {
-    SCOPED_TRACE(fmt::format("{}, {} a subgroup", fmt::join(settings, " "), subgroup));
+  const auto overflowed = [&](const std::vector<std::string>& settings) {
+    SCOPED_TRACE(fmt::format("{}", fmt::join(settings, " ")));
     const Candidate candidate{
-        .method = &method, .settings = settings, .light_capacity = COUNT, .subgroup_size = subgroup};
+        .method = &method, .settings = settings, .light_capacity = COUNT, .subgroup_size = GetParam()};
     check_method(renderer_, lit, candidate, Check::separate);
     renderer_.set_frame(view_, lit.lights);
     return renderer_.render(kept_lighting(renderer_, candidate, ShadingPath::deferred)).counters.overflowed_cells;
   };
-  for (const char* cells : {"cells=list", "cells=bits"})
-    for (const std::uint32_t subgroup : PLAN_SUBGROUPS) {
-      EXPECT_EQ(overflowed(subgroup, {cells, "mean_cells=8", "mean_capacity=300"}), 0);
-      EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=8", "mean_capacity=1"}), 0);
-      EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=0", "mean_capacity=300"}), 0);
-      EXPECT_GT(overflowed(subgroup, {cells, "mean_cells=0", "mean_capacity=1"}), 0);
-    }
+  for (const char* cells : {"cells=list", "cells=bits"}) {
+    EXPECT_EQ(overflowed({cells, "mean_cells=8", "mean_capacity=300"}), 0);
+    EXPECT_GT(overflowed({cells, "mean_cells=8", "mean_capacity=1"}), 0);
+    EXPECT_GT(overflowed({cells, "mean_cells=0", "mean_capacity=300"}), 0);
+    EXPECT_GT(overflowed({cells, "mean_cells=0", "mean_capacity=1"}), 0);
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(Subgroups, ScatterOverflow, ::testing::ValuesIn(PLAN_SUBGROUPS),
+                         [](const auto& test) { return fmt::format("of{}", test.param); });
 
 /// A row with every option that sizes a list set to its least, and lights so wide that all of them are too small.
 class Growing : public LitCorridor, public ::testing::WithParamInterface<const Method*> {};
