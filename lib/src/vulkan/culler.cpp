@@ -94,6 +94,7 @@ Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
     const CullerView& view = views[i];
     if (view.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
     seen.records[i] = view.view->frame(lights, capacity);
+    seen.records[i].box_count = frame.box_count;
     if (view.depth_offset.x < 0 || view.depth_offset.y < 0)
       return Error{"depth offset", "expected where the picture begins in the depth image, got " +
                                        std::to_string(view.depth_offset.x) + ", " +

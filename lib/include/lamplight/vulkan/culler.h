@@ -53,7 +53,10 @@ struct CullerFrame {
   BufferPart radial;   ///< only for option occlusion=radial: of shared::RadialBound, of the first lights, at least one;
                        ///< nothing cuts the others
   BufferPart meshes;   ///< only for option proxy=cut: of shared::LightMesh, likewise
-  std::uint32_t light_count = 0;  ///< at most the capacity
+  std::uint32_t light_count = 0;  ///< at most the capacity; with the boxes
+  /// How many of them, the last ones, are boxes: decals, then probes (`lamp::entity_records`). Option boxes=shape tests
+  /// these by their shape; without a count they are tested by their spheres, as lights are.
+  std::uint32_t box_count = 0;
   /// Instead of light_count, for lights that the GPU makes: a buffer with the count, a 32-bit word. Its usage has
   /// VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Of more lights than the capacity the first ones are taken, and the others
   /// counted (Counters::excess_lights).
