@@ -81,9 +81,10 @@ std::vector<Asked> methods_at_points(const Request& request, const PointsRequest
 }
 
 PointFindings check_kind(PointWalks& walks, const Setup& setup, std::span<const glm::vec3> points,
-                         const Occluders* occluders) {
+                         const Occluders* occluders, const std::string& label) {
   PointFindings sum;
   for (std::size_t first = 0; first < points.size(); first += AT_ONCE) {
+    show_progress(fmt::format("verify points: {}, {} %", label, 100 * first / points.size()));
     const auto part = points.subspan(first, std::min(AT_ONCE, points.size() - first));
     const PointTruth reaching = truth_at(part, setup.lights);
     const PointTruth seen = occluders != nullptr ? seen_at(reaching, part, setup.lights, *occluders) : reaching;
@@ -204,12 +205,12 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
     PointWalks walks(context, shaders, std::move(plan), setup.view, setup.lights,
                      tree ? tree->words() : std::span<const std::uint32_t>());
     for (const PointKind kind : POINT_KINDS) {
-      show_progress(fmt::format("verify points: {}, {}", asked.label(), name_of(kind)));
       const std::vector<glm::vec3> points = source.draw(kind, of.points, request.seed);
       PointRow row = of_method;
       row.kind = name_of(kind);
       row.points = points.size();
-      row.findings = check_kind(walks, setup, points, row.hides ? &occluders : nullptr);
+      row.findings = check_kind(walks, setup, points, row.hides ? &occluders : nullptr,
+                                fmt::format("{}, {}", asked.label(), row.kind));
       row.overflowed = walks.counts().counters.overflowed_cells;
       rows.push_back(std::move(row));
     }

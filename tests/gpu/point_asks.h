@@ -28,7 +28,7 @@ struct Asked {
 struct Answered {
   PointFindings findings;
   PointLights lights;
-  shared::Counters counters;
+  shared::Counters counters{};
 };
 
 /// Expects no miss, and ids that ascend where the plan says so.
