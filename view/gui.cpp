@@ -87,6 +87,7 @@ void record_picture(VkCommandBuffer commands, const Canvas& canvas, const GpuIma
 
 Gui::Gui(Context& context, VkFormat format, VkImageLayout end, float scale) : context_(context) {
   make_render_pass(format, end);
+  timestamps_ = take(vulkan::Timestamps::create(context.device(), 1));
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
@@ -195,8 +196,10 @@ bool interface_is_used() { return ImGui::IsAnyItemActive(); }
 
 void Gui::end() { ImGui::Render(); }
 
-void Gui::record(VkCommandBuffer commands, const Canvas& canvas, const GpuImage* picture,
-                 const ScreenRect& where) const {
+void Gui::record(VkCommandBuffer commands, const Canvas& canvas, const GpuImage* picture, const ScreenRect& where) {
+  if (recorded_)
+    if (const auto times = timestamps_.read(); !times.empty()) interface_ms_ = times.front().ms();
+  timestamps_.reset(commands);
   constexpr VkImageSubresourceRange WHOLE{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   transfer_barrier(commands, canvas.image, VK_IMAGE_LAYOUT_UNDEFINED);
   vkCmdClearColorImage(commands, canvas.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &BACKGROUND, 1, &WHOLE);
@@ -208,9 +211,13 @@ void Gui::record(VkCommandBuffer commands, const Canvas& canvas, const GpuImage*
                                     .renderPass = render_pass_,
                                     .framebuffer = canvas.framebuffer,
                                     .renderArea = {{0, 0}, {canvas.size.x, canvas.size.y}}};
+  timestamps_.begin(commands, "interface");
   vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands);
   vkCmdEndRenderPass(commands);
+  timestamps_.end(commands);
+  timestamps_.finish(commands);
+  recorded_ = true;
 }
 
 }  // namespace lamp::app

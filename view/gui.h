@@ -5,9 +5,11 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 
 #include "gpu/context.h"
 #include "gpu/image.h"
+#include "lamplight/vulkan.h"
 #include "view/input.h"
 
 namespace lamp::app {
@@ -43,7 +45,11 @@ class Gui {
   /// Ends it.
   void end();
   /// Records the picture, stretched into the rectangle, and the interface over it.
-  void record(VkCommandBuffer commands, const Canvas& canvas, const GpuImage* picture, const ScreenRect& where) const;
+  /// What was recorded before is done.
+  void record(VkCommandBuffer commands, const Canvas& canvas, const GpuImage* picture, const ScreenRect& where);
+  /// How long the device took to draw the interface, without the picture below, that was recorded last but one; nothing
+  /// before that, and where the device tells no times.
+  [[nodiscard]] std::optional<double> interface_ms() const { return interface_ms_; }
 
  private:
   void make_render_pass(VkFormat format, VkImageLayout end);
@@ -52,6 +58,9 @@ class Gui {
   Context& context_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkRenderPass render_pass_ = VK_NULL_HANDLE;
+  vulkan::Timestamps timestamps_;
+  bool recorded_ = false;
+  std::optional<double> interface_ms_;
 };
 
 /// The keyboard moves the focus among widgets; a field takes what is typed; a widget is being used.

@@ -30,7 +30,7 @@ Offscreen::Offscreen(Context& context, const Gui& gui, glm::uvec2 size)
 
 Offscreen::~Offscreen() { vkDestroyFramebuffer(context_.device().handle, framebuffer_, nullptr); }
 
-void Offscreen::draw(const Gui& gui, const GpuImage* picture, const ScreenRect& where) {
+void Offscreen::draw(Gui& gui, const GpuImage* picture, const ScreenRect& where) {
   context_.submit([&](VkCommandBuffer commands) {
     gui.record(commands, {.image = image_.handle(), .framebuffer = framebuffer_, .size = size()}, picture, where);
   });

@@ -21,7 +21,7 @@ class Offscreen {
 
   [[nodiscard]] glm::uvec2 size() const { return {image_.info().width, image_.info().height}; }
   /// Draws the picture and the interface, and waits.
-  void draw(const Gui& gui, const GpuImage* picture, const ScreenRect& where);
+  void draw(Gui& gui, const GpuImage* picture, const ScreenRect& where);
   /// What was drawn last.
   [[nodiscard]] LdrImage read();
 

@@ -17,8 +17,12 @@ void draw_graph(const Times::Row& row, float top) {
 
 void draw_times(const Times& times) {
   constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoKeepColumnsVisible;
-  if (times.rows().empty() || !ImGui::BeginTable("times", 3, FLAGS)) return;
-  for (const Times::Row& row : times.rows()) {
+  std::vector<const Times::Row*> rows;
+  for (const Times::Row& row : times.rows()) rows.push_back(&row);
+  if (!times.interface_row().ms.empty()) rows.push_back(&times.interface_row());
+  if (rows.empty() || !ImGui::BeginTable("times", 3, FLAGS)) return;
+  for (const Times::Row* const each : rows) {
+    const Times::Row& row = *each;
     const double p95 = row.at(0.95);
     ImGui::TableNextColumn();
     draw_graph(row, static_cast<float>(std::max(1.3 * p95, 1e-3)));

@@ -17,6 +17,11 @@ std::vector<std::pair<std::string, double>> samples_of(const Rendered& rendered)
   return samples;
 }
 
+void keep(std::vector<float>& ms, double last) {
+  if (ms.size() == Times::MOST) ms.erase(ms.begin());
+  ms.push_back(static_cast<float>(last));
+}
+
 }  // namespace
 
 double Times::Row::at(double share) const { return percentile({ms.begin(), ms.end()}, share); }
@@ -28,11 +33,9 @@ void Times::add(const Rendered& rendered) {
     rows_.clear();
     for (const auto& [name, ms] : samples) rows_.push_back({.name = name, .ms = {}});
   }
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    std::vector<float>& ms = rows_[i].ms;
-    if (ms.size() == MOST) ms.erase(ms.begin());
-    ms.push_back(static_cast<float>(samples[i].second));
-  }
+  for (std::size_t i = 0; i < samples.size(); ++i) keep(rows_[i].ms, samples[i].second);
 }
+
+void Times::add_interface(double ms) { keep(interface_.ms, ms); }
 
 }  // namespace lamp::app

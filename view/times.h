@@ -22,10 +22,14 @@ class Times {
 
   /// Begins anew where passes are others than before.
   void add(const Rendered& rendered);
+  /// Of the interface, of no picture.
+  void add_interface(double ms);
+  [[nodiscard]] const Row& interface_row() const { return interface_; }
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
  private:
   std::vector<Row> rows_;
+  Row interface_{.name = "interface", .ms = {}};
 };
 
 }  // namespace lamp::app

@@ -320,6 +320,7 @@ nlohmann::json Viewer::report() const {
   json["said"] = said_;
   json["pictures"] = shown_.number;
   json["picture_ms"] = picture_ms_;
+  if (!times_.interface_row().ms.empty()) json["interface_ms"] = times_.interface_row().at(0.5);
   json["bookmarks"] = bookmarks_.size();
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);

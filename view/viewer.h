@@ -35,6 +35,10 @@ class Viewer {
   /// What is to be done next, if there is anything. Its Done comes back to `finish`, before the next is asked for.
   [[nodiscard]] std::optional<Job> next_job();
   void finish(Done done);
+  /// How long the device took to draw an interface.
+  void took_interface(std::optional<double> ms) {
+    if (ms) times_.add_interface(*ms);
+  }
   /// Everything that was asked for is done, and what is shown is the state.
   [[nodiscard]] bool idle() const { return idle_ && queued_.empty() && !busy_; }
   /// No picture in a file and no proof waits to be made.
@@ -75,6 +79,7 @@ class Viewer {
   void lay_out(glm::uvec2 screen);
   void use_mouse(const Input& input, float seconds, bool focus);
   void draw_panels(glm::uvec2 screen, float progress);
+  [[nodiscard]] std::string status() const;
   void draw_status(glm::uvec2 screen) const;
   void take_wishes();
   void pass_time(float seconds);

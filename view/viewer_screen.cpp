@@ -82,6 +82,21 @@ void draw_picked(const ScreenRect& picture, const Shown& shown) {
   draw.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, IM_COL32_WHITE);
 }
 
+/// What to do first, over the top of the picture, until a pixel is picked.
+void draw_hint(const ScreenRect& picture, float scale) {
+  const char* const words = "Click a pixel: which lights are in its cell, and why";
+  const ImVec2 size = ImGui::CalcTextSize(words);
+  const float room = static_cast<float>(picture.size().x);
+  if (size.x + 16.0F * scale > room) return;
+  const ImVec2 at(static_cast<float>(picture.min.x) + 0.5F * (room - size.x),
+                  static_cast<float>(picture.min.y) + 10.0F * scale);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({at.x - 8.0F * scale, at.y - 4.0F * scale},
+                     {at.x + size.x + 8.0F * scale, at.y + size.y + 4.0F * scale}, IM_COL32(0, 0, 0, 190),
+                     4.0F * scale);
+  draw.AddText(at, IM_COL32_WHITE, words);
+}
+
 }  // namespace
 
 void Viewer::lay_out(glm::uvec2 screen) {
@@ -134,6 +149,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   if (shown_.number != 0 && state_.decal_boxes) draw_decal_boxes(shown_, picture_);
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);
+  if (state_.panels && shown_.number != 0 && !state_.picked && !state_.against) draw_hint(picture_, scale_);
   legend_window(shown_, picture_, shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_));
   if (shown_.number != 0) draw_depth_bins(shown_, picture_, scale_);
   if (state_.help) help_window(area_, scale_);
@@ -168,31 +184,41 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   ImGui::End();
 }
 
+std::string Viewer::status() const {
+  if (lost_) return "The device was lost. The state can still be saved.";
+  if (!error_.empty()) return error_;
+  if (shown_.number == 0) return "loading ...";
+  const Stats& stats = shown_.first.stats;
+  std::string words =
+      fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms", stats.scene, stats.width,
+                  stats.height, stats.lights, stats.method, shown_.first.by_auto ? " (auto)" : "",
+                  stats.rendered.cull_ms, stats.rendered.shade_ms, stats.rendered.frame_ms);
+  if (picture_ms_ > 0.0) words += fmt::format("  {:.1f} pictures/s", 1000.0 / picture_ms_);
+  if (busy_ && !idle_) words += "  ...";
+  if (!said_.empty()) words += "  " + said_;
+  return words;
+}
+
+/// As many lines as it takes: over the picture, where that is more than one.
 void Viewer::draw_status(glm::uvec2 screen) const {
-  const float height = STATUS_HEIGHT * scale_;
+  const std::string words = status();
+  const ImVec2 padding(8.0F * scale_, 4.0F * scale_);
+  const float width = static_cast<float>(screen.x) - static_cast<float>(area_.min.x);
+  const float text = ImGui::CalcTextSize(words.c_str(), nullptr, false, std::max(1.0F, width - 2.0F * padding.x)).y;
+  const float height = std::max(STATUS_HEIGHT * scale_, text + 2.0F * padding.y);
   ImGui::SetNextWindowPos({static_cast<float>(area_.min.x), static_cast<float>(screen.y) - height});
-  ImGui::SetNextWindowSize({static_cast<float>(screen.x) - static_cast<float>(area_.min.x), height});
+  ImGui::SetNextWindowSize({width, height});
   constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoNav |
                                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                      ImGuiWindowFlags_NoFocusOnAppearing;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(8.0F * scale_, 4.0F * scale_));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
   if (ImGui::Begin("status", nullptr, FIXED)) {
-    std::string words = shown_.number == 0 ? "loading ..." : "";
-    if (shown_.number != 0) {
-      const Stats& stats = shown_.first.stats;
-      words = fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms", stats.scene,
-                          stats.width, stats.height, stats.lights, stats.method, shown_.first.by_auto ? " (auto)" : "",
-                          stats.rendered.cull_ms, stats.rendered.shade_ms, stats.rendered.frame_ms);
-      if (picture_ms_ > 0.0) words += fmt::format("  {:.1f} pictures/s", 1000.0 / picture_ms_);
-      if (busy_ && !idle_) words += "  ...";
-      if (!said_.empty()) words += "  " + said_;
-    }
-    if (lost_) words = "The device was lost. The state can still be saved.";
-    const std::string& line = error_.empty() || lost_ ? words : error_;
-    if (error_.empty() && !lost_)
-      ImGui::TextUnformatted(line.c_str());
-    else
-      ImGui::TextColored(ALARM, "%s", line.c_str());
+    const bool alarms = lost_ || !error_.empty();
+    if (alarms) ImGui::PushStyleColor(ImGuiCol_Text, ALARM);
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(words.c_str());
+    ImGui::PopTextWrapPos();
+    if (alarms) ImGui::PopStyleColor();
   }
   ImGui::End();
   ImGui::PopStyleVar();

@@ -84,6 +84,7 @@ class ViewWindow {
     outdated_ = !swapchain_.draw([&](VkCommandBuffer commands, const Canvas& canvas) {
       gui_.record(commands, canvas, held_.get(), viewer_.picture());
     });
+    viewer_.took_interface(gui_.interface_ms());
     last_draw_ = now;
   }
 
