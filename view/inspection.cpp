@@ -68,7 +68,7 @@ std::vector<std::uint32_t> near_lights(std::span<const shared::Light> lights, co
 /// The oracle's lights of a cell's pixels; those of other pixels of their rows are left empty.
 Truth truth_of(const Inspected& of, const CellPixels& cell) {
   const std::uint32_t width = of.renderer.view().width();
-  const std::vector<std::uint32_t> near = near_lights(of.lights, cell.bounds);
+  const std::vector<std::uint32_t> near = near_lights(of.listed(), cell.bounds);
   Truth truth{.first_row = static_cast<std::uint32_t>(cell.pixels.front() / width)};
   truth.rows = static_cast<std::uint32_t>(cell.pixels.back() / width) + 1 - truth.first_row;
   const std::size_t first = std::size_t{truth.first_row} * width;
@@ -126,26 +126,49 @@ gpu::ExplainedCell volume_of(const Inspected& of, const CellPixels& cell) {
           .count = 0};
 }
 
+/// Where the GPU has it.
+std::uint32_t record_of(const Inspected& of, std::uint32_t light) {
+  return of.still == nullptr ? light : of.still->record_of(light);
+}
+
+bool reaches_any(const Inspected& of, const CellPixels& cell, std::uint32_t light) {
+  return std::ranges::any_of(
+      cell.pixels, [&](std::size_t pixel) { return reach(of.lights[light], position_of(of, pixel)) == Reach::inside; });
+}
+
+/// Lists of still lights at these pixels.
+void add_still(Proof& proof, const Inspected& of, std::span<const std::size_t> pixels) {
+  if (of.still == nullptr) return;
+  const StillFindings found = of.still->check(pixels);
+  proof.pairs += found.lighting;
+  proof.missed += found.missed;
+  if (proof.first_miss.empty()) proof.first_miss = found.first_miss;
+}
+
 /// Which lights reach a pixel of the cell, and which tests they pass.
 void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth, std::vector<ListedLight>& lights) {
   const std::set<std::uint32_t> reaching(truth.lights.begin(), truth.lights.end());
   std::vector<std::uint32_t> ids;
-  for (const ListedLight& light : lights) ids.push_back(light.light);
+  for (const ListedLight& light : lights) ids.push_back(record_of(of, light.light));
   const std::vector<std::uint32_t> passes = explain(of.renderer, of.shaders, volume_of(of, cell), ids);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    lights[i].reaches_cell = reaching.contains(lights[i].light);
+    lights[i].reaches_cell =
+        lights[i].still ? reaches_any(of, cell, lights[i].light) : reaching.contains(lights[i].light);
     lights[i].passes = passes[i];
   }
 }
 
 std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
   const glm::dvec3 position = position_of(of, pixel);
-  const std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
-  const std::vector<std::uint32_t> probes = of.renderer.probes().probes().empty()
-                                                ? std::vector<std::uint32_t>()
-                                                : probes_at(of.renderer, of.lighting, pixel);
+  std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
+  const std::size_t of_picture = ids.size();
+  if (of.still != nullptr) std::ranges::copy(of.still->lights_at(pixel), std::back_inserter(ids));
+  std::vector<std::uint32_t> records;
+  for (const std::uint32_t id : ids) records.push_back(record_of(of, id));
+  const std::vector<std::uint32_t> probes =
+      of.renderer.probes().probes().empty() ? std::vector<std::uint32_t>() : probes_at(of.renderer, of.lighting, pixel);
   const PixelTerms terms =
-      terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, {.lights = ids, .probes = probes});
+      terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, {.lights = records, .probes = probes});
   double sum = luminance(terms.surroundings);
   for (const glm::vec3& term : terms.lights) sum += luminance(term);
   std::vector<ListedLight> lights;
@@ -156,7 +179,8 @@ std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
                       .distance_m = static_cast<float>(glm::length(glm::dvec3(light.position) - position)),
                       .range_m = light.range,
                       .reach = reach(light, position),
-                      .share = sum > 0.0 ? luminance(terms.lights[i]) / sum : 0.0});
+                      .share = sum > 0.0 ? luminance(terms.lights[i]) / sum : 0.0,
+                      .still = i >= of_picture});
   }
   return lights;
 }
@@ -216,6 +240,17 @@ std::string why_listed(const ListedLight& light, const OwnTests& own) {
   return kept + (dropping == 0 ? "; no test drops it" : "; not by " + names_of(dropping));
 }
 
+std::string explained(const ListedLight& light, const OwnTests& own) {
+  if (light.reach != Reach::outside) return "It reaches the surface in this pixel, so the list must have it.";
+  if (light.reaches_cell)
+    return "It does not reach this pixel, but another of the same cell, and a cell has one list for all its pixels.";
+  return fmt::format(
+      "It reaches no pixel of the cell: {}. Tests ask whether a light touches the cell: its four side planes (sides), "
+      "its nearest to its farthest surface (depths), the occupied ones of 32 parts of these depths (mask), the box "
+      "around it (box), the frustum's part itself (exact), and whether a spot's cone does (cone).",
+      why_listed(light, own));
+}
+
 Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   const View& view = of.renderer.view();
   Inspection found{.pixel = glm::min(pixel, glm::uvec2(view.width(), view.height()) - 1U)};
@@ -230,12 +265,14 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.cell_near_m = static_cast<float>(cell.near_m);
   found.cell_far_m = static_cast<float>(cell.far_m);
   found.own = own_tests(of.lighting.runner().plan(), of.lighting.info().options);
+  if (of.still != nullptr) found.still_own = of.still->tests();
   found.lights = listed(of, static_cast<std::uint32_t>(number));
   found.probes = listed_probes(of, static_cast<std::uint32_t>(number));
   const Truth truth = truth_of(of, cell);
   found.proof.pixels = cell.pixels.size();
   add_reasons(of, cell, truth, found.lights);
   add(found.proof, truth, of.renderer.visit(of.lighting, truth), view.width());
+  add_still(found.proof, of, cell.pixels);
   return found;
 }
 
@@ -248,10 +285,15 @@ Proof prove(const Inspected& of, const std::function<void(float)>& progress) {
     progress(static_cast<float>(row) / static_cast<float>(view.height()));
     for_each_truth({.view = view,
                     .depth = of.depth,
-                    .lights = of.lights,
+                    .lights = of.listed(),
                     .first_row = row,
                     .rows = std::min(BAND, view.height() - row)},
                    [&](const Truth& truth) { add(proof, truth, of.renderer.visit(of.lighting, truth), view.width()); });
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = std::size_t{row} * view.width();
+         i < std::min<std::size_t>(row + BAND, view.height()) * view.width(); ++i)
+      if (of.depth[i] != view.sky_depth()) pixels.push_back(i);
+    add_still(proof, of, pixels);
   }
   return proof;
 }

@@ -13,6 +13,7 @@
 #include "render/renderer.h"
 #include "render/shaders/explain_data.h"
 #include "view/own_tests.h"
+#include "view/still_pixels.h"
 
 namespace lamp::app {
 
@@ -25,6 +26,7 @@ struct ListedLight {
   Reach reach = Reach::outside;  ///< of that surface
   double share = 0.0;            ///< of the pixel's luminance, 0 .. 1
   bool reaches_cell = false;     ///< a pixel of the cell, as the oracle says
+  bool still = false;            ///< in a list of lights that stand still
   std::uint32_t passes = 0;      ///< gpu::PASSES_SIDES and so on, against the cell's pixels
 };
 
@@ -42,6 +44,8 @@ struct Proof {
 /// Why a light is in the list of a method that makes these tests: "reaches the pixel", "reaches the cell", "kept by
 /// sides, depths; not by exact", "larger cell: depths would drop it", or that no test would.
 [[nodiscard]] std::string why_listed(const ListedLight& light, const OwnTests& own);
+/// The same in whole sentences, for who does not know the tests.
+[[nodiscard]] std::string explained(const ListedLight& light, const OwnTests& own);
 /// The names of the tests in `passes`.
 [[nodiscard]] std::span<const std::string_view> test_names();
 
@@ -65,8 +69,11 @@ struct Inspection {
   float cell_far_m = 0.0F;
   std::vector<ListedLight> lights;  ///< ascending
   OwnTests own;                     ///< of the method
+  OwnTests still_own;               ///< of lists of still lights
   Proof proof;                      ///< of all pixels of the cell
   std::vector<ListedProbe> probes;  ///< smallest first; the surroundings have the rest of the reflection
+
+  [[nodiscard]] const OwnTests& tests_of(const ListedLight& light) const { return light.still ? still_own : own; }
 };
 
 /// What an inspection looks at: the renderer's last frame, lit by `lighting`.
@@ -75,9 +82,15 @@ struct Inspected {
   Lighting& lighting;
   const ShaderLibrary& shaders;
   const GpuScene& scene;
-  std::span<const shared::Light> lights;
-  std::span<const Visit> visits;  ///< of all pixels
-  std::span<const float> depth;   ///< likewise
+  std::span<const shared::Light> lights;  ///< all
+  std::span<const Visit> visits;          ///< of all pixels
+  std::span<const float> depth;           ///< likewise
+  const StillPixels* still = nullptr;     ///< null: all lights are the picture's
+
+  /// The lights that the picture's lists have.
+  [[nodiscard]] std::span<const shared::Light> listed() const {
+    return still == nullptr ? lights : lights.first(still->first);
+  }
 };
 [[nodiscard]] Inspection inspect(const Inspected& of, glm::uvec2 pixel);
 

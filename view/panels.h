@@ -86,6 +86,8 @@ void help_window(const ScreenRect& picture, float scale);
 /// `lift`: pixels above the bottom.
 void legend_window(const Shown& shown, const ScreenRect& picture, float lift);
 
+/// Why the request, were it so, is refused whatever the scene; empty: it is not.
+[[nodiscard]] std::string why_refused(const Request& request);
 /// Why a method with these options cannot light this frame; empty: it can.
 [[nodiscard]] std::string why_not(const std::string& method, const std::vector<std::string>& options,
                                   const Shown& shown, const DeviceTraits& traits);

@@ -14,6 +14,14 @@
 namespace lamp::app {
 namespace {
 
+void explain_in_tip(const std::string& words) {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(30.0F * ImGui::GetFontSize());
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(found.lights.size()));
@@ -30,7 +38,8 @@ void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
       cell(fmt::format("{:.2f}", light.distance_m));
       cell(fmt::format("{:.2f}", light.range_m));
       cell(fmt::format("{:.1f}%", 100.0 * light.share));
-      cell(why_listed(light, found.own));
+      cell(why_listed(light, found.tests_of(light)));
+      if (ImGui::IsItemHovered()) explain_in_tip(explained(light, found.tests_of(light)));
     }
   }
 }
@@ -38,12 +47,12 @@ void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
 /// In a part of its own that scrolls: a table that scrolls by itself ends the program (an assertion of ImGui 1.86)
 /// where nothing of it is in sight.
 void draw_lights(const Inspection& found, ViewState& state, Widgets& widgets) {
-  constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
   const float height = ImGui::GetTextLineHeightWithSpacing() *
                        static_cast<float>(std::clamp<std::size_t>(found.lights.size() + 2, 3, 16));
   if (ImGui::BeginChild("lights", {0.0F, height}) && ImGui::BeginTable("lights of the cell", 6, FLAGS)) {
-    for (const char* title : {"light", "type", "dist.", "range", "share", "why it is listed"})
-      ImGui::TableSetupColumn(title);
+    for (const char* title : {"light", "type", "dist.", "range", "share"}) ImGui::TableSetupColumn(title);
+    ImGui::TableSetupColumn("why it is listed", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
     draw_rows(found, state, widgets);
     ImGui::EndTable();
@@ -116,7 +125,10 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
   world_of_point(shown);
   probes_of_pixel(shown);
   draw_lights(found, state, widgets);
-  Widgets::note("Tests see the cell's pixels; the method's own cell may be larger.");
+  Widgets::note(
+      "Click a row: its light is shown in the picture, and can be changed. Point at a reason: it is explained. Tests "
+      "see "
+      "the cell's pixels; the method's own cell may be larger.");
   edit_light(shown, state, widgets);
   shadow_of_light(shown, state, widgets);
 }
@@ -135,6 +147,9 @@ void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   if (ImGui::Begin("Inspector", nullptr, FLAGS)) {
     draw_inspection(p.shown, p.state, p.widgets);
     if (p.widgets.button("look away", "Forgets the pixel. Escape does the same.")) p.state.picked.reset();
+    ImGui::SameLine();
+    p.widgets.check("hold time", p.state.paused,
+                    "Lights stand still, and so does this list. The space bar does the same.");
     if (!p.shown.inspection->sky) {
       ImGui::SameLine();
       if (p.widgets.button("ask other methods", "What every method of the table would list for this pixel.",

@@ -119,7 +119,11 @@ void method_panel(PanelFrame& p) {
         p.state.request.options = with_option(p.state.request.options, spec, stats.options.word(spec.key));
     }
   }
-  p.widgets.choose("path", p.state.request.path, path_names(), "How pixels are shaded.");
+  p.widgets.choose("path", p.state.request.path, path_names(), "How pixels are shaded.", [&](std::string_view path) {
+    Request changed = p.state.request;
+    changed.path = path;
+    return why_refused(changed);
+  });
   p.widgets.choose("brdf", p.state.request.brdf, brdf_names(), "How surfaces reflect.");
   p.widgets.check("make room", p.state.request.grow, "Enlarges lists until every light fits.");
   for (const std::string& note : stats.notes) Widgets::note(note);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/still_stats.h"
 #include "scene/builtin.h"
 #include "scene/flight.h"
 #include "view/panels.h"
@@ -40,7 +41,44 @@ void choose_camera(PanelFrame& p) {
   set_camera_kind(p, SCENE_CAMERA);
 }
 
+/// Lights that stand still, and what these are looked up in.
+void choose_still(PanelFrame& p) {
+  Request& r = p.state.request;
+  p.widgets.slide("still", r.still, {},
+                  "Which part of the generated lights stand still; those of the scene always do.");
+  const auto with = [&](std::string_view lists) {
+    Request changed = r;
+    changed.still_lists = lists;
+    if (lists == still_lists_names().front()) changed.still_occlusion = 0;
+    return changed;
+  };
+  const auto reason = [&](std::string_view lists) {
+    return p.shown.captured && lists != still_lists_names().front() ? std::string("a capture has no triangles")
+                                                                    : why_refused(with(lists));
+  };
+  std::string lists = r.still_lists;
+  if (p.widgets.choose("still lists", lists, still_lists_names(),
+                       "Looks lights that stand still up in lists that were made ahead: by a pixel's triangle, or in a "
+                       "tree by its position.",
+                       reason))
+    r = with(lists);
+  if (r.still_lists == still_lists_names().front()) return;
+  p.widgets.slide("still occlusion", r.still_occlusion, {.min = 0, .max = 64},
+                  "Leaves still lights out where walls surely hide them: texels a side of the cube with which each "
+                  "looks around. 0: walls hide nothing, and lights shine through them.");
+  if (p.shown.first.stats.still) Widgets::note(still_words(*p.shown.first.stats.still));
+}
+
 }  // namespace
+
+std::string why_refused(const Request& request) {
+  try {
+    check_request(request, request.method);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
 
 void scene_panel(PanelFrame& p) {
   if (!p.widgets.header("Scene", true)) return;
@@ -103,6 +141,7 @@ void lights_panel(PanelFrame& p) {
   auto seed = static_cast<std::uint32_t>(std::min<std::uint64_t>(r.seed, 1000));
   if (p.widgets.slide("seed", seed, {.min = 0, .max = 1000}, "Another seed makes other lights and decals."))
     r.seed = seed;
+  choose_still(p);
   p.widgets.slide("decals", r.decals, {.min = 0, .max = 1024, .logarithmic = true},
                   "Box decals: the scene's own first, then generated ones.", p.shown.captured ? OF_A_CAPTURE : "");
   p.widgets.choose_word(

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "view/panels.h"
 
 namespace lamp::app {
@@ -37,12 +39,14 @@ void world_panel(PanelFrame& p) {
   p.widgets.check("probe boxes", p.state.probe_boxes,
                   "Draws the volumes of all reflection probes; those that weigh at the picked pixel are yellow.",
                   p.shown.probe_volumes.empty() ? "there are no probes" : "");
+  Request with_mirror = r;
+  with_mirror.mirror = std::max(r.mirror, 0.5F);
   p.widgets.slide("mirror", r.mirror, {}, "Surfaces less rough than this mirror what is around them; 0: none do.",
-                  p.shown.captured ? OF_A_CAPTURE
-                  : r.probes != 0  ? "there are reflection probes"
-                                   : "");
+                  p.shown.captured ? OF_A_CAPTURE : why_refused(with_mirror));
+  Request moving = r;
+  moving.moving = true;
   p.widgets.check("moving things", r.moving, "Small things of the scene move with the frames, as lights do.",
-                  p.shown.captured ? OF_A_CAPTURE : "");
+                  p.shown.captured ? OF_A_CAPTURE : why_refused(moving));
   p.widgets.check("world cells", p.state.world_cells,
                   "Draws the cells of the world around the picked point, and says what its list there holds, with "
                   "world-cells and world-tree; and likewise of what its mirrored ray meets.");

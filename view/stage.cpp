@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "commands/pictures.h"
+#include "commands/still_stats.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
 #include "render/box_shapes.h"
@@ -25,10 +26,10 @@ namespace {
 constexpr std::size_t MOST_LIGHTINGS = 8;
 
 std::string key_of(const LightingInfo& info, bool grow) {
-  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
+  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
                      info.width, info.height, info.light_capacity, static_cast<int>(info.path),
                      static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed,
-                     info.shadows ? static_cast<int>(*info.shadows) : -1, info.probes, grow);
+                     info.shadows ? static_cast<int>(*info.shadows) : -1, info.probes, info.still, grow);
 }
 
 bool can_be_laid_over(const ViewState& state) {
@@ -67,15 +68,16 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
       .options = take(resolve_options(*chosen.method, with_box_shapes(*chosen.method, chosen.options, has_boxes))),
       .width = renderer_->view().width(),
       .height = renderer_->view().height(),
-      .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() + lights_->decals.size() +
-                                                   renderer_->probes().probes().size()),
+      .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() - still_count(request) +
+                                                   lights_->decals.size() + renderer_->probes().probes().size()),
       .path = parse_path(request.path),
       .brdf = parse_brdf(request.brdf),
       .depth = renderer_->depth(),
       .transparency = !scene_->gpu->blended().empty(),
       .captured = scene_->scene.captured.has_value(),
       .decals = !lights_->decals.empty(),
-      .probes = renderer_->probes().kind()};
+      .probes = renderer_->probes().kind(),
+      .still = still_ ? still_->made.kind() : gpu::STILL_OFF};
   if (const Shadows* shadows = renderer_->shadows()) info.shadows = shadows->settings().filter;
   std::string key = key_of(info, request.grow);
   const auto found = std::ranges::find(lightings_, key, &KeptLighting::key);
@@ -105,17 +107,19 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
   made.stats.shadows = shadow_stats(renderer_->shadows());
   made.stats.mirror = mirror_stats(renderer_->mirrored());
   if (probes_ && probes_->captures) made.stats.captures = probes_->captures->counts();
+  if (still_) made.stats.still = still_stats(still_->made);
   return made;
 }
 
 std::vector<Visit> Stage::checked_visits(Lighting& lighting) {
   const View& view = renderer_->view();
   std::vector<Visit> visits;
-  for_each_truth({.view = view, .depth = depth_, .lights = lights_->lights->all(), .rows = view.height()},
+  for_each_truth({.view = view, .depth = depth_, .lights = listed_lights(), .rows = view.height()},
                  [&](const Truth& truth) {
                    const std::vector<Visit> band = renderer_->visit(lighting, truth);
                    visits.insert(visits.end(), band.begin(), band.end());
                  });
+  add_still_misses(visits);
   return visits;
 }
 
@@ -124,13 +128,15 @@ Legend Stage::lay_over(const Overlaying& o) {
   const Overlay overlay = o.state.overlay;
   if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
   visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
+  std::vector<Visit> walked = visits_;
+  if (overlay == Overlay::heat) add_still_walks(walked);
   const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
   const Overlaid made = is_of_shadows(overlay) ? shadow_overlay(o)
                         : overlay == Overlay::slice
                             ? slice_overlay(o)
                             : make_overlay(overlay, o.state.palette,
                                            {.view = view,
-                                            .visits = o.second && !other.empty() ? other : visits_,
+                                            .visits = o.second && !other.empty() ? other : walked,
                                             .depth = depth_,
                                             .other = o.second ? visits_ : other,
                                             .lights = static_cast<std::uint32_t>(lights_->lights->size()),
@@ -146,13 +152,16 @@ Legend Stage::lay_over(const Overlaying& o) {
 Inspected Stage::inspected(Lighting& lighting) {
   depth_ = renderer_->read_depth();
   visits_ = renderer_->visit_all(lighting);
+  still_at_.reset();
+  if (std::optional<StillPixels> at = still_pixels(depth_)) still_at_.emplace(std::move(*at));
   return {.renderer = *renderer_,
           .lighting = lighting,
           .shaders = shaders_,
           .scene = *scene_->gpu,
           .lights = lights_->lights->all(),
           .visits = visits_,
-          .depth = depth_};
+          .depth = depth_,
+          .still = still_at_ ? &*still_at_ : nullptr};
 }
 
 Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
@@ -241,7 +250,7 @@ Scene Stage::capture(const ViewState& state) {
   std::vector<Light> lights = scene.lights;
   if (scene_->air && lights_->lights->size() > lights.size()) {
     const std::vector<Light> generated = requested_lights(state.request, scene, *scene_->air);
-    lights.insert(lights.end(), generated.begin(), generated.end());
+    lights.insert(generated_first(state.request) ? lights.begin() : lights.end(), generated.begin(), generated.end());
   }
   for (const LightEdit& edit : state.edits) lights.at(edit.light) = edit.value;
   Request painted = state.request;  // by every decal at every pixel, whatever the method
@@ -286,8 +295,8 @@ std::vector<OtherList> Stage::ask_others(const ViewState& state, glm::uvec2 size
     OtherList& list = lists.emplace_back();
     list.method = method.name;
     try {
-      const std::vector<std::uint32_t> ids =
-          lights_at(*renderer_, lighting(state.request, list.method, {}).lighting, number);
+      std::vector<std::uint32_t> ids = lights_at(*renderer_, lighting(state.request, list.method, {}).lighting, number);
+      if (of.still != nullptr) std::ranges::copy(of.still->lights_at(number), std::back_inserter(ids));
       list.lights = ids.size();
       list.reaching = static_cast<std::size_t>(std::ranges::count_if(
           ids, [&](std::uint32_t light) { return reach(of.lights[light], position) == Reach::inside; }));

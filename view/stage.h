@@ -14,6 +14,7 @@
 #include "commands/auto_method.h"
 #include "render/display.h"
 #include "view/shown.h"
+#include "view/still_pixels.h"
 
 namespace lamp::app {
 
@@ -55,6 +56,7 @@ class Stage {
     bool by_auto = false;
   };
   struct KeptProbes;
+  struct KeptStill;
   /// Of captures that are old, those that are renewed before a frame.
   enum class Captures : std::uint8_t { some, all };
   void need_scene(const Request& request);
@@ -63,6 +65,16 @@ class Stage {
   void make_renderer(const Request& request, const View& view, std::string key);
   void renew_probes(const ViewState& state, const View& view, Captures which);
   void need_lights(const ViewState& state);
+  /// Lists of the lights that stand still, if the request asks for such.
+  void need_still(const Request& request, const View& view);
+  [[nodiscard]] std::size_t still_count(const Request& request) const;
+  /// The lights that the picture's lists have.
+  [[nodiscard]] std::span<const shared::Light> listed_lights() const;
+  /// Nothing where all lights are the picture's.
+  [[nodiscard]] std::optional<StillPixels> still_pixels(std::span<const float> depth);
+  /// What pixels walk in lists of still lights, and what these miss; of `depth_`.
+  void add_still_walks(std::vector<Visit>& visits);
+  void add_still_misses(std::vector<Visit>& visits);
   /// The state's lights at its time, seen from there.
   void move_lights(const View& view);
   /// The scene's instances where they are without moving, on the CPU alone.
@@ -121,6 +133,7 @@ class Stage {
   std::unique_ptr<KeptScene> scene_;
   std::unique_ptr<KeptLights> lights_;
   std::unique_ptr<KeptProbes> probes_;  ///< null: there are none
+  std::unique_ptr<KeptStill> still_;    ///< null: there are none
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<Display> display_;
   std::string renderer_key_;
@@ -129,6 +142,7 @@ class Stage {
   MethodChoice auto_choice_;
   std::vector<Visit> visits_;  ///< of the last walk
   std::vector<float> depth_;
+  std::optional<StillPixels> still_at_;  ///< what the last inspection refers to
   std::uint64_t number_ = 0;
   bool made_anew_ = false;
   std::atomic<float> progress_ = 0.0F;

@@ -19,6 +19,7 @@ struct Stage::KeptScene {
   Scene& scene = setup.scene;  ///< of it, its instances where they were moved
   int moved_to = -1;           ///< frame, of instances that move
   std::optional<OpenAir> air;
+  std::optional<Box> bounds;
   std::unique_ptr<GpuScene> gpu;
 };
 
@@ -32,6 +33,16 @@ struct Stage::KeptLights {
   std::shared_ptr<const FrameLights> lights;
   bool brought = false;  ///< to the renderer, wherever they were then
   std::unique_ptr<LightMover> mover;
+};
+
+/// Lists of lights that stand still. They stay while a renderer refers to them.
+struct Stage::KeptStill {
+  std::string key;
+  std::shared_ptr<const MovingLights> of;  ///< of which these stand still
+  std::vector<shared::Light> lights;
+  StillSetup made;
+  std::unique_ptr<StillLists> lists;
+  std::optional<Occluders> occluders;
 };
 
 /// Probes and what they show. They stay while a renderer refers to them.

@@ -12,7 +12,8 @@ namespace {
 
 /// What generated lights, wherever they are on their paths, and decals follow from.
 std::string lights_key(const Request& r) {
-  return fmt::format("{} {} {} {} {} {} {}", r.lights, r.lights_given, r.spots, r.still, r.range, r.seed, r.decals);
+  return fmt::format("{} {} {} {} {} {} {} {}", r.lights, r.lights_given, r.spots, r.still, r.range, r.seed, r.decals,
+                     generated_first(r));
 }
 
 }  // namespace
@@ -59,8 +60,8 @@ void Stage::bring_lights() { renderer_->set_frame(View(renderer_->view()), light
 /// The renderer's lights are moved where it has them, from the second frame on; where shadows are drawn on the CPU's
 /// word, all are brought from here.
 void Stage::move_lights(const View& view) {
-  const bool on_gpu =
-      renderer_->shadows() == nullptr && renderer_->mirrored() == nullptr && !probes_ && !renderer_->depth().several();
+  const bool on_gpu = renderer_->shadows() == nullptr && !still_ && renderer_->mirrored() == nullptr && !probes_ &&
+                      !renderer_->depth().several();
   if (!on_gpu || !lights_->brought) renderer_->set_frame(view, lights_->lights->all(), lights_->decals);
   lights_->brought = true;
   if (!on_gpu) return;

@@ -7,6 +7,7 @@
 #include "commands/pictures.h"
 #include "gpu/check.h"
 #include "scene/flight.h"
+#include "scene/number_triangles.h"
 #include "view/stage_kept.h"
 
 namespace lamp::app {
@@ -30,16 +31,20 @@ int frame_of(const Request& r) { return r.light_frame >= 0 ? r.light_frame : std
 }  // namespace
 
 void Stage::need_scene(const Request& request) {
-  std::string name = fmt::format("{}{}", request.scene, request.moving ? ", moving" : "");
+  const bool numbered = still_kind(request.still_lists) == gpu::STILL_TRIANGLES;
+  std::string name =
+      fmt::format("{}{}{}", request.scene, request.moving ? ", moving" : "", numbered ? ", numbered" : "");
   if (scene_ && scene_->name == name) return;
   auto scene = std::make_unique<KeptScene>();
   scene->name = std::move(name);
   scene->scene = load_scene(request.scene);
+  if (numbered) number_triangles(scene->scene);
   scene->gpu = std::make_unique<GpuScene>(context_, scene->scene);
   display_.reset();
   renderer_.reset();
   probes_.reset();
   lightings_.clear();
+  still_.reset();
   lights_.reset();
   auto_key_.clear();
   renderer_key_.clear();
@@ -83,6 +88,7 @@ void Stage::make_renderer(const Request& request, const View& view, std::string 
     }
     renderer->light_probes(&probes_->set());
   }
+  if (still_) renderer->light_still(still_->lists.get());
   if (shadows) renderer->cast_shadows(*shadows);
   if (mirror) renderer->mirror(*mirror);
   renderer_ = std::move(renderer);
@@ -107,19 +113,16 @@ void Stage::renew_probes(const ViewState& state, const View& view, Captures whic
 
 void Stage::need_frame(const ViewState& state, Captures which) {
   const Request& request = state.request;
-  if (request.still_lists != "off")
-    throw Error(
-        fmt::format("--still-lists {}: the window shows lists of the picture alone, expected off; methods "
-                    "world-cells and world-tree list all lights in the world",
-                    request.still_lists));
   need_scene(request);
   const View view = requested_view(request, scene_->scene);
   need_lights(state);
+  need_still(request, view);
   move_scene(request);
-  std::string key = fmt::format("{}x{} {} {} {} {} {} {}", view.width(), view.height(), lights_->lights->size(),
+  std::string key = fmt::format("{}x{} {} {} {} {} {} {} {}", view.width(), view.height(), lights_->lights->size(),
                                 lights_->decals.size(), request.depth_samples, request.depth, shadows_key(request),
-                                reflections_key(request));
+                                reflections_key(request), static_cast<bool>(still_));
   if (key != renderer_key_) make_renderer(request, view, std::move(key));
+  renderer_->light_still(still_ ? still_->lists.get() : nullptr);
   renew_probes(state, view, which);
   move_lights(view);
 }

@@ -98,10 +98,12 @@ std::optional<ShownShadow> Stage::read_shadow(const ViewState& state) {
   const Shadows* shadows = renderer_->shadows();
   if (shadows == nullptr || !state.light || *state.light >= lights_->lights->size()) return std::nullopt;
   ShownShadow read{.light = *state.light};
-  if (read.light >= shadows->maps().size()) return read;
-  read.map = shadows->maps()[read.light];
+  const std::size_t listed = lights_->lights->size() - (still_ ? still_->lights.size() : 0);
+  const std::uint32_t record = read.light < listed ? read.light : read.light + renderer_->entities().boxes.count();
+  if (record >= shadows->maps().size()) return read;
+  read.map = shadows->maps()[record];
   if (read.map.kind == shared::SHADOW_NONE) return read;
-  if (read.light < shadows->ages().size()) read.age = shadows->ages()[read.light];
+  if (record < shadows->ages().size()) read.age = shadows->ages()[record];
   constexpr std::uint32_t MOST_SIDE = 48;  // of a picture
   read.side = std::min(MOST_SIDE, read.map.side);
   for (std::uint32_t square = 0; square < squares_of(read.map); ++square)
@@ -109,7 +111,7 @@ std::optional<ShownShadow> Stage::read_shadow(const ViewState& state) {
   if (state.shadow_shape == ShadowShape::none) return read;
   const bool mesh = state.shadow_shape == ShadowShape::mesh;
   renderer_->make_reach(mesh ? ShadowReach::Kind::meshes : ShadowReach::Kind::radial);
-  const gpu::OutlineJob job{.light = read.light, .shape = mesh ? gpu::OUTLINE_MESH : gpu::OUTLINE_BOUND};
+  const gpu::OutlineJob job{.light = record, .shape = mesh ? gpu::OUTLINE_MESH : gpu::OUTLINE_BOUND};
   read.shape = {.light = read.light,
                 .corners = std::move(outlines(*renderer_, shaders_, VK_NULL_HANDLE, {&job, 1}).front())};
   return read;

@@ -8,10 +8,10 @@
 
 #include "gpu/check.h"
 #include "lamplight/shared/world.h"
-#include "lamplight/shared/world_tree.h"
 #include "render/point_walks.h"
 #include "render/still_tree.h"
 #include "view/stage_kept.h"
+#include "view/world_leaves.h"
 
 namespace lamp::app {
 namespace {
@@ -41,13 +41,6 @@ CellGrid grid_of_levels(std::uint32_t levels) {
   const auto finest = static_cast<std::uint32_t>(std::countr_zero(levels));
   if (finest >= shared::WORLD_LEVELS) return {};
   return {.side = std::ldexp(0.25F, static_cast<int>(finest) - static_cast<int>(shared::WORLD_LEAST))};
-}
-
-CellGrid grid_of_tree(std::span<const std::uint32_t> words) {
-  const float side = 1.0F / std::bit_cast<float>(words[shared::TREE_SCALE]);
-  const glm::vec3 low(std::bit_cast<float>(words[shared::TREE_LOW_X]), std::bit_cast<float>(words[shared::TREE_LOW_Y]),
-                      std::bit_cast<float>(words[shared::TREE_LOW_Z]));
-  return {.origin = low * side, .side = side};
 }
 
 std::vector<WorldCell> cells_around(const CellGrid& grid, const glm::vec3& point) {
@@ -89,7 +82,7 @@ ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) 
     read.refused = fmt::format("{} has no lists in the world; world-cells and world-tree have", method->name);
     return read;
   }
-  const std::vector<shared::Light>& lights = lights_->lights->all();
+  const std::span<const shared::Light> lights = listed_lights();
   Plan plan = take(make_plan(*method, {.width = renderer_->view().width(),
                                        .height = renderer_->view().height(),
                                        .light_capacity = static_cast<std::uint32_t>(lights.size()),
@@ -107,8 +100,8 @@ ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) 
     read.points.push_back(list_at(at_points, i, points[i], lights));
     read.points.back().what = i == 0 ? "surface" : "mirrored";
   }
-  read.cells =
-      cells_around(tree ? grid_of_tree(tree->words()) : grid_of_levels(walks.word_of("levels")), found.position);
+  read.cells = tree ? leaves_around(tree->words(), found.position)
+                    : cells_around(grid_of_levels(walks.word_of("levels")), found.position);
   std::vector<glm::vec3> middles;
   for (const WorldCell& cell : read.cells) middles.push_back(cell.low + 0.5F * cell.side);
   const PointLights in_cells = walks.walk(middles);

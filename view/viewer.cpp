@@ -361,8 +361,9 @@ nlohmann::json Viewer::report() const {
   nlohmann::json own = nlohmann::json::array();
   for (std::size_t i = 0; i < test_names().size(); ++i)
     if ((found.own.passes >> i & 1U) != 0) own.push_back(test_names()[i]);
-  const auto larger = std::ranges::count_if(
-      found.lights, [&](const ListedLight& light) { return why_listed(light, found.own).starts_with("larger cell"); });
+  const auto larger = std::ranges::count_if(found.lights, [&](const ListedLight& light) {
+    return why_listed(light, found.tests_of(light)).starts_with("larger cell");
+  });
   json["inspection"] = {{"pixel", {found.pixel.x, found.pixel.y}},
                         {"sky", found.sky},
                         {"cell", found.cell},
@@ -370,6 +371,7 @@ nlohmann::json Viewer::report() const {
                         {"lost_by_tests", lost},
                         {"own_tests", own},
                         {"of_larger_cells", larger},
+                        {"still_lights", std::ranges::count(found.lights, true, &ListedLight::still)},
                         {"missed", found.proof.missed},
                         {"pairs", found.proof.pairs}};
   for (const ListedProbe& probe : found.probes)

@@ -215,10 +215,11 @@ void make_still_lists(const MeasureInfo& info, const BenchScene& scene, const Be
   for (Candidate& candidate : candidates) {
     if (!candidate.lighting || candidate.entry->still_lists == "off") continue;
     say(info, "makes lists of still lights for " + full_label(*candidate.entry), 0.0);
-    candidate.still =
-        make_still(request_of(info.group, *candidate.entry),
-                   {.scene = scene.scene, .views = frame.views, .lights = std::span(frame.lights).last(frame.still)},
-                   context.device().traits);
+    const Request request = request_of(info.group, *candidate.entry);
+    candidate.still = make_still(
+        request, {.scene = scene.scene,
+                  .margin_m = still_margin(request, bounds(scene.scene), frame.views, context.device().traits),
+                  .lights = std::span(frame.lights).last(frame.still)});
     candidate.still_lists =
         std::make_unique<StillLists>(context, candidate.still->kind(), frame.still, candidate.still->words());
   }

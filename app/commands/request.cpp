@@ -121,10 +121,9 @@ std::vector<Light> requested_lights(const Request& request, const Scene& scene, 
 MovingLights requested_moving_lights(const Request& request, const Scene& scene, const OpenAir* air) {
   PlacedLights placed;
   if (air != nullptr) placed = place_on_paths(*air, light_placement(request, scene));
-  const bool generated_first = request.still > 0.0F || request.still_lists != "off";
   return {.lights = packed_lights(request, scene, placed.lights),
           .paths = std::move(placed.paths),
-          .first = generated_first ? 0 : static_cast<std::uint32_t>(scene.lights.size())};
+          .first = generated_first(request) ? 0 : static_cast<std::uint32_t>(scene.lights.size())};
 }
 
 PathTime requested_time(const Request& request, const Scene& scene) {
@@ -344,10 +343,11 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
                                          static_cast<std::uint32_t>(setup.decals.size()), depth_);
   if (!setup.probes.empty()) make_probes(request);
   if (request.still_lists != "off") {
-    still_ = make_still(
-        request,
-        {.scene = setup.scene, .views = setup.views, .lights = setup.standing(), .painted = !setup.decals.empty()},
-        context_->device().traits);
+    still_ = make_still(request,
+                        {.scene = setup.scene,
+                         .margin_m = still_margin(request, bounds(setup.scene), setup.views, context_->device().traits),
+                         .lights = setup.standing(),
+                         .painted = !setup.decals.empty()});
     still_lists_ = std::make_unique<StillLists>(*context_, still_->kind(), setup.still, still_->words());
     renderer_->light_still(still_lists_.get());
   }

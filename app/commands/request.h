@@ -162,6 +162,8 @@ struct MovingLights {
 /// The same in the order that the request asks for: those that stand still, the scene's among them, are the last.
 [[nodiscard]] std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene,
                                                        std::span<const Light> generated);
+/// Whether the scene's lights come behind the generated ones in that order.
+[[nodiscard]] bool generated_first(const Request& request);
 /// How many of them stand still; 0 where nobody asks for it.
 [[nodiscard]] std::uint32_t still_lights(const Request& request, const Scene& scene, std::size_t generated);
 /// The decals. Throws Error for a capture, and for boxes that none can be.
@@ -251,11 +253,15 @@ struct StillSetup {
 [[nodiscard]] std::uint32_t still_kind(const std::string& lists);
 struct StillInfo {
   const Scene& scene;
-  std::span<const View> views;
+  float margin_m = 0.0F;  ///< of `still_margin`
   std::span<const shared::Light> lights;
   bool painted = false;  ///< decals may bend normals
 };
-[[nodiscard]] StillSetup make_still(const Request& request, const StillInfo& of, const DeviceTraits& traits);
+/// How far rounding and the rasterizer may move the points that these views look up, or, for a tree, how far away eyes
+/// may be; metres. In steps: views near each other have the same. `scene`: its bounds.
+[[nodiscard]] float still_margin(const Request& request, const Box& scene, std::span<const View> views,
+                                 const DeviceTraits& traits);
+[[nodiscard]] StillSetup make_still(const Request& request, const StillInfo& of);
 
 /// Device, renderer and what they need, for one Setup.
 class Session {

@@ -26,9 +26,8 @@ constexpr std::uint64_t LEAST_TREE_BYTES = 16U << 20;
 
 bool asks(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
 
-/// m: of the farthest point of the scene that any view from within it, or these views, may see.
-float farthest(const Scene& scene, std::span<const View> views) {
-  const Box box = bounds(scene);
+/// m: of the farthest point of a scene's box that any view from within it, or these views, may see.
+float farthest(const Box& box, std::span<const View> views) {
   float most = glm::length(box.max - box.min);
   for (const View& view : views) {
     const glm::vec3 eye(glm::dvec3(glm::dmat4(view.world_from_view())[3]));
@@ -37,8 +36,8 @@ float farthest(const Scene& scene, std::span<const View> views) {
   return most;
 }
 
-float slack_of(const Scene& scene, std::span<const View> views, std::uint32_t subpixel_bits) {
-  const float most_z = farthest(scene, views);
+float slack_of(const Box& box, std::span<const View> views, std::uint32_t subpixel_bits) {
+  const float most_z = farthest(box, views);
   float slack = 0.0F;
   for (const View& view : views) {
     const glm::dmat4 clip(view.clip_from_view());
@@ -50,26 +49,28 @@ float slack_of(const Scene& scene, std::span<const View> views, std::uint32_t su
   return slack;
 }
 
-TriangleLists make_lists(const Request& request, const StillInfo& of, const DeviceTraits& traits,
-                         std::span<const StillTriangle> triangles, std::uint64_t budget,
-                         const StillOccluders* occluders) {
-  TriangleListsInfo info{.triangles = triangles,
-                         .lights = of.lights,
-                         .slack_m = slack_of(of.scene, of.views, traits.sub_pixel_bits),
-                         .budget_bytes = budget};
+/// Eyes may go where they like, as long as it is not very much farther than the scene is large.
+float eyes_of(const Box& box, std::span<const View> views) {
+  const float corner = std::max(glm::length(box.min), glm::length(box.max));
+  return 2.0F * (corner + farthest(box, views));
+}
+
+/// Up to the next of four steps to the double: views near each other have the same lists.
+float in_steps(float margin) {
+  constexpr float STEPS = 4.0F;
+  return margin > 0.0F ? std::exp2(std::ceil(std::log2(margin) * STEPS) / STEPS) : margin;
+}
+
+TriangleLists make_lists(const Request& request, const StillInfo& of, std::span<const StillTriangle> triangles,
+                         std::uint64_t budget, const StillOccluders* occluders) {
+  TriangleListsInfo info{.triangles = triangles, .lights = of.lights, .slack_m = of.margin_m, .budget_bytes = budget};
   if (occluders != nullptr) info.hides = hidden_by(*occluders, of.lights, request.still_occlusion);
   return take(make_triangle_lists(info));
 }
 
-/// Eyes may go where they like, as long as it is not very much farther than the scene is large.
 WorldTree make_tree(const Request& request, const StillInfo& of, std::uint64_t budget,
                     std::shared_ptr<const StillOccluders> occluders) {
-  const Box box = bounds(of.scene);
-  const float corner = std::max(glm::length(box.min), glm::length(box.max));
-  WorldTreeInfo info{.lights = of.lights,
-                     .occluders = std::move(occluders),
-                     .budget = budget,
-                     .eyes_m = 2.0F * (corner + farthest(of.scene, of.views))};
+  WorldTreeInfo info{.lights = of.lights, .occluders = std::move(occluders), .budget = budget, .eyes_m = of.margin_m};
   if (request.still_occlusion != 0) info.texels = request.still_occlusion;
   return take(WorldTree::build(info));
 }
@@ -106,15 +107,22 @@ std::uint32_t still_lights(const Request& request, const Scene& scene, std::size
          still_count({.count = static_cast<std::uint32_t>(generated), .still = request.still});
 }
 
+bool generated_first(const Request& request) { return asks(request); }
+
 std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene, std::span<const Light> generated) {
-  if (!asks(request)) return packed_lights(scene, generated);
+  if (!generated_first(request)) return packed_lights(scene, generated);
   std::vector<shared::Light> lights = pack(generated);
   const std::vector<shared::Light> of_scene = pack(scene.lights);
   lights.insert(lights.end(), of_scene.begin(), of_scene.end());
   return lights;
 }
 
-StillSetup make_still(const Request& request, const StillInfo& of, const DeviceTraits& traits) {
+float still_margin(const Request& request, const Box& scene, std::span<const View> views, const DeviceTraits& traits) {
+  return in_steps(still_kind(request.still_lists) == gpu::STILL_TREE ? eyes_of(scene, views)
+                                                                     : slack_of(scene, views, traits.sub_pixel_bits));
+}
+
+StillSetup make_still(const Request& request, const StillInfo& of) {
   if (of.scene.captured)
     throw Error(fmt::format("--still-lists {}: the capture {} has no triangles, expected off", request.still_lists,
                             request.scene));
@@ -131,7 +139,7 @@ StillSetup make_still(const Request& request, const StillInfo& of, const DeviceT
   if (is_tree)
     made.tree = make_tree(request, of, budget, std::move(occluders));
   else
-    made.lists = make_lists(request, of, traits, made.triangles, budget, occluders.get());
+    made.lists = make_lists(request, of, made.triangles, budget, occluders.get());
   made.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return made;
 }

@@ -25,6 +25,7 @@ class StillLists {
 
   [[nodiscard]] std::uint32_t kind() const { return kind_; }
   [[nodiscard]] std::uint32_t lights() const { return lights_; }  ///< how many, the last of a frame's
+  [[nodiscard]] const vulkan::Buffer& buffer() const { return words_; }
   [[nodiscard]] vulkan::Resource words() const { return vulkan::Resource::storage(words_.handle()); }
 
  private:

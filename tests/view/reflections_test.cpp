@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
+#include "gpu/check.h"
 #include "system/run_program.h"
 #include "temporary_folder.h"
 #include "view/stage.h"
 #include "view/view_test.h"
+#include "view/world_leaves.h"
 
 namespace lamp::app {
 namespace {
@@ -39,11 +43,13 @@ TEST_P(Reflections, AreSavedAsLampRendersThem) {
   EXPECT_EQ(bytes_of_file(saved), bytes_of_file(rendered));
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Reflections,
-                         ::testing::Values(R"({"mirror": 0.6})", R"({"moving": true, "mirror": 0.6})",
-                                           R"({"probes": 4, "probe_budget": 1})",
-                                           R"({"probes": 4, "probes_show": "flat", "decals": 8})",
-                                           R"({"still": 0.5, "moving": true})"));
+INSTANTIATE_TEST_SUITE_P(
+    Of, Reflections,
+    ::testing::Values(
+        R"({"mirror": 0.6})", R"({"moving": true, "mirror": 0.6})", R"({"probes": 4, "probe_budget": 1})",
+        R"({"probes": 4, "probes_show": "flat", "decals": 8})", R"({"still": 0.5, "moving": true})",
+        R"({"lights": 32, "still": 0.5, "still_lists": "world-tree", "decals": 8, "shadows": "pcf", "atlas": 512})",
+        R"({"lights": 16, "still": 0.5, "still_lists": "triangle-lists", "still_occlusion": 2, "path": "forward"})"));
 
 /// As tests/gpu/probes_test.cpp has it.
 double weight_of(const gpu::ProbeData& p, const glm::dvec3& position) {
@@ -117,6 +123,64 @@ TEST(WorldLists, AreThoseOfThePixel) {
     ASSERT_NE(own, shown.world->cells.end());
     EXPECT_EQ(own->lights, point.walked) << method;
   }
+}
+
+/// Leaves lie side by side, and all points of one have one list; merged ones are larger than others.
+TEST(WorldLeaves, HaveOneListEach) {
+  std::vector<shared::Light> lights;
+  for (int i = 0; i < 12; ++i)
+    lights.push_back(
+        {.position = {0.7F * static_cast<float>(i), 0.3F, 0.1F * static_cast<float>(i * i)}, .range = 1.5F});
+  const WorldTree tree = take(WorldTree::build({.lights = lights}));
+  const glm::vec3 point(1.3F, 0.4F, 0.6F);
+  const std::vector<WorldCell> leaves = leaves_around(tree.words(), point);
+  const auto holds = [](const WorldCell& leaf, const glm::vec3& at) {
+    return glm::all(glm::greaterThanEqual(at, leaf.low)) && glm::all(glm::lessThan(at, leaf.low + leaf.side));
+  };
+  ASSERT_FALSE(leaves.empty());
+  EXPECT_TRUE(holds(leaves.front(), point));
+  std::set<float> sides;
+  for (const WorldCell& leaf : leaves) {
+    sides.insert(leaf.side);
+    const glm::vec3 middle = leaf.low + 0.5F * leaf.side;
+    const std::vector<std::uint32_t> list = tree.lights_at(Vec3(middle));
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 way(corner & 1, corner >> 1 & 1, corner >> 2);
+      EXPECT_EQ(tree.lights_at(Vec3(leaf.low + leaf.side * (0.01F + 0.98F * way))), list);
+    }
+    EXPECT_EQ(std::ranges::count_if(leaves, [&](const WorldCell& other) { return holds(other, middle); }), 1);
+  }
+  EXPECT_GT(sides.size(), 1U);
+  EXPECT_TRUE(leaves_around(tree.words(), glm::vec3(1e4F)).empty());
+}
+
+/// The list of a pixel with lists of still lights has every light that one list of all has and that reaches it; what
+/// the window says of them is what `lamp` says.
+TEST(StillListsInTheWindow, HoldWhatReaches) {
+  const ShaderLibrary shaders("");
+  Stage stage(view_context(), shaders, "");
+  ViewState state = small_viewer().state;
+  state.request.scene = "atrium";
+  state.request.lights = 100;
+  state.request.still = 0.5F;
+  state.request.path = "forward";
+  state.request.decals = 4;  // records between those of the two kinds of lights
+  state.picked = glm::uvec2(40, 45);
+  const auto reaching = [&] {
+    const Shown shown = stage.draw(state, {96, 54});
+    std::vector<std::pair<std::uint32_t, int>> lights;  // with their shares, in thousandths
+    for (const ListedLight& light : shown.inspection->lights)
+      if (light.reach == Reach::inside) lights.emplace_back(light.light, std::lround(1000.0 * light.share));
+    return lights;
+  };
+  const auto all = reaching();
+  EXPECT_GT(all.size(), 2U);
+  state.request.still_lists = "world-tree";
+  EXPECT_EQ(reaching(), all);
+  state.request.still_lists = "triangle-lists";
+  const auto in_front = reaching();  // lights behind the surface are in no list of its triangle
+  for (const auto& light : all)
+    EXPECT_TRUE(light.second == 0 || std::ranges::find(in_front, light) != in_front.end()) << light.first;
 }
 
 }  // namespace
