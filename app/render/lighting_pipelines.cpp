@@ -16,6 +16,11 @@
 namespace lamp::app {
 namespace {
 
+/// In cells of the picture. These are long far away, where more lights make long lists of them; cells of the world are
+/// not. H200, atrium, 1080p: 65 536 lights take 1.6 ms to cull and shade at any depth in either, 262 144 take 3.8 in
+/// cells of the picture and 2.4 in those of the world, a million 71 and 3.3.
+constexpr std::uint32_t MOST_LIGHTS_AT_ANY_DEPTH = 131072;
+
 constexpr std::uint32_t CONSTANT_WALK = 11;
 constexpr std::uint32_t CONSTANT_FIRST_ROW = 12;
 constexpr std::uint32_t CONSTANT_SEVERAL_VIEWS = 18;
@@ -133,9 +138,12 @@ Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
 std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, const vulkan::Device& device) {
   if (plan.any_depth) return std::nullopt;
   LightingInfo any_depth = info;
-  any_depth.method = take(find_method("lamplight"));
+  // Cells of the world are asked at a pixel's centre: surfaces that cover single samples want cells of the picture.
+  const bool world = info.light_capacity > MOST_LIGHTS_AT_ANY_DEPTH && info.depth.samples == 1;
+  any_depth.method = take(find_method(world ? "world-cells" : "lamplight"));
+  const std::vector<std::string> of_picture{"depth=none", "tile=32", "mean_cells=2"};
   const std::vector<std::string> settings =
-      with_box_shapes(*any_depth.method, {"depth=none", "tile=32", "mean_cells=2"}, culls_shapes(info.options));
+      with_box_shapes(*any_depth.method, world ? std::vector<std::string>() : of_picture, culls_shapes(info.options));
   any_depth.options = take(resolve_options(*any_depth.method, settings));
   return plan_or_throw(any_depth, device);
 }

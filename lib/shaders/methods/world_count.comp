@@ -17,3 +17,5 @@ void saw(uint level) {
 #define SAW(level) saw(level)
 #define FOUND(light, code, bucket) atomicAdd(counts[bucket], 1u)
 #include "methods/world_find.glsl"
+
+void main() { find_bricks(); }

@@ -32,7 +32,8 @@ void find_bricks(uint light, uint first) {
   }
 }
 
-void main() {
+// By all threads: each for its share of a light's bricks.
+void find_bricks() {
   const uint light = gl_GlobalInvocationID.x / LIGHT_THREADS;
   if (light < light_count_of(frame)) find_bricks(light, gl_GlobalInvocationID.x % LIGHT_THREADS);
 }

@@ -1,9 +1,10 @@
-// Puts the entries of a piece in order. A bucket of one piece is done then, and gets its cells' bits; the pieces of
+// Puts the entries of a piece of a bucket that is not short in order. A bucket of one piece is done then, and gets its cells' bits; the pieces of
 // others are runs, left in the room of the bits, that world_merge.comp merges.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #include "methods/world_piece.glsl"
 
 shared uint s_found[WORLD_PIECE];

@@ -14,6 +14,7 @@ layout(set = 0, binding = 1, scalar) buffer TotalBuffer { WorldTotals totals; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BucketBuffer { WorldBucket buckets[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer LongBuffer { WorldPiece long_pieces[]; };
+layout(set = 0, binding = 5, scalar) writeonly buffer WindowBuffer { uint windows[]; };
 
 const uint HELD = 4u;  // buckets of a thread
 
@@ -21,26 +22,14 @@ shared uint s_first;
 shared uint s_piece;
 shared uint s_long;
 
-uint pieces_of(uint entries) { return (entries + WORLD_PIECE - 1u) / WORLD_PIECE; }
+uint pieces_of(uint entries) { return entries <= WORLD_SHORT ? 0u : (entries + WORLD_PIECE - 1u) / WORLD_PIECE; }
 uint long_pieces_of(uint entries) { return entries > WORLD_PIECE ? pieces_of(entries) : 0u; }
 
-uvec2 groups_of(uint pieces) {
-  return uvec2(min(pieces, WORLD_GROUPS_ACROSS), (pieces + WORLD_GROUPS_ACROSS - 1u) / WORLD_GROUPS_ACROSS);
-}
-
-// By one thread.
-void reserve_pieces(uint pieces, uint longs) {
-  s_piece = atomicAdd(totals.pieces, pieces);
-  s_long = atomicAdd(totals.long_pieces, longs);
-  const uvec2 groups = groups_of(s_piece + pieces);
-  atomicMax(totals.pieces_x, groups.x);
-  atomicMax(totals.pieces_y, groups.y);
-  atomicMax(totals.pieces_z, 1u);
-  if (longs == 0u) return;
-  const uvec2 long_groups = groups_of(s_long + longs);
-  atomicMax(totals.long_x, long_groups.x);
-  atomicMax(totals.long_y, long_groups.y);
-  atomicMax(totals.long_z, 1u);
+// Windows that begin in the bucket, or where it ends, have the next one as their first.
+void write_windows(uint first, uint entries) {
+  if (first >= ENTRIES) return;
+  const uint next = entries < ENTRIES - first ? first + entries : ENTRIES;
+  for (uint window = first / WORLD_WINDOW + 1u; window * WORLD_WINDOW <= next; ++window) windows[window] = next;
 }
 
 void write_pieces(uint bucket, uint entries, uint piece, uint long_piece) {
@@ -73,6 +62,7 @@ void main() {
     const bool fits = held[k] <= ENTRIES && first <= ENTRIES - held[k];
     buckets[bucket + k] = WorldBucket(fits ? first : 0u, fits ? held[k] : WORLD_ALL);
     counts[bucket + k] = 0u;
+    write_windows(first, held[k]);
     first += held[k];
     if (!fits) {
       atomicAdd(totals.counters.overflowed_cells, BRICK_CELLS);
@@ -85,7 +75,10 @@ void main() {
   uint all_longs;
   uint piece = group_scan(pieces, all_pieces);
   uint long_piece = group_scan(longs, all_longs);
-  if (gl_LocalInvocationIndex == 0u && all_pieces != 0u) reserve_pieces(all_pieces, all_longs);
+  if (gl_LocalInvocationIndex == 0u) {
+    s_piece = all_pieces == 0u ? 0u : atomicAdd(totals.pieces, all_pieces);
+    s_long = all_longs == 0u ? 0u : atomicAdd(totals.long_pieces, all_longs);
+  }
   barrier();  // places before they are taken
   piece += s_piece;
   long_piece += s_long;

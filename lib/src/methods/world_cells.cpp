@@ -20,6 +20,8 @@ namespace {
 
 using shared::BRICK_CELLS;
 using shared::WORLD_PIECE;
+using shared::WORLD_SHORT;
+using shared::WORLD_WINDOW;
 
 constexpr std::uint32_t THREADS = 256;
 constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, where there are groups for it
@@ -98,12 +100,12 @@ Sizes sizes_of(const Problem& problem) {
   s.entries = static_cast<std::uint32_t>(
       std::min({wanted_entries(problem, s.ratio), MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 8}));
   s.long_pieces = parts::divide_up(s.entries, WORLD_PIECE / 2);  // each bucket of more than one is over half full
-  s.pieces = std::min(s.buckets, s.entries) + s.long_pieces;
+  s.pieces = std::min(s.buckets, parts::divide_up(s.entries, WORLD_SHORT + 1)) + s.long_pieces;
   return s;
 }
 
 struct Buffers {
-  ResourceId totals, levels, counts, buckets, pieces, long_pieces, entries, bits;
+  ResourceId totals, levels, counts, buckets, windows, pieces, long_pieces, entries, bits;
 };
 
 Buffers add_buffers(Plan& plan, const Sizes& s) {
@@ -117,6 +119,7 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   plan.counters = b.totals;
   b.counts = plan.add({.name = "bucket counts", .bytes = std::uint64_t{s.buckets} * 4, .zeroed = true});
   b.buckets = plan.add({.name = "buckets", .bytes = std::uint64_t{s.buckets} * sizeof(shared::WorldBucket)});
+  b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / WORLD_WINDOW + 1) * 4});
   b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::WorldPiece)});
   b.long_pieces = plan.add({.name = "long pieces", .bytes = std::uint64_t{s.long_pieces} * sizeof(shared::WorldPiece)});
   b.entries = plan.add({.name = "bucket entries", .bytes = std::uint64_t{s.entries} * 4});
@@ -151,7 +154,8 @@ Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   Pass pass = find_pass(problem, s, b);
   pass.name = "fill buckets";
   pass.shader = "methods/world_fill";
-  pass.bindings.insert(pass.bindings.end(), {{b.buckets}, {b.entries, Access::write}});
+  pass.constants.push_back(s.entries);
+  pass.bindings.insert(pass.bindings.end(), {{b.buckets}, {b.entries, Access::write}, {b.totals, Access::read_write}});
   return pass;
 }
 
@@ -164,12 +168,13 @@ Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                        {b.totals, Access::read_write},
                        {b.buckets, Access::write},
                        {b.pieces, Access::write},
-                       {b.long_pieces, Access::write}},
+                       {b.long_pieces, Access::write},
+                       {b.windows, Access::write}},
           .extent = {.x = s.buckets / (threads * SCAN_BUCKETS)},
           .shared_bytes = 256 * 4 + 12};
 }
 
-/// Of all pieces, or of long buckets'.
+/// Of buckets that are not short: of all pieces, or of long ones'.
 Pass piece_pass(const Sizes& s, const Buffers& b, ResourceId pieces) {
   const bool is_long = pieces == b.long_pieces;
   return {.name = is_long ? "bits of long buckets" : "order and bits",
@@ -189,6 +194,22 @@ Pass piece_pass(const Sizes& s, const Buffers& b, ResourceId pieces) {
           .shared_bytes = WORLD_PIECE * 16 + BRICK_CELLS * 4};
 }
 
+Pass short_pass(const Sizes& s, const Buffers& b) {
+  return {.name = "short buckets",
+          .shader = "methods/world_short",
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries},
+          .bindings = {{INPUT_FRAME},
+                       {INPUT_LIGHTS},
+                       {INPUT_SPHERES},
+                       {b.totals},
+                       {b.buckets},
+                       {b.windows},
+                       {b.entries, Access::read_write},
+                       {b.bits, Access::write}},
+          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, windows_x)},
+          .shared_bytes = (WORLD_WINDOW + WORLD_SHORT) * 12};
+}
+
 Pass merge_pass(const Buffers& b) {
   return {.name = "merge long buckets",
           .shader = "methods/world_merge",
@@ -203,11 +224,9 @@ Plan plan_world_cells(const Problem& problem) {
   plan.any_depth = true;
   const Buffers b = add_buffers(plan, sizes);
   plan.capacities = {parts::shared_list("mean_bricks", sizes.entries, parts::capacity(problem))};
-  plan.passes = {count_pass(problem, sizes, b),
-                 scan_pass(problem, sizes, b),
-                 fill_pass(problem, sizes, b),
-                 piece_pass(sizes, b, b.pieces),
-                 merge_pass(b),
+  plan.passes = {count_pass(problem, sizes, b),      scan_pass(problem, sizes, b),
+                 fill_pass(problem, sizes, b),       short_pass(sizes, b),
+                 piece_pass(sizes, b, b.pieces),     merge_pass(b),
                  piece_pass(sizes, b, b.long_pieces)};
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets},
