@@ -66,7 +66,7 @@ std::vector<WorldCell> leaves_around(std::span<const std::uint32_t> words, const
   const auto distance = [&](const WorldCell& leaf) {
     return glm::distance(point, glm::clamp(point, leaf.low, leaf.low + leaf.side));
   };
-  std::ranges::stable_sort(leaves, {}, distance);
+  std::ranges::sort(leaves, {}, distance);
   if (leaves.size() > MOST_LEAVES) leaves.resize(MOST_LEAVES);
   return leaves;
 }

@@ -138,7 +138,7 @@ TEST(WorldLeaves, HaveOneListEach) {
     return glm::all(glm::greaterThanEqual(at, leaf.low)) && glm::all(glm::lessThan(at, leaf.low + leaf.side));
   };
   ASSERT_FALSE(leaves.empty());
-  EXPECT_TRUE(holds(leaves.front(), point));
+  EXPECT_TRUE(holds(leaves.front(), point));  // it is on no face
   std::set<float> sides;
   for (const WorldCell& leaf : leaves) {
     sides.insert(leaf.side);
