@@ -108,13 +108,13 @@ PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuS
                     std::uint32_t pixel, const PixelEntities& walked) {
   if (info.path == ShadingPath::forward) renderer.need_surfaces();
   const Targets& targets = renderer.targets();
-  LightPass pass{.shader = "light_shares",
-                 .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
-                 .bound = gbuffer_bound(targets),
-                 .push = {pixel % targets.width, pixel / targets.width,
-                          static_cast<std::uint32_t>(walked.lights.size()),
-                          static_cast<std::uint32_t>(walked.probes.size())},
-                 .answers = walked.lights.size() + 1};
+  LightPass pass{
+      .shader = "light_shares",
+      .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
+      .bound = gbuffer_bound(targets),
+      .push = {pixel % targets.width, pixel / targets.width, static_cast<std::uint32_t>(walked.lights.size()),
+               static_cast<std::uint32_t>(walked.probes.size())},
+      .answers = walked.lights.size() + 1};
   pass.constants.push_back({CONSTANT_PROBES, info.probes});
   for (const vulkan::Bound& b : renderer.probes().bound()) pass.bound.push_back(b);
   pass.bound.push_back({4, scene.surroundings()});
