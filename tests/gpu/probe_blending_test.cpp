@@ -45,9 +45,9 @@ Blend blend_of(const std::vector<gpu::ProbeData>& probes, const Place& position)
   return blend;
 }
 
-class Random {
+class RandomProbes {
  public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  explicit RandomProbes(std::uint32_t seed) : engine_(seed) {}
   float between(float low, float high) { return std::uniform_real_distribution(low, high)(engine_); }
   glm::vec3 vector(float half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
   Probe probe(std::uint32_t i) {
@@ -67,7 +67,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-std::vector<Probe> random_probes(Random& random, std::uint32_t count) {
+std::vector<Probe> random_probes(RandomProbes& random, std::uint32_t count) {
   std::vector<Probe> probes;
   for (std::uint32_t i = 0; i < count; ++i) probes.push_back(random.probe(i));
   return probes;
@@ -97,7 +97,7 @@ bool on_edge(const std::vector<gpu::ProbeData>& probes, const Place& position) {
 }
 
 TEST_F(ProbeBlending, IsWhatDoublePrecisionSays) {
-  Random random(7);
+  RandomProbes random(7);
   const std::vector<gpu::ProbeData> probes = pack(random_probes(random, 12));
   std::vector<shared::ProbeCase> cases;
   for (int i = 0; i < 20000; ++i)
@@ -137,7 +137,7 @@ TEST_F(ProbeBlending, SumsWeightsToOne) {
 
 TEST_F(ProbeBlending, ReflectionsMeetTheWalls) {
   for (const ProbeShape shape : {ProbeShape::box, ProbeShape::ellipsoid}) {
-    Random random(11);
+    RandomProbes random(11);
     Probe probe = random.probe(0);
     probe.shape = shape;
     const std::vector<gpu::ProbeData> packed = pack({probe});
