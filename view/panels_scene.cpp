@@ -66,6 +66,8 @@ void choose_still(PanelFrame& p) {
   p.widgets.slide("still occlusion", r.still_occlusion, {.min = 0, .max = 64},
                   "Leaves still lights out where walls surely hide them: texels a side of the cube with which each "
                   "looks around. 0: walls hide nothing, and lights shine through them.");
+  p.widgets.slide("still bytes", r.still_bytes, {.min = 0, .max = 1e4, .logarithmic = true},
+                  "Bytes for each triangle that the lists may take: less room makes lists longer. 0: without limit.");
   if (p.shown.first.stats.still) Widgets::note(still_words(*p.shown.first.stats.still));
 }
 
