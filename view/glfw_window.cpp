@@ -165,6 +165,7 @@ std::span<const char* const> Desktop::instance_extensions() const {
 
 GlfwWindow::GlfwWindow(const std::string& title, glm::uvec2 size) {
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);  // as its interface is
   window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(), nullptr, nullptr);
   if (window_ == nullptr)
     throw Error(fmt::format("the window cannot be opened: {}; expected a display", last_error()), Exit::no_device);

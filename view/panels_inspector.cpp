@@ -137,7 +137,7 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
 
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   if (!p.shown.inspection) return;
-  const float width = std::min(592.0F * scale, static_cast<float>(area.size().x));
+  const float width = std::min(640.0F * scale, static_cast<float>(area.size().x));
   ImGui::SetNextWindowPos({static_cast<float>(area.max.x), static_cast<float>(area.min.y)}, ImGuiCond_Appearing,
                           {1.0F, 0.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(area.size().y)});
