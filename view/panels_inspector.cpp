@@ -165,7 +165,10 @@ void proof_panel(PanelFrame& p) {
   if (!p.widgets.header("Proof", true)) return;
   if (!p.shown.inspection)
     Widgets::note("Click a pixel of the picture to see its cell, and why each light is listed there.");
-  if (p.widgets.button("prove the picture", "Holds the list of every pixel against the oracle, in double precision.",
+  if (p.widgets.button("prove the picture",
+                       "Holds the list of every pixel that shows a surface against the oracle: all lights that reach "
+                       "it, found on the CPU "
+                       "in double precision.",
                        p.proving ? "it is being done" : ""))
     p.wishes.prove = true;
   if (p.proving) ImGui::ProgressBar(p.progress);

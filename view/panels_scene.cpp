@@ -139,7 +139,8 @@ void lights_panel(PanelFrame& p) {
     r.lights_given = true;
   p.widgets.slide("spots", r.spots, {}, "Which part of the generated lights are spots.");
   p.widgets.write("range", r.range,
-                  "Of the generated lights in metres, MIN:MAX or one number. Empty: about 24 reach a point.");
+                  "Of the generated lights in metres, MIN:MAX or one number. Empty: about 24 reach a point.",
+                  "by their number");
   auto seed = static_cast<std::uint32_t>(std::min<std::uint64_t>(r.seed, 1000));
   if (p.widgets.slide("seed", seed, {.min = 0, .max = 1000}, "Another seed makes other lights and decals."))
     r.seed = seed;

@@ -127,6 +127,7 @@ class Viewer {
   double picture_ms_ = 0.0;  ///< of a picture, all in all, smoothed
   double rests_s_ = 0.0;     ///< that nothing has changed
   std::string error_, said_;
+  std::string proof_of_;  ///< which picture `proof_` is of
   std::uint64_t errors_ = 0;
   bool error_stays_ = false;  ///< though what is drawn after it succeeds
   Places places_;

@@ -176,10 +176,10 @@ bool Widgets::pick(const std::string& label, bool picked) {
   return clicked;
 }
 
-bool Widgets::write(const std::string& label, std::string& value, const std::string& tip) {
+bool Widgets::write(const std::string& label, std::string& value, const std::string& tip, const char* empty) {
   before(label);
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
-  ImGui::InputText(unique(label).c_str(), &value);
+  ImGui::InputTextWithHint(unique(label).c_str(), empty, &value);
   const bool left = ImGui::IsItemDeactivatedAfterEdit();
   done(label, tip);
   return left;

@@ -76,7 +76,7 @@ class Widgets {
   /// A row of a table, by its first cell. True when it was clicked.
   bool pick(const std::string& label, bool picked);
   /// True when the text was changed and the widget left.
-  bool write(const std::string& label, std::string& value, const std::string& tip);
+  bool write(const std::string& label, std::string& value, const std::string& tip, const char* empty = "");
 
   /// Text in the panel, wrapped. A title is bright, a note is quiet.
   static void text(std::string_view words);

@@ -130,9 +130,9 @@ class Visitor {
       pass.push[1] = number_of(end);
       renderer_.run(pass, pipeline);
       std::memcpy(found.data(), marks.mapped().data(), marks.bytes());
-      for (std::size_t i = pixel; i < end; ++i)
-        if (next_open(i) == i) compare(i, std::span(found).subspan((i - pixel) * words, words));
-      pixel = next_open(end);
+      const std::size_t first = pixel;
+      for (; pixel < end; pixel = next_open(pixel + 1))
+        compare(pixel, std::span(found).subspan((pixel - first) * words, words));
     }
     renderer_.forget(marks);
   }

@@ -22,7 +22,7 @@ constexpr std::uint32_t STATUS_PX = 24;  // at the bottom: times, which differ
 constexpr std::uint32_t BLOCK_PX = 20;
 // Of 255. Devices filter textures and cover edges differently, which averages out over a block; a panel, an overlay or
 // a light does not.
-constexpr double MEAN_LEVELS = 6.0;
+constexpr double MEAN_LEVELS = 7.0;
 constexpr double BLOCK_LEVELS = 5.0;
 
 std::vector<std::string> state_names() {
