@@ -28,6 +28,8 @@ std::string grouped(std::uint64_t number) {
 /// The pixels of one cell, and what encloses their surfaces.
 struct CellPixels {
   std::vector<std::size_t> pixels;
+  glm::uvec2 min_px{~0U};
+  glm::uvec2 end_px{0};
   Box bounds{.min = glm::vec3(std::numeric_limits<float>::max()), .max = glm::vec3(-std::numeric_limits<float>::max())};
   double near_m = std::numeric_limits<double>::max();
   double far_m = 0.0;
@@ -44,6 +46,10 @@ CellPixels cell_pixels(const Inspected& of, std::uint32_t cell) {
   for (std::size_t i = 0; i < of.visits.size(); ++i) {
     if (of.visits[i].cell != cell) continue;
     found.pixels.push_back(i);
+    const std::uint32_t width = of.renderer.view().width();
+    const glm::uvec2 pixel(i % width, i / width);
+    found.min_px = glm::min(found.min_px, pixel);
+    found.end_px = glm::max(found.end_px, pixel + 1U);
     const glm::vec3 position(position_of(of, i));
     found.bounds = {.min = glm::min(found.bounds.min, position), .max = glm::max(found.bounds.max, position)};
     const double z = of.renderer.view().z_view(of.depth[i]);
@@ -107,19 +113,14 @@ void add(Proof& proof, const Truth& truth, std::span<const Visit> visits, std::u
 /// The smallest tile and depths that hold the cell's pixels.
 gpu::ExplainedCell volume_of(const Inspected& of, const CellPixels& cell) {
   const View& view = of.renderer.view();
-  glm::uvec2 min(~0U);
-  glm::uvec2 max(0);
   std::uint32_t mask = 0;
   const double part = std::max(cell.far_m - cell.near_m, 1e-30) / 32.0;
   for (const std::size_t i : cell.pixels) {
-    const glm::uvec2 pixel(i % view.width(), i / view.width());
-    min = glm::min(min, pixel);
-    max = glm::max(max, pixel);
     const double place = (view.z_view(of.depth[i]) - cell.near_m) / part;
     mask |= 1U << static_cast<std::uint32_t>(std::clamp(place, 0.0, 31.0));
   }
-  return {.min_px = glm::vec2(min),
-          .max_px = glm::vec2(max + 1U),
+  return {.min_px = glm::vec2(cell.min_px),
+          .max_px = glm::vec2(cell.end_px),
           .z_near = static_cast<float>(cell.near_m),
           .z_far = static_cast<float>(cell.far_m),
           .mask = mask,
@@ -262,6 +263,8 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.z_view = static_cast<float>(view.z_view(of.depth[number]));
   const CellPixels cell = cell_pixels(of, found.cell);
   found.cell_pixels = static_cast<std::uint32_t>(cell.pixels.size());
+  found.cell_min_px = cell.min_px;
+  found.cell_end_px = cell.end_px;
   found.cell_near_m = static_cast<float>(cell.near_m);
   found.cell_far_m = static_cast<float>(cell.far_m);
   found.own = own_tests(of.lighting.runner().plan(), of.lighting.info().options);

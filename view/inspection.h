@@ -65,6 +65,8 @@ struct Inspection {
   glm::vec3 position{0.0F};  ///< m, world space
   float z_view = 0.0F;       ///< m ahead of the eye
   std::uint32_t cell_pixels = 0;
+  glm::uvec2 cell_min_px{0};  ///< a rectangle that holds them, to cell_end_px
+  glm::uvec2 cell_end_px{0};
   float cell_near_m = 0.0F;  ///< of the surfaces in the cell's pixels, z_view
   float cell_far_m = 0.0F;
   std::vector<ListedLight> lights;  ///< ascending

@@ -115,7 +115,8 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
     return;
   }
   const auto reaching = std::ranges::count(found.lights, Reach::inside, &ListedLight::reach);
-  Widgets::row("pixel", fmt::format("({}, {}), {:.2f} m ahead", found.pixel.x, found.pixel.y, found.z_view));
+  Widgets::row("pixel", fmt::format("({}, {}) of {}x{}, {:.2f} m ahead", found.pixel.x, found.pixel.y,
+                                    shown.view.width(), shown.view.height(), found.z_view));
   Widgets::row("surface",
                fmt::format("({:.2f}, {:.2f}, {:.2f}) m", found.position.x, found.position.y, found.position.z));
   Widgets::row("cell", fmt::format("{} of {}: {} pixels, {:.2f} to {:.2f} m", found.cell, stats.cells,
@@ -138,8 +139,10 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   if (!p.shown.inspection) return;
   const float width = std::min(640.0F * scale, static_cast<float>(area.size().x));
-  ImGui::SetNextWindowPos({static_cast<float>(area.max.x), static_cast<float>(area.min.y)}, ImGuiCond_Appearing,
-                          {1.0F, 0.0F});
+  // Where the pixel is not.
+  const bool is_left = p.shown.inspection->pixel.x >= p.shown.view.width() / 2;
+  ImGui::SetNextWindowPos({static_cast<float>(is_left ? area.min.x : area.max.x), static_cast<float>(area.min.y)},
+                          ImGuiCond_Appearing, {is_left ? 0.0F : 1.0F, 0.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(area.size().y)});
   ImGui::SetNextWindowSize({width, 0.0F});  // as high as it needs
   ImGui::SetNextWindowBgAlpha(0.9F);

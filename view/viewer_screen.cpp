@@ -69,17 +69,23 @@ void draw_divider(const ScreenRect& picture, const Shown& shown) {
   label(x + 10.0F, words_of_side(shown.second->stats));
 }
 
-/// A frame around the pixel that is looked into.
+void draw_frame(const glm::vec2& min, const glm::vec2& max) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRect({min.x, min.y}, {max.x, max.y}, IM_COL32(0, 0, 0, 255), 0.0F, 0, 3.0F);
+  draw.AddRect({min.x, min.y}, {max.x, max.y}, IM_COL32_WHITE);
+}
+
+/// Frames around the pixel that is looked into, and around its cell.
 void draw_picked(const ScreenRect& picture, const Shown& shown) {
   if (!shown.inspection) return;
+  const Inspection& found = *shown.inspection;
+  const glm::vec2 corner(picture.min);
   const glm::vec2 scale = glm::vec2(picture.size()) / glm::vec2(shown.view.width(), shown.view.height());
-  const glm::vec2 min = glm::vec2(picture.min) + glm::vec2(shown.inspection->pixel) * scale;
-  const glm::vec2 middle = min + 0.5F * scale;
+  const glm::vec2 middle = corner + (glm::vec2(found.pixel) + 0.5F) * scale;
   const float half = std::max(5.0F, 0.5F * scale.x + 2.0F);
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, IM_COL32(0, 0, 0, 255), 0.0F, 0,
-               3.0F);
-  draw.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, IM_COL32_WHITE);
+  if (!found.sky)
+    draw_frame(corner + glm::vec2(found.cell_min_px) * scale, corner + glm::vec2(found.cell_end_px) * scale);
+  draw_frame(middle - half, middle + half);
 }
 
 /// What to do first, over the top of the picture, until a pixel is picked.
