@@ -23,7 +23,7 @@ constexpr double LEAST_DETAIL = 1.0 / 64.0;
 bool reaches_something(const shared::Light& light) { return light.range > 0.0F; }
 bool is_infinite(const shared::Light& light) { return light.range >= shared::INFINITE_RADIUS; }
 
-struct Bounds {
+struct SceneBounds {
   glm::dvec3 min{std::numeric_limits<double>::infinity()};
   glm::dvec3 max{-std::numeric_limits<double>::infinity()};
   void add(const glm::dvec3& p, double radius) {
@@ -38,7 +38,7 @@ struct Bounds {
 
 /// m; lights that reach farther have no part in where the root lies.
 double usual_reach(std::span<const shared::Light> lights) {
-  Bounds positions;
+  SceneBounds positions;
   std::vector<float> ranges;
   for (const shared::Light& light : lights)
     if (reaches_something(light) && !is_infinite(light)) {
@@ -63,7 +63,7 @@ double mean_bricks(double ratio) {
 
 TreeGrid grid_of(const WorldTreeInfo& info) {
   const double reach = usual_reach(info.lights);
-  Bounds bounds;
+  SceneBounds bounds;
   double least = std::numeric_limits<double>::infinity();
   for (const shared::Light& light : info.lights) {
     if (!reaches_something(light) || double{light.range} > reach) continue;
