@@ -5,6 +5,7 @@
 #define LAMP_COMMON_WORLD_BRICKS
 #include "common/frame.glsl"
 #include "common/world_cells.glsl"
+#include "common/world_slack.glsl"
 #include "lamplight/shared/light.h"
 
 // Several shaders work these out, each by itself, and count on the same bits: what decides is made of additions,
@@ -17,21 +18,9 @@ struct LightBricks {
   float radius;
 };
 
-float sum_of(vec3 v) {
-  precise const float sum = v.x + v.y + v.z;
-  return sum;
-}
-
 float square_of(vec3 v) {
   precise const float sum = v.x * v.x + v.y * v.y + v.z * v.z;
   return sum;
-}
-
-// Positions that look-ups are asked for come from view space through a matrix, as pixels' do: what that may move them is
-// a share of their distance from the eye and from the origin.
-float world_slack(Frame frame, vec3 position) {
-  precise const float slack = 2.0 * ROUND_POSITION * (sum_of(abs(position)) + sum_of(abs(frame.eye_world)));
-  return slack;
 }
 
 // The least level whose bricks are not smaller than that.

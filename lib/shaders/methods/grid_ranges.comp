@@ -3,9 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-const float BRICK_RATIO = 1.0;  // of bricks, which nobody asks for here
 #include "common/implicit_grid.glsl"
-#include "common/world_bricks.glsl"
+#include "common/world_slack.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint SLICES = 8;

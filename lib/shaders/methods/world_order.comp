@@ -1,5 +1,5 @@
-// Puts the entries of a piece of a bucket that is not short in order. A bucket of one piece is done then, and gets its cells' bits; the pieces of
-// others are runs, left in the room of the bits, that world_merge.comp merges.
+// Puts the entries of a piece in order, of buckets that are not short. A bucket of one piece is done then, and gets its
+// cells' bits; the pieces of others are runs, left in the room of the bits, that world_merge.comp merges.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
