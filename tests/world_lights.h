@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 #include "lamplight/light.h"
@@ -37,6 +39,27 @@ inline std::vector<shared::Light> lights_around(const glm::vec3& center, float h
     lights.push_back(light);
   }
   return pack(lights);
+}
+
+struct LightsAndPoints {
+  std::vector<Light> lights;
+  Points points;
+};
+
+/// Lights of ranges from a millionth of a metre to more than there is, with points within and beyond; the last four
+/// reach nothing, or everything.
+inline LightsAndPoints lights_of_every_range() {
+  LightsAndPoints made;
+  app::procedural::Random random(5);
+  for (int exponent = -20; exponent <= 59; ++exponent) {
+    const float range = std::ldexp(random.between(1.0F, 2.0F), exponent);
+    made.lights.push_back({.position = {range, 0.0F, 0.0F}, .range = range});
+    made.points.emplace_back(range * 0.25F, 0.0F, 0.0F);
+    made.points.emplace_back(range * 1.5F, -0.5F * range, 0.0F);
+  }
+  for (const float range : {0.0F, 1e18F, 3e38F, std::numeric_limits<float>::infinity()})
+    made.lights.push_back({.position{}, .range = range});
+  return made;
 }
 
 }  // namespace lamp::test

@@ -11,7 +11,6 @@
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
 #include "scene/flight.h"
-#include "scene/procedural_random.h"
 #include "scene/random_points.h"
 
 namespace lamp::app {
@@ -21,7 +20,6 @@ constexpr std::size_t POINTS = 2000;  // of each kind
 constexpr std::uint32_t LIGHTS = 1000;
 constexpr float INF = std::numeric_limits<float>::infinity();
 
-using procedural::Random;
 using test::lights_around;
 using test::Points;
 using test::points_in;
@@ -64,16 +62,7 @@ TEST_P(WorldPoints, AreRightAHundredKilometresAway) {
 }
 
 TEST_P(WorldPoints, KnowLightsOfEveryRange) {
-  std::vector<Light> lights;
-  Points points;
-  Random random(5);
-  for (int exponent = -20; exponent <= 59; ++exponent) {
-    const float range = std::ldexp(random.between(1.0F, 2.0F), exponent);
-    lights.push_back({.position = {range, 0.0F, 0.0F}, .range = range});
-    points.emplace_back(range * 0.25F, 0.0F, 0.0F);
-    points.emplace_back(range * 1.5F, -0.5F * range, 0.0F);
-  }
-  for (const float range : {0.0F, 1e18F, 3e38F, INF}) lights.push_back({.position{}, .range = range});
+  const auto [lights, points] = test::lights_of_every_range();
   const Answered answered = ask({.lights = pack(lights), .points = points});
   EXPECT_GT(answered.findings.useful, 3 * points.size());
 }

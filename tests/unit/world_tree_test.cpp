@@ -17,7 +17,6 @@
 #include "scene/builtin.h"
 #include "scene/open_air.h"
 #include "scene/place_lights.h"
-#include "scene/procedural_random.h"
 #include "scene/random_points.h"
 #include "scene/still_triangles.h"
 #include "world_lights.h"
@@ -161,17 +160,10 @@ TEST(WorldTree, KeepsToItsBudgetAndSaysWhatThatCosts) {
 }
 
 TEST(WorldTree, KnowsLightsOfEveryRange) {
-  std::vector<Light> lights;
+  const lamp::test::LightsAndPoints every = lamp::test::lights_of_every_range();
   Points points{{INF, 0, 0}, {0, std::nanf(""), 0}, {0, 0, -1e30F}};
-  lamp::app::procedural::Random random(5);
-  for (int exponent = -20; exponent <= 59; ++exponent) {
-    const float range = std::ldexp(random.between(1.0F, 2.0F), exponent);
-    lights.push_back({.position = {range, 0.0F, 0.0F}, .range = range});
-    points.emplace_back(range * 0.25F, 0.0F, 0.0F);
-    points.emplace_back(range * 1.5F, -0.5F * range, 0.0F);
-  }
-  for (const float range : {0.0F, 1e18F, 3e38F, INF}) lights.push_back({.position{}, .range = range});
-  const WorldTree tree = built({.lights = lamp::pack(lights)});
+  points.insert(points.end(), every.points.begin(), every.points.end());
+  const WorldTree tree = built({.lights = lamp::pack(every.lights)});
   EXPECT_GT(expect_no_miss(tree, points).useful, 3 * points.size());
   for (const glm::vec3& nowhere : {points[0], points[1]}) {
     const std::vector<std::uint32_t> walked = tree.lights_at(lamp::Vec3(nowhere));
