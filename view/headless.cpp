@@ -33,8 +33,9 @@ class HeadlessScreen {
     }
     input_.next_frame();
     if (std::optional<Job> job = viewer_.next_job()) viewer_.finish(perform(stage_, std::move(*job)));
-    if (!minimised_) screen_->draw(gui_, viewer_.shown().image.get(), viewer_.picture());
-    if (!minimised_) viewer_.took_interface(gui_.interface_ms());
+    if (minimised_) return;
+    screen_->draw(gui_, viewer_.shown().image.get(), viewer_.picture());
+    viewer_.took_interface(gui_.interface_ms());
   }
 
   [[nodiscard]] LdrImage read() { return screen_->read(); }

@@ -129,7 +129,7 @@ gpu::ExplainedCell volume_of(const Inspected& of, const CellPixels& cell) {
 
 /// Where the GPU has it.
 std::uint32_t record_of(const Inspected& of, std::uint32_t light) {
-  return of.still == nullptr ? light : of.still->record_of(light);
+  return of.still == nullptr ? light : app::record_of(light, of.still->first, of.still->boxes);
 }
 
 bool reaches_any(const Inspected& of, const CellPixels& cell, std::uint32_t light) {
@@ -159,15 +159,13 @@ void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth
   }
 }
 
-std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
+std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel, std::span<const std::uint32_t> probes) {
   const glm::dvec3 position = position_of(of, pixel);
   std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
   const std::size_t of_picture = ids.size();
   if (of.still != nullptr) std::ranges::copy(of.still->lights_at(pixel), std::back_inserter(ids));
   std::vector<std::uint32_t> records;
   for (const std::uint32_t id : ids) records.push_back(record_of(of, id));
-  const std::vector<std::uint32_t> probes =
-      of.renderer.probes().probes().empty() ? std::vector<std::uint32_t>() : probes_at(of.renderer, of.lighting, pixel);
   const PixelTerms terms =
       terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, {.lights = records, .probes = probes});
   double sum = luminance(terms.surroundings);
@@ -187,10 +185,14 @@ std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel) {
 }
 
 /// As shading takes them: smallest first, until their weights sum to 1.
-std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel) {
+std::vector<std::uint32_t> walked_probes(const Inspected& of, std::uint32_t pixel) {
+  if (of.renderer.probes().probes().empty()) return {};
+  return probes_at(of.renderer, of.lighting, pixel);
+}
+
+std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel, std::span<const std::uint32_t> found) {
+  if (found.empty()) return {};
   const std::span<const gpu::ProbeData> all = of.renderer.probes().probes();
-  if (all.empty()) return {};
-  const std::vector<std::uint32_t> found = probes_at(of.renderer, of.lighting, pixel);
   const std::vector<ProbeWeight> weights =
       probe_weights(of.renderer, of.shaders, glm::vec3(position_of(of, pixel)), found);
   std::vector<ListedProbe> probes;
@@ -269,8 +271,9 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.cell_far_m = static_cast<float>(cell.far_m);
   found.own = own_tests(of.lighting.runner().plan(), of.lighting.info().options);
   if (of.still != nullptr) found.still_own = of.still->tests();
-  found.lights = listed(of, static_cast<std::uint32_t>(number));
-  found.probes = listed_probes(of, static_cast<std::uint32_t>(number));
+  const std::vector<std::uint32_t> probes = walked_probes(of, static_cast<std::uint32_t>(number));
+  found.lights = listed(of, static_cast<std::uint32_t>(number), probes);
+  found.probes = listed_probes(of, static_cast<std::uint32_t>(number), probes);
   const Truth truth = truth_of(of, cell);
   found.proof.pixels = cell.pixels.size();
   add_reasons(of, cell, truth, found.lights);

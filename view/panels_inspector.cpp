@@ -14,14 +14,6 @@
 namespace lamp::app {
 namespace {
 
-void explain_in_tip(const std::string& words) {
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(30.0F * ImGui::GetFontSize());
-  ImGui::TextUnformatted(words.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
 void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(found.lights.size()));
@@ -39,7 +31,7 @@ void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
       cell(fmt::format("{:.2f}", light.range_m));
       cell(fmt::format("{:.1f}%", 100.0 * light.share));
       cell(why_listed(light, found.tests_of(light)));
-      if (ImGui::IsItemHovered()) explain_in_tip(explained(light, found.tests_of(light)));
+      if (ImGui::IsItemHovered()) Widgets::tip(explained(light, found.tests_of(light)));
     }
   }
 }
@@ -128,8 +120,7 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
   draw_lights(found, state, widgets);
   Widgets::note(
       "Click a row: its light is shown in the picture, and can be changed. Point at a reason: it is explained. Tests "
-      "see "
-      "the cell's pixels; the method's own cell may be larger.");
+      "see the cell's pixels; the method's own cell may be larger.");
   edit_light(shown, state, widgets);
   shadow_of_light(shown, state, widgets);
 }
@@ -170,8 +161,7 @@ void proof_panel(PanelFrame& p) {
     Widgets::note("Click a pixel of the picture to see its cell, and why each light is listed there.");
   if (p.widgets.button("prove the picture",
                        "Holds the list of every pixel that shows a surface against the oracle: all lights that reach "
-                       "it, found on the CPU "
-                       "in double precision.",
+                       "it, found on the CPU in double precision.",
                        p.proving ? "it is being done" : ""))
     p.wishes.prove = true;
   if (p.proving) ImGui::ProgressBar(p.progress);

@@ -68,8 +68,8 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
       .options = take(resolve_options(*chosen.method, with_box_shapes(*chosen.method, chosen.options, has_boxes))),
       .width = renderer_->view().width(),
       .height = renderer_->view().height(),
-      .light_capacity = static_cast<std::uint32_t>(lights_->lights->size() - still_count(request) +
-                                                   lights_->decals.size() + renderer_->probes().probes().size()),
+      .light_capacity =
+          static_cast<std::uint32_t>(listed_count() + lights_->decals.size() + renderer_->probes().probes().size()),
       .path = parse_path(request.path),
       .brdf = parse_brdf(request.brdf),
       .depth = renderer_->depth(),
@@ -128,15 +128,21 @@ Legend Stage::lay_over(const Overlaying& o) {
   const Overlay overlay = o.state.overlay;
   if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
   visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
-  std::vector<Visit> walked = visits_;
-  if (overlay == Overlay::heat) add_still_walks(walked);
+  const bool with_still = still_ && overlay == Overlay::heat;
+  std::vector<Visit> walked;
+  if (with_still) {
+    walked = visits_;
+    add_still_walks(walked);
+  }
   const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
   const Overlaid made = is_of_shadows(overlay) ? shadow_overlay(o)
                         : overlay == Overlay::slice
                             ? slice_overlay(o)
                             : make_overlay(overlay, o.state.palette,
                                            {.view = view,
-                                            .visits = o.second && !other.empty() ? other : walked,
+                                            .visits = o.second && !other.empty() ? other
+                                                      : with_still               ? walked
+                                                                                 : visits_,
                                             .depth = depth_,
                                             .other = o.second ? visits_ : other,
                                             .lights = static_cast<std::uint32_t>(lights_->lights->size()),

@@ -68,8 +68,9 @@ class Stage {
   /// Lists of the lights that stand still, if the request asks for such.
   void need_still(const Request& request, const View& view);
   [[nodiscard]] std::size_t still_count(const Request& request) const;
-  /// The lights that the picture's lists have.
+  /// The lights that the picture's lists have, and how many.
   [[nodiscard]] std::span<const shared::Light> listed_lights() const;
+  [[nodiscard]] std::size_t listed_count() const;
   /// Nothing where all lights are the picture's.
   [[nodiscard]] std::optional<StillPixels> still_pixels(std::span<const float> depth);
   /// What pixels walk in lists of still lights, and what these miss; of `depth_`.

@@ -98,8 +98,7 @@ std::optional<ShownShadow> Stage::read_shadow(const ViewState& state) {
   const Shadows* shadows = renderer_->shadows();
   if (shadows == nullptr || !state.light || *state.light >= lights_->lights->size()) return std::nullopt;
   ShownShadow read{.light = *state.light};
-  const std::size_t listed = lights_->lights->size() - (still_ ? still_->lights.size() : 0);
-  const std::uint32_t record = read.light < listed ? read.light : read.light + renderer_->entities().boxes.count();
+  const std::uint32_t record = record_of(read.light, listed_count(), renderer_->entities().boxes.count());
   if (record >= shadows->maps().size()) return read;
   read.map = shadows->maps()[record];
   if (read.map.kind == shared::SHADOW_NONE) return read;

@@ -28,9 +28,6 @@ void Stage::need_still(const Request& request, const View& view) {
     return;
   }
   const Scene& scene = scene_->scene;
-  if (scene.captured)
-    throw Error(fmt::format("--still-lists {}: the capture {} has no triangles, expected off", request.still_lists,
-                            request.scene));
   if (!scene_->bounds) scene_->bounds = bounds(scene);
   const float margin = still_margin(request, *scene_->bounds, {&view, 1}, context_.device().traits);
   const bool painted = !lights_->decals.empty();
@@ -57,9 +54,10 @@ void Stage::need_still(const Request& request, const View& view) {
   made_anew_ = true;
 }
 
+std::size_t Stage::listed_count() const { return lights_->lights->size() - (still_ ? still_->lights.size() : 0); }
+
 std::span<const shared::Light> Stage::listed_lights() const {
-  const std::span<const shared::Light> all = lights_->lights->all();
-  return all.first(all.size() - (still_ ? still_->lights.size() : 0));
+  return std::span(lights_->lights->all()).first(listed_count());
 }
 
 std::optional<StillPixels> Stage::still_pixels(std::span<const float> depth) {
@@ -69,7 +67,7 @@ std::optional<StillPixels> Stage::still_pixels(std::span<const float> depth) {
                  .made = still_->made,
                  .on_gpu = *still_->lists,
                  .lights = still_->lights,
-                 .first = static_cast<std::uint32_t>(listed_lights().size()),
+                 .first = static_cast<std::uint32_t>(listed_count()),
                  .boxes = renderer_->entities().boxes.count(),
                  .occluders = still_->occluders ? &*still_->occluders : nullptr,
                  .points = {}};
@@ -86,7 +84,6 @@ std::optional<StillPixels> Stage::still_pixels(std::span<const float> depth) {
 }
 
 void Stage::add_still_walks(std::vector<Visit>& visits) {
-  if (!still_) return;
   depth_ = renderer_->read_depth();
   const std::optional<StillPixels> at = still_pixels(depth_);
   for (std::size_t i = 0; i < visits.size(); ++i)

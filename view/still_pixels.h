@@ -11,6 +11,11 @@
 
 namespace lamp::app {
 
+/// Where the GPU has a light's record: behind `boxes` others, if it is none of the `listed` first.
+[[nodiscard]] inline std::uint32_t record_of(std::uint32_t light, std::size_t listed, std::uint32_t boxes) {
+  return light < listed ? light : light + boxes;
+}
+
 /// Lists, on the host and on the GPU. Lights have their numbers of the frame.
 struct StillPixels {
   Context& context;
@@ -26,8 +31,6 @@ struct StillPixels {
   [[nodiscard]] bool has(std::size_t pixel) const { return made.tree || points[pixel].triangle != NO_TRIANGLE; }
   /// The list of a pixel that shows a surface, ascending.
   [[nodiscard]] std::vector<std::uint32_t> lights_at(std::size_t pixel) const;
-  /// Where the GPU has a light's record.
-  [[nodiscard]] std::uint32_t record_of(std::uint32_t light) const { return light < first ? light : light + boxes; }
   /// Holds the lists of pixels that show surfaces against the oracle.
   [[nodiscard]] StillFindings check(std::span<const std::size_t> pixels) const;
   /// What they go by.

@@ -118,8 +118,8 @@ void Viewer::finish(Done done) {
   }
   if (done.job.kind == Job::Kind::draw && !error_stays_) error_.clear();
   if (done.job.kind == Job::Kind::picture || done.job.kind == Job::Kind::capture) say_saved(done.job.file);
-  if (done.proof) proof_ = done.proof;
   if (done.proof) {
+    proof_ = done.proof;
     said_.clear();
     const Request& of = done.job.state.request;
     proof_of_ = fmt::format("{}x{}, frame {}", done.job.size.x, done.job.size.y, std::max(of.frame, of.light_frame));

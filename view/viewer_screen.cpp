@@ -201,8 +201,10 @@ std::string Viewer::status() const {
                   stats.rendered.cull_ms, stats.rendered.shade_ms, stats.rendered.frame_ms);
   if (picture_ms_ > 0.0) words += fmt::format("  {:.1f} pictures/s", 1000.0 / picture_ms_);
   if (busy_ && !idle_) words += "  ...";
-  if (!said_.empty()) words += "  " + said_;
-  if (said_.empty() && proof_) words += fmt::format("  {}: {}", proof_of_, words_of(*proof_));
+  if (!said_.empty())
+    words += "  " + said_;
+  else if (proof_)
+    words += fmt::format("  {}: {}", proof_of_, words_of(*proof_));
   return words;
 }
 

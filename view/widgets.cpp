@@ -33,12 +33,7 @@ class Greyed {
 
 void tooltip(const std::string& tip, const std::string& reason) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || (tip.empty() && reason.empty())) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0F);
-  ImGui::TextUnformatted(tip.c_str());
-  if (!reason.empty()) ImGui::TextUnformatted(("It cannot be used now: " + reason).c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  Widgets::tip(reason.empty() ? tip : tip + "\nIt cannot be used now: " + reason);
 }
 
 }  // namespace
@@ -183,6 +178,14 @@ bool Widgets::write(const std::string& label, std::string& value, const std::str
   const bool left = ImGui::IsItemDeactivatedAfterEdit();
   done(label, tip);
   return left;
+}
+
+void Widgets::tip(const std::string& words) {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0F);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 void Widgets::text(std::string_view words) {

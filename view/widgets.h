@@ -78,6 +78,8 @@ class Widgets {
   /// True when the text was changed and the widget left.
   bool write(const std::string& label, std::string& value, const std::string& tip, const char* empty = "");
 
+  /// Text beside the pointer, wrapped.
+  static void tip(const std::string& words);
   /// Text in the panel, wrapped. A title is bright, a note is quiet.
   static void text(std::string_view words);
   static void note(std::string_view words);

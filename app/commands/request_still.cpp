@@ -24,8 +24,6 @@ constexpr std::array<std::string_view, 3> LISTS{OFF, "triangle-lists", "world-tr
 constexpr std::uint64_t LEAST_BYTES = 1U << 20;  // whatever few triangles a scene has
 constexpr std::uint64_t LEAST_TREE_BYTES = 16U << 20;
 
-bool asks(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
-
 /// m: of the farthest point of a scene's box that any view from within it, or these views, may see.
 float farthest(const Box& box, std::span<const View> views) {
   float most = glm::length(box.max - box.min);
@@ -101,13 +99,13 @@ void check_still(const Request& request) {
                     request.still_occlusion));
 }
 
+bool generated_first(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
+
 std::uint32_t still_lights(const Request& request, const Scene& scene, std::size_t generated) {
-  if (!asks(request)) return 0;
+  if (!generated_first(request)) return 0;
   return static_cast<std::uint32_t>(scene.lights.size()) +
          still_count({.count = static_cast<std::uint32_t>(generated), .still = request.still});
 }
-
-bool generated_first(const Request& request) { return asks(request); }
 
 std::vector<shared::Light> packed_lights(const Request& request, const Scene& scene, std::span<const Light> generated) {
   if (!generated_first(request)) return packed_lights(scene, generated);
