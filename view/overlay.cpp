@@ -12,25 +12,15 @@
 
 #include "render/heatmap_legend.h"
 #include "render/shaders/sky_cell.h"
+#include "view/overlay_colors.h"
 
 namespace lamp::app {
 namespace {
 
 using gpu::SKY_CELL;
 
-constexpr float SKY_DIMMED = 0.7F;  // as heat maps over pictures have it
-constexpr float MAP_ALPHA = 0.6F;
-constexpr float SIGNAL_ALPHA = 0.8F;
-constexpr glm::u8vec3 SIGNAL{255, 0, 200};
 constexpr std::array<glm::u8vec3, 5> CIVIDIS{
     {{0, 34, 78}, {65, 77, 107}, {124, 123, 120}, {188, 175, 111}, {254, 232, 56}}};
-
-std::uint32_t rgba(glm::u8vec3 color, float alpha) {
-  const auto a = static_cast<std::uint32_t>(std::lround(255.0F * alpha));
-  return color.r | static_cast<std::uint32_t>(color.g) << 8U | static_cast<std::uint32_t>(color.b) << 16U | a << 24U;
-}
-
-const std::uint32_t SKY = rgba({0, 0, 0}, SKY_DIMMED);
 
 glm::u8vec3 between(std::span<const glm::u8vec3> ramp, double position) {
   const double place = std::clamp(position, 0.0, 1.0) * static_cast<double>(ramp.size() - 1);
@@ -61,7 +51,7 @@ std::uint64_t cells_seen(const Walked& walked) {
 /// Calls `color` for every pixel that has a cell.
 template <class Color>
 std::vector<std::uint32_t> for_pixels(const Walked& walked, const Color& color) {
-  std::vector<std::uint32_t> pixels(walked.visits.size(), SKY);
+  std::vector<std::uint32_t> pixels(walked.visits.size(), sky_dimmed());
   for (std::size_t i = 0; i < pixels.size(); ++i)
     if (walked.visits[i].cell != SKY_CELL) pixels[i] = color(i);
   return pixels;
@@ -117,10 +107,10 @@ Overlaid overflow(const Walked& walked) {
     return walked.overflowed && visit.cell != SKY_CELL && visit.visited >= walked.lights;
   };
   for (const Visit& visit : walked.visits) legend.cells += walks_all(visit) ? 1 : 0;
-  return {.pixels = for_pixels(
-              walked,
-              [&](std::size_t i) { return walks_all(walked.visits[i]) ? rgba(SIGNAL, SIGNAL_ALPHA) : rgba({}, 0.3F); }),
-          .legend = legend};
+  return {
+      .pixels = for_pixels(
+          walked, [&](std::size_t i) { return walks_all(walked.visits[i]) ? rgba(SIGNAL, SIGNAL_ALPHA) : dimmed(); }),
+      .legend = legend};
 }
 
 Overlaid missed(const Walked& walked) {
@@ -129,11 +119,10 @@ Overlaid missed(const Walked& walked) {
     legend.cells += visit.missed != 0 ? 1 : 0;
     legend.max += visit.missed;
   }
-  return {.pixels = for_pixels(walked,
-                               [&](std::size_t i) {
-                                 return walked.visits[i].missed != 0 ? rgba(SIGNAL, SIGNAL_ALPHA) : rgba({}, 0.3F);
-                               }),
-          .legend = legend};
+  return {
+      .pixels = for_pixels(
+          walked, [&](std::size_t i) { return walked.visits[i].missed != 0 ? rgba(SIGNAL, SIGNAL_ALPHA) : dimmed(); }),
+      .legend = legend};
 }
 
 Overlaid difference(const Walked& walked) {
@@ -199,7 +188,7 @@ glm::u8vec3 palette_color(Palette palette, double position) {
 Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_max,
                    const std::function<std::optional<glm::u8vec3>(std::uint32_t)>& special) {
   Legend legend{.low = 1.0};
-  std::vector<std::uint32_t> pixels(counts.size(), SKY);
+  std::vector<std::uint32_t> pixels(counts.size(), sky_dimmed());
   std::uint64_t seen = 0;
   std::uint32_t most = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -83,8 +83,8 @@ struct InspectorFrame {
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale);
 void help_window(const ScreenRect& picture, float scale);
 /// The colours of an overlay in a corner of the picture.
-/// `lift`: pixels above the bottom.
-void legend_window(const Shown& shown, const ScreenRect& picture, float lift);
+/// `lift`: pixels above the bottom. `numbers`: of cells, that are drawn.
+void legend_window(const Shown& shown, const ScreenRect& picture, float lift, std::size_t numbers);
 
 /// Why the request, were it so, is refused whatever the scene; empty: it is not.
 [[nodiscard]] std::string why_refused(const Request& request);

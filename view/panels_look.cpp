@@ -62,7 +62,7 @@ void legend_text(const Legend& legend) {
           fmt::format("lights that a pixel walks: mean {:.1f}, max {:.0f}", legend.mean, legend.max).c_str());
       break;
     case Overlay::cells:
-      ImGui::TextUnformatted(fmt::format("{} cells hold pixels, each has a colour", legend.cells).c_str());
+      ImGui::TextUnformatted(fmt::format("{} cells hold pixels; each has a colour and a number", legend.cells).c_str());
       break;
     case Overlay::depth_range:
       ImGui::TextUnformatted(
@@ -165,7 +165,7 @@ void look_panel(PanelFrame& p) {
     p.widgets.slide("resolution", p.state.resolution, {.min = 0.1, .max = 1.0}, "Of what is drawn, over the screen's.");
 }
 
-void legend_window(const Shown& shown, const ScreenRect& picture, float lift) {
+void legend_window(const Shown& shown, const ScreenRect& picture, float lift, std::size_t numbers) {
   if (shown.first.legend.overlay == Overlay::none) return;
   ImGui::SetNextWindowPos({static_cast<float>(picture.min.x) + 8.0F, static_cast<float>(picture.max.y) - 8.0F - lift},
                           ImGuiCond_Always, {0.0F, 1.0F});
@@ -176,6 +176,9 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift) {
     const Legend& legend = shown.first.legend;
     ImGui::PushTextWrapPos(std::max(100.0F, static_cast<float>(picture.size().x) - 32.0F));
     legend_text(legend);
+    const std::uint64_t cells = shown.first.cells.cells + (shown.second ? shown.second->cells.cells : 0);
+    if (const std::string words = words_of_numbers(cells, numbers); !words.empty())
+      ImGui::TextUnformatted(words.c_str());
     ImGui::PopTextWrapPos();
     const bool scaled = legend.overlay == Overlay::heat ||
                         (legend.overlay == Overlay::slice && legend.refused.empty()) ||

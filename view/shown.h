@@ -11,6 +11,7 @@
 #include "commands/view_state.h"
 #include "gpu/image.h"
 #include "lamplight/view.h"
+#include "view/cell_numbers.h"
 #include "view/frame_lights.h"
 #include "view/inspection.h"
 #include "view/overlay.h"
@@ -25,6 +26,7 @@ struct ShownSide {
   bool by_auto = false;
   Legend legend;
   std::vector<ListLengths> lengths;  ///< where lists were walked
+  CellPlaces cells;                  ///< with Overlay::cells
 };
 
 /// The least and the greatest rank of the lights that reach into a bin, in the order of their depth.

@@ -206,6 +206,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
     if (overlaid || state.list_lengths) {
       set_walked(made.stats, visits_);
       made.lengths = list_lengths(visits_);
+      if (state.overlay == Overlay::cells) made.cells = cell_places(visits_, {width, first, end});
     }
     renderer_->also([&](vulkan::Recorder& recorder) {
       display_->record(recorder, renderer_->targets(),

@@ -341,6 +341,7 @@ nlohmann::json Viewer::report() const {
     json["legend"] = {{"mean", shown_.first.legend.mean},
                       {"max", shown_.first.legend.max},
                       {"cells", shown_.first.legend.cells},
+                      {"numbers", numbers_},
                       {"refused", shown_.first.legend.refused}};
   if (shown_.proxies)
     json["proxies_shown"] = {{"drawn", shown_.proxies->drawn},

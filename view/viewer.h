@@ -134,9 +134,10 @@ class Viewer {
   Wishes wishes_;
   SaveFiles files_;
   std::vector<Bookmark> bookmarks_;
-  std::string bookmark_;  ///< the name that is chosen or typed
-  ScreenRect area_;       ///< of the screen, that panels leave free
-  ScreenRect picture_;    ///< within that
+  std::string bookmark_;     ///< the name that is chosen or typed
+  std::size_t numbers_ = 0;  ///< of cells, that are drawn
+  ScreenRect area_;          ///< of the screen, that panels leave free
+  ScreenRect picture_;       ///< within that
   glm::uvec2 asked_{1};
   std::optional<glm::vec2> last_mouse_, pressed_at_;
   bool dragging_ = false;

@@ -148,6 +148,7 @@ void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
 }
 
 void Viewer::draw_panels(glm::uvec2 screen, float progress) {
+  numbers_ = shown_.number != 0 ? draw_cell_numbers(shown_, picture_) : 0;
   if (shown_.number != 0) draw_light_marks(state_.light_marks, shown_, picture_);
   if (shown_.number != 0) draw_light_shapes(shown_, picture_);
   if (shown_.number != 0) draw_world_cells(shown_, picture_);
@@ -156,7 +157,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);
   if (state_.panels && shown_.number != 0 && !state_.picked && !state_.against) draw_hint(picture_, scale_);
-  legend_window(shown_, picture_, shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_));
+  legend_window(shown_, picture_, shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_), numbers_);
   if (shown_.number != 0) draw_depth_bins(shown_, picture_, scale_);
   if (state_.help) help_window(area_, scale_);
   Widgets widgets(places_);
