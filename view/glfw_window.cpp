@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <imgui.h>
 #include <unistd.h>
 #include <glm/glm.hpp>
 
@@ -190,6 +191,15 @@ VkSurfaceKHR GlfwWindow::make_surface(VkInstance instance) const {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   check(glfwCreateWindowSurface(instance, window_, nullptr, &surface), "making the window's surface");
   return surface;
+}
+
+void GlfwWindow::share_clipboard() {
+  ImGuiIO& io = ImGui::GetIO();
+  io.ClipboardUserData = window_;
+  io.SetClipboardTextFn = [](void* window, const char* text) {
+    glfwSetClipboardString(static_cast<GLFWwindow*>(window), text);
+  };
+  io.GetClipboardTextFn = [](void* window) { return glfwGetClipboardString(static_cast<GLFWwindow*>(window)); };
 }
 
 void GlfwWindow::press(std::size_t button, bool down) {

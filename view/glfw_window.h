@@ -48,6 +48,8 @@ class GlfwWindow {
   [[nodiscard]] Input& input() { return input_; }
   /// A button that goes down and up between two frames is still seen once.
   void press(std::size_t button, bool down);
+  /// The interface's clipboard becomes the desktop's.
+  void share_clipboard();
 
  private:
   void set_callbacks();

@@ -194,6 +194,12 @@ bool interface_has_focus() { return ImGui::GetIO().NavVisible; }
 bool interface_takes_text() { return ImGui::GetIO().WantTextInput; }
 bool interface_is_used() { return ImGui::IsAnyItemActive(); }
 
+std::string clipboard() {
+  const char* const text = ImGui::GetClipboardText();
+  return text == nullptr ? "" : text;
+}
+void set_clipboard(const std::string& text) { ImGui::SetClipboardText(text.c_str()); }
+
 void Gui::end() { ImGui::Render(); }
 
 void Gui::record(VkCommandBuffer commands, const Canvas& canvas, const GpuImage* picture, const ScreenRect& where) {

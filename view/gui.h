@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "gpu/context.h"
 #include "gpu/image.h"
@@ -67,5 +68,9 @@ class Gui {
 [[nodiscard]] bool interface_has_focus();
 [[nodiscard]] bool interface_takes_text();
 [[nodiscard]] bool interface_is_used();
+
+/// The clipboard: the desktop's in a window.
+[[nodiscard]] std::string clipboard();
+void set_clipboard(const std::string& text);
 
 }  // namespace lamp::app

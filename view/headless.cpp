@@ -59,7 +59,10 @@ void run_headless(Context& context, const HeadlessInfo& info, const std::functio
   const ShaderLibrary shaders(request.shader_dir);
   {
     Stage stage(context, shaders, request.calibration);
-    Viewer viewer({.state = info.state, .traits = context.device().traits, .bookmarks = info.bookmarks});
+    Viewer viewer({.state = info.state,
+                   .traits = context.device().traits,
+                   .target_ms = info.target_ms,
+                   .bookmarks = info.bookmarks});
     HeadlessScreen screen(context, stage, viewer, info.screen);
     Player player{.viewer = viewer,
                   .input = screen.input(),

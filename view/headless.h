@@ -14,6 +14,7 @@ struct HeadlessInfo {
   ViewState state;
   glm::uvec2 screen{1280, 720};
   std::vector<Bookmark> bookmarks;
+  double target_ms = 0.0;  ///< as ViewerInfo's
 };
 
 /// Draws a first frame, then lets `use` play. Throws Error; with Exit::check_failed where validation says something.

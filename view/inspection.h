@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
@@ -99,9 +100,13 @@ struct Inspected {
 /// What a method, with its own options, lists for a pixel.
 struct OtherList {
   std::string method;
-  std::size_t lights = 0;
-  std::size_t reaching = 0;  ///< of them, those that reach the pixel
-  std::string refused;       ///< why this device cannot run it; or empty
+  std::vector<std::uint32_t> lights;   ///< ascending
+  std::size_t reaching = 0;            ///< of them, those that reach the pixel
+  std::vector<std::uint32_t> beyond;   ///< of them, those that the picture's method does not list
+  std::vector<std::uint32_t> without;  ///< that the picture's method lists, and this one does not
+  std::string refused;                 ///< why this device cannot run it; or empty
+
+  [[nodiscard]] bool has(std::uint32_t light) const { return std::ranges::binary_search(lights, light); }
 };
 
 /// The proof of all pixels, in bands; `progress` is told the share that is done.

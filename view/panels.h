@@ -35,7 +35,9 @@ struct Wishes {
   bool save_state = false;
   bool save_numbers = false;
   bool prove = false;
-  bool ask = false;  ///< the other methods
+  bool ask = false;         ///< the other methods
+  bool copy_light = false;  ///< into the clipboard, as glTF
+  bool paste_light = false;
   bool undo = false;
   bool redo = false;
   bool step = false;  ///< one frame of time
@@ -70,17 +72,36 @@ void times_panel(PanelFrame& p);
 void save_panel(PanelFrame& p);
 void bookmark_panel(PanelFrame& p);
 void proof_panel(PanelFrame& p);
+/// Where the list of lights was, so that it moves only to show a light that was picked elsewhere.
+struct ListScroll {
+  std::optional<std::uint32_t> light;  ///< picked
+  std::optional<std::size_t> row;      ///< its, if it is listed
+  bool pending = false;                ///< it was picked elsewhere, and not shown yet
+  bool in_sight = false;
+  glm::uvec2 pixel{0};
+  std::size_t rows = 0;  ///< the most of the pixel's lists: they stay as high
+};
 /// What the inspector's window sees.
 struct InspectorFrame {
   const Shown& shown;
   Widgets& widgets;
   ViewState& state;
   Wishes& wishes;
+  ListScroll& scroll;
   const std::vector<OtherList>& others;  ///< of the pixel, if they were asked
+  std::string outdated;                  ///< since when they say something else than the picture; or empty
   bool asking = false;
 };
 /// The pixel that was picked.
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale);
+/// Of its cell, with what tells whether another method lists them too.
+void list_of_lights(InspectorFrame& p);
+/// What the other methods list, and how that differs.
+void lists_of_others(InspectorFrame& p);
+/// The light that was picked: what is changed becomes an edit of the state.
+void light_editor(InspectorFrame& p);
+/// The light that was picked, as it was changed; nothing where there is none.
+[[nodiscard]] std::optional<Light> picked_light(const Shown& shown, const ViewState& state);
 void help_window(const ScreenRect& picture, float scale);
 /// The colours of an overlay in a corner of the picture.
 /// `lift`: pixels above the bottom. `numbers`: of cells, that are drawn.

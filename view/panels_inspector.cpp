@@ -14,92 +14,8 @@
 namespace lamp::app {
 namespace {
 
-void draw_rows(const Inspection& found, ViewState& state, Widgets& widgets) {
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(found.lights.size()));
-  while (clipper.Step()) {
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const ListedLight& light = found.lights[static_cast<std::size_t>(i)];
-      const auto cell = [](const std::string& text) {
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(text.c_str());
-      };
-      ImGui::TableNextColumn();
-      if (widgets.pick(fmt::format("{}", light.light), state.light == light.light)) state.light = light.light;
-      cell(light.spot ? "spot" : "point");
-      cell(fmt::format("{:.2f}", light.distance_m));
-      cell(fmt::format("{:.2f}", light.range_m));
-      cell(fmt::format("{:.1f}%", 100.0 * light.share));
-      cell(why_listed(light, found.tests_of(light)));
-      if (ImGui::IsItemHovered()) Widgets::tip(explained(light, found.tests_of(light)));
-    }
-  }
-}
-
-/// In a part of its own that scrolls: a table that scrolls by itself ends the program (an assertion of ImGui 1.86)
-/// where nothing of it is in sight.
-void draw_lights(const Inspection& found, ViewState& state, Widgets& widgets) {
-  constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-  const float height = ImGui::GetTextLineHeightWithSpacing() *
-                       static_cast<float>(std::clamp<std::size_t>(found.lights.size() + 2, 3, 16));
-  if (ImGui::BeginChild("lights", {0.0F, height}) && ImGui::BeginTable("lights of the cell", 6, FLAGS)) {
-    for (const char* title : {"light", "type", "dist.", "range", "share"}) ImGui::TableSetupColumn(title);
-    ImGui::TableSetupColumn("why it is listed", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableHeadersRow();
-    draw_rows(found, state, widgets);
-    ImGui::EndTable();
-  }
-  ImGui::EndChild();
-}
-
-/// The light that was picked: what is changed becomes an edit of the state.
-void edit_light(const Shown& shown, ViewState& state, Widgets& widgets) {
-  if (!state.light || *state.light >= shown.lights->size()) return;
-  const std::uint32_t number = *state.light;
-  const auto found = std::ranges::find(state.edits, number, &LightEdit::light);
-  Light light = found != state.edits.end() ? found->value : unpacked(shown.lights->all()[number]);
-  const float step = 0.01F * std::clamp(light.range, 0.1F, 100.0F);
-  Widgets::text(fmt::format("light {}, a {} light", number, light.type == LightType::spot ? "spot" : "point"));
-  bool changed = widgets.move("position", light.position, step, "Where it is, metres. Drag a number.");
-  if (std::isfinite(light.range))
-    changed = widgets.slide("its range", light.range, {.min = 0.01, .max = 1000.0, .logarithmic = true},
-                            "How far it reaches, metres.") ||
-              changed;
-  changed = widgets.color("color", light.color, "Its colour, linear.") || changed;
-  changed = widgets.slide("intensity", light.intensity, {.min = 0.001, .max = 1e5, .logarithmic = true},
-                          "How bright it is, candela.") ||
-            changed;
-  if (light.type == LightType::spot) {
-    changed = widgets.move("direction", light.direction, 0.01F, "Where it looks.") || changed;
-    if (widgets.slide("outer angle", light.outer_angle, {.min = 0.01, .max = 1.57},
-                      "Half of its cone's angle, radians.")) {
-      light.inner_angle = std::min(light.inner_angle, light.outer_angle);
-      changed = true;
-    }
-  }
-  if (light.direction == glm::vec3(0.0F)) return;
-  if (changed && found != state.edits.end()) found->value = light;
-  if (changed && found == state.edits.end()) state.edits.push_back({.light = number, .value = light});
-}
-
-void draw_others(std::span<const OtherList> others) {
-  const float height = ImGui::GetTextLineHeightWithSpacing() * 8.0F;
-  if (ImGui::BeginChild("others", {0.0F, height}, /* border= */ true) && ImGui::BeginTable("what others list", 2)) {
-    for (const OtherList& list : others) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(list.method.c_str());
-      ImGui::TableNextColumn();
-      const std::string words = list.refused.empty()
-                                    ? fmt::format("{} lights, {} reach the pixel", list.lights, list.reaching)
-                                    : list.refused;
-      ImGui::TextUnformatted(words.c_str());
-    }
-    ImGui::EndTable();
-  }
-  ImGui::EndChild();
-}
-
-void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
+void draw_inspection(InspectorFrame& p) {
+  const Shown& shown = p.shown;
   const Inspection& found = *shown.inspection;
   const Stats& stats = shown.first.stats;
   if (found.sky) {
@@ -117,12 +33,12 @@ void draw_inspection(const Shown& shown, ViewState& state, Widgets& widgets) {
   Widgets::row("the cell", words_of(found.proof));
   world_of_point(shown);
   probes_of_pixel(shown);
-  draw_lights(found, state, widgets);
+  list_of_lights(p);
   Widgets::note(
       "Click a row: its light is shown in the picture, and can be changed. Point at a reason: it is explained. Tests "
       "see the cell's pixels; the method's own cell may be larger.");
-  edit_light(shown, state, widgets);
-  shadow_of_light(shown, state, widgets);
+  light_editor(p);
+  shadow_of_light(shown, p.state, p.widgets);
 }
 
 }  // namespace
@@ -139,17 +55,18 @@ void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   ImGui::SetNextWindowBgAlpha(0.9F);
   constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("Inspector", nullptr, FLAGS)) {
-    draw_inspection(p.shown, p.state, p.widgets);
+    draw_inspection(p);
     if (p.widgets.button("look away", "Forgets the pixel. Escape does the same.")) p.state.picked.reset();
     ImGui::SameLine();
     p.widgets.check("hold time", p.state.paused,
-                    "Lights stand still, and so does this list. The space bar does the same.");
+                    "Lights stand still, and so do this list and the picture's size, until the camera moves. The space "
+                    "bar does the same.");
     if (!p.shown.inspection->sky) {
       ImGui::SameLine();
       if (p.widgets.button("ask other methods", "What every method of the table would list for this pixel.",
                            p.asking ? "they are being asked" : ""))
         p.wishes.ask = true;
-      if (!p.others.empty()) draw_others(p.others);
+      lists_of_others(p);
     }
   }
   ImGui::End();
@@ -157,15 +74,18 @@ void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
 
 void proof_panel(PanelFrame& p) {
   if (!p.widgets.header("Proof", true)) return;
-  if (!p.shown.inspection)
-    Widgets::note("Click a pixel of the picture to see its cell, and why each light is listed there.");
   if (p.widgets.button("prove the picture",
                        "Holds the list of every pixel that shows a surface against the oracle: all lights that reach "
                        "it, found on the CPU in double precision.",
                        p.proving ? "it is being done" : ""))
     p.wishes.prove = true;
-  if (p.proving) ImGui::ProgressBar(p.progress);
-  if (p.proof) Widgets::text(words_of(*p.proof));
+  constexpr int LINES = 3;  // whichever it says, so that what is below stays where it is
+  Widgets::steady(LINES, [&] {
+    if (p.proving) return ImGui::ProgressBar(p.progress);
+    if (p.proof) return Widgets::text(words_of(*p.proof));
+    Widgets::note(p.shown.inspection ? "The cell of the picked pixel is proved with every picture, in the inspector."
+                                     : "Click a pixel of the picture to see its cell, and why each light is listed.");
+  });
 }
 
 }  // namespace lamp::app

@@ -127,7 +127,10 @@ void method_panel(PanelFrame& p) {
   p.widgets.choose("brdf", p.state.request.brdf, brdf_names(), "How surfaces reflect.");
   p.widgets.check("make room", p.state.request.grow, "Enlarges lists until every light fits.");
   for (const std::string& note : stats.notes) Widgets::note(note);
-  if (stats.rendered.counters.overflowed_cells != 0) Widgets::text(overflow_words(stats));
+  Widgets::steady(3, [&] {
+    if (stats.rendered.counters.overflowed_cells != 0) return Widgets::text(overflow_words(stats));
+    Widgets::note("Every list fits.");
+  });
 }
 
 void shadow_panel(PanelFrame& p) {
@@ -140,7 +143,10 @@ void shadow_panel(PanelFrame& p) {
                      "What draws shadow maps: the GPU's rasterizer or compute shaders.");
     p.widgets.write("shadow lights", r.shadow_lights, "How many of the first lights cast shadows, or all.");
     p.widgets.write("shadow budget", r.shadow_budget, "Texels of shadow maps that are drawn in a frame, or all.");
-    if (p.shown.first.stats.shadows) Widgets::note(shadow_words(*p.shown.first.stats.shadows));
+    Widgets::steady(3, [&] {
+      const std::optional<ShadowStats>& drawn = p.shown.first.stats.shadows;
+      Widgets::note(drawn ? shadow_words(*drawn) : "");
+    });
   }
   p.widgets.choose("depth", r.depth, depth_names(), "Which way device depth runs.",
                    [&](std::string_view) { return p.shown.captured ? "a capture has its own" : std::string(); });
@@ -160,11 +166,11 @@ void against_panel(PanelFrame& p) {
   if (!p.state.against) return;
   p.widgets.slide("divider", p.state.against->divider, {}, "Where the line is.");
   choose_method(p, "B: ", p.state.against->method, p.state.against->options);
-  if (!p.shown.second) return;
-  const Rendered& a = p.shown.first.stats.rendered;
-  const Rendered& b = p.shown.second->stats.rendered;
-  Widgets::row("A", fmt::format("cull {:.2f} ms, shade {:.2f} ms", a.cull_ms, a.shade_ms));
-  Widgets::row("B", fmt::format("cull {:.2f} ms, shade {:.2f} ms", b.cull_ms, b.shade_ms));
+  const auto words = [](const Rendered& side) {
+    return fmt::format("cull {:.2f} ms, shade {:.2f} ms", side.cull_ms, side.shade_ms);
+  };
+  Widgets::row("A", words(p.shown.first.stats.rendered));
+  Widgets::row("B", p.shown.second ? words(p.shown.second->stats.rendered) : "not drawn yet");
 }
 
 }  // namespace lamp::app

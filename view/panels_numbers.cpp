@@ -65,7 +65,8 @@ void save_flight(PanelFrame& p) {
   ImGui::SameLine();
   if (p.widgets.button("stop", "Saves no more of them.", saving ? "" : "nothing is being saved"))
     p.wishes.stop_saving = true;
-  if (saving) Widgets::note(fmt::format("{} pictures to go", p.waiting));
+  Widgets::beside();
+  Widgets::note(saving ? fmt::format("{} pictures to go", p.waiting) : "");
 }
 
 }  // namespace
@@ -76,17 +77,17 @@ void times_panel(PanelFrame& p) {
   Widgets::note("Median of the last pictures (5th .. 95th percentile), milliseconds on the device.");
   draw_times(p.times);
   Widgets::row("cells", fmt::format("{}", stats.cells));
-  if (stats.findings)
-    Widgets::row("lists", fmt::format("{:.1f} lights on average, {} at most", stats.findings->list_mean(),
-                                      stats.findings->list_max));
+  Widgets::row("lists", stats.findings ? fmt::format("{:.1f} lights on average, {} at most",
+                                                     stats.findings->list_mean(), stats.findings->list_max)
+                                       : "not counted: pick a pixel, or an overlay");
   p.widgets.check("list lengths", p.state.list_lengths, "Counts with every picture how long the cells' lists are.");
   if (p.state.list_lengths && !p.shown.first.lengths.empty()) draw_lengths(p.shown.first.lengths);
   Widgets::row("overflowed", fmt::format("{} cells", stats.rendered.counters.overflowed_cells));
-  if (stats.rendered.counters.overflowed_cells != 0) {
-    const std::string reason = p.state.request.grow ? "lists are as long as options and device allow" : "";
-    if (p.widgets.button("make room for them", "Enlarges lists until every light fits.", reason))
-      p.state.request.grow = true;
-  }
+  const std::string reason = stats.rendered.counters.overflowed_cells == 0 ? "every list fits"
+                             : p.state.request.grow ? "lists are as long as options and device allow"
+                                                    : "";
+  if (p.widgets.button("make room for them", "Enlarges lists until every light fits.", reason))
+    p.state.request.grow = true;
   for (const auto& [name, bytes] : stats.bytes)
     Widgets::row(name, fmt::format("{:.3f} MB", static_cast<double>(bytes) * 1e-6));
 }

@@ -68,7 +68,7 @@ void choose_still(PanelFrame& p) {
                   "looks around. 0: walls hide nothing, and lights shine through them.");
   p.widgets.slide("still bytes", r.still_bytes, {.min = 0, .max = 1e4, .logarithmic = true},
                   "Bytes for each triangle that the lists may take: less room makes lists longer. 0: without limit.");
-  if (p.shown.first.stats.still) Widgets::note(still_words(*p.shown.first.stats.still));
+  Widgets::steady(3, [&] { Widgets::note(p.shown.first.stats.still ? still_words(*p.shown.first.stats.still) : ""); });
 }
 
 }  // namespace
@@ -152,9 +152,11 @@ void lights_panel(PanelFrame& p) {
       "Draws where lights are and how far they reach: none, those of the cell that you look into, or all.");
   p.widgets.check("decal boxes", p.state.decal_boxes, "Draws the outlines of all decals.",
                   p.shown.decals.empty() ? "there are no decals" : "");
-  if (!p.state.edits.empty() && p.widgets.button(fmt::format("undo the changes of {} lights", p.state.edits.size()),
-                                                 "Every light becomes again what the options make it."))
+  if (p.widgets.button("undo changes", "Every light becomes again what the options make it.",
+                       p.state.edits.empty() ? "no light was changed" : ""))
     p.state.edits.clear();
+  Widgets::beside();
+  Widgets::note(p.state.edits.empty() ? "" : fmt::format("of {} lights", p.state.edits.size()));
 }
 
 }  // namespace lamp::app

@@ -28,7 +28,8 @@ void world_panel(PanelFrame& p) {
       "proxies", p.state.proxies, light_mark_names(),
       "Draws the meshes that a method rasterises in place of lights: none, those of the cell that you "
       "look into, or all.");
-  if (p.shown.proxies) Widgets::note(words_of(*p.shown.proxies));
+  if (p.state.proxies != LightMarks::none)
+    Widgets::steady(3, [&] { Widgets::note(p.shown.proxies ? words_of(*p.shown.proxies) : ""); });
   p.widgets.slide("probes", r.probes, {.min = 0, .max = 1024, .logarithmic = true},
                   "Reflection probes: the scene's own first, then generated ones.",
                   p.shown.captured  ? OF_A_CAPTURE

@@ -178,6 +178,11 @@ void play_type(Player& player, const ScriptLine& line) {
   frames(player, 2);
 }
 
+void play_clipboard(Player& player, const ScriptLine& line) {
+  set_clipboard(text_of(line));
+  player.frame();
+}
+
 void play_drop(Player& player, const ScriptLine& line) {
   player.input.dropped.push_back(text_of(line));
   player.frame();
@@ -244,7 +249,7 @@ void play_save_screen(Player& player, const ScriptLine& line) {
   write_output(text_of(line), [&](const std::filesystem::path& file) { write_png(file, screen); });
 }
 
-constexpr std::array<std::pair<std::string_view, Play>, 17> LINES{{{"set", play_set},
+constexpr std::array<std::pair<std::string_view, Play>, 18> LINES{{{"set", play_set},
                                                                    {"wait", play_wait},
                                                                    {"click", play_click},
                                                                    {"click_picture", play_click_picture},
@@ -254,6 +259,7 @@ constexpr std::array<std::pair<std::string_view, Play>, 17> LINES{{{"set", play_
                                                                    {"key", play_key},
                                                                    {"hold", play_hold},
                                                                    {"type", play_type},
+                                                                   {"clipboard", play_clipboard},
                                                                    {"drop", play_drop},
                                                                    {"resize", play_resize},
                                                                    {"minimise", play_minimise},

@@ -25,6 +25,7 @@ namespace lamp::app {
 ///   {"scroll": [x, y]}               steps of the wheel
 ///   {"key": "ctrl+z"}                pressed and released; {"hold": "w", "frames": 5}
 ///   {"type": "text"}
+///   {"clipboard": "text"}            puts it there
 ///   {"drop": "FILE"}
 ///   {"resize": [w, h]}               the screen
 ///   {"minimise": 2}                  for frames

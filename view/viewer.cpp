@@ -29,7 +29,28 @@ std::string drawing_key(ViewState state) {
   state.light_marks = LightMarks::none;
   state.decal_boxes = false;
   state.probe_boxes = false;
+  state.other.clear();
   return to_json(state).dump();
+}
+
+std::string members(const ViewState& state, std::initializer_list<const char*> keys) {
+  const nlohmann::json all = to_json(state);
+  nlohmann::json some;
+  for (const char* key : keys)
+    if (all.contains(key)) some[key] = all[key];
+  return some.dump();
+}
+
+/// From where the eye sees what: while it is the same, a pixel shows the same place.
+std::string place_of(const ViewState& state) {
+  return state.request.size +
+         members(state, {"scene", "camera", "free_camera", "frame", "projection", "resolution", "moving"});
+}
+
+/// What every method's lists depend on besides that.
+std::string lights_of(const ViewState& state) {
+  return members(state, {"lights", "spots", "range", "decals", "seed", "still", "still_lists", "still_occlusion",
+                         "still_bytes", "probes", "light_frame", "edits", "depth", "depth_samples"});
 }
 
 /// What undo goes back over: a state without what moves by itself.
@@ -38,27 +59,6 @@ std::string change_key(ViewState state) {
   if (state.request.frame >= 0) state.request.frame = 0;
   state.help = false;
   return to_json(state).dump();
-}
-
-nlohmann::json report_of(const DepthBins& bins, const std::optional<Inspection>& picked) {
-  std::uint32_t longest = 0;
-  for (const BinRanks& ranks : bins.bins) longest = std::max(longest, ranks.length());
-  nlohmann::json json{{"count", bins.bins.size()}, {"longest", longest}, {"lights", bins.lights}};
-  const auto bin = picked ? bins.bin_at(picked->pixel) : std::nullopt;
-  if (bin) json["picked"] = {{"bin", *bin}, {"length", bins.bins[*bin].length()}};
-  return json;
-}
-
-nlohmann::json report_of(const ShownWorld& world) {
-  nlohmann::json json{{"refused", world.refused},
-                      {"method", world.method},
-                      {"cells", world.cells.size()},
-                      {"longest", world.longest},
-                      {"points", nlohmann::json::array()}};
-  for (const PointList& point : world.points)
-    json["points"].push_back(
-        {{"what", point.what}, {"walked", point.walked}, {"reaching", point.reaching}, {"missed", point.missed}});
-  return json;
 }
 
 glm::uvec2 part_of(glm::uvec2 size, double part) {
@@ -84,6 +84,17 @@ glm::uvec2 Viewer::paced_size() const {
   return paced_ ? part_of(asked_, pace_.scale()) : asked_;
 }
 
+bool Viewer::holds_size() const {
+  const bool stands = state_.paused || state_.speed == 0.0F;
+  return state_.picked && stands && shown_.number != 0 && !shown_.captured && place_of(state_) == drawn_place_;
+}
+
+glm::uvec2 Viewer::next_size() const {
+  if (holds_size()) return {shown_.view.width(), shown_.view.height()};
+  // What rests is drawn once more, as large as a second allows.
+  return rests_s_ > REST_S ? part_of(asked_, pace_.rest_scale()) : paced_size();
+}
+
 std::optional<Job> Viewer::next_job() {
   if (busy_ || lost_) return std::nullopt;
   if (!queued_.empty()) {
@@ -92,15 +103,15 @@ std::optional<Job> Viewer::next_job() {
     busy_ = true;
     return job;
   }
-  // What rests is drawn once more, as large as a second allows.
   std::string content = drawing_key(state_);
   if (content != drawn_content_) rests_s_ = 0.0;
-  const glm::uvec2 size = rests_s_ > REST_S ? part_of(asked_, pace_.rest_scale()) : paced_size();
+  const glm::uvec2 size = next_size();
   std::string key = fmt::format("{}x{} {}", size.x, size.y, content);
   idle_ = key == drawn_key_;
   if (idle_) return std::nullopt;
   drawn_content_ = std::move(content);
   drawn_key_ = std::move(key);
+  drawn_place_ = place_of(state_);
   busy_ = true;
   return Job{.kind = Job::Kind::draw, .state = state_, .size = size, .file = {}};
 }
@@ -124,7 +135,11 @@ void Viewer::finish(Done done) {
     const Request& of = done.job.state.request;
     proof_of_ = fmt::format("{}x{}, frame {}", done.job.size.x, done.job.size.y, std::max(of.frame, of.light_frame));
   }
-  if (done.others) others_ = std::move(*done.others);
+  if (done.others) {
+    others_ = std::move(*done.others);
+    asked_state_ = done.job.state;
+    asked_size_ = done.job.size;
+  }
   if (!done.shown) return;
   const bool rested = done.job.size != glm::uvec2(paced_size());
   if (!done.shown->made_anew && !rested) {
@@ -175,6 +190,8 @@ void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float p
   if (paced_ && state_.resolution == 0.0F && !busy_) rests_s_ += seconds;
   try_state(before);
   note_change();
+  if (!others_.empty() && (place_of(state_) != place_of(asked_state_) || state_.picked != asked_state_.picked))
+    others_.clear();
   draw_status(screen);
 }
 
@@ -195,7 +212,7 @@ void Viewer::note_change() {
   if (undone_.size() > MOST_UNDONE) undone_.erase(undone_.begin());
   redone_.clear();
   settled_ = state_;
-  forget_findings();
+  proof_.reset();
 }
 
 void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
@@ -204,7 +221,7 @@ void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
   state_ = std::move(from.back());
   from.pop_back();
   settled_ = state_;
-  forget_findings();
+  proof_.reset();
 }
 
 void Viewer::pass_time(float seconds) {
@@ -231,6 +248,8 @@ void Viewer::take_wishes() {
   if (wishes.redo) undo(redone_, undone_);
   if (wishes.step) apply_keys({.pressed = {"period"}}, state_, shown_, wishes_, false);
   if (wishes.save_numbers) save_numbers(files_.numbers);
+  if (wishes.copy_light) copy_light();
+  if (wishes.paste_light) paste_light();
   if (wishes.prove && !proving_ && shown_.number != 0) {
     proving_ = true;
     proof_.reset();
@@ -247,9 +266,15 @@ void Viewer::queue(Job::Kind kind) {
   queued_.push_back({.kind = kind, .state = state_, .size = size, .file = {}});
 }
 
-void Viewer::forget_findings() {
-  proof_.reset();
-  others_.clear();
+std::string Viewer::outdated() const {
+  if (others_.empty()) return "";
+  const auto moment = [](const ViewState& state) { return std::max(0, state.request.light_frame); };
+  const int then = moment(asked_state_);
+  const int now = moment(shown_.state);
+  if (then != now) return fmt::format("Outdated: of frame {}, the picture is of frame {}. Ask again.", then, now);
+  const bool same = lights_of(asked_state_) == lights_of(shown_.state) &&
+                    asked_size_ == glm::uvec2(shown_.view.width(), shown_.view.height());
+  return same ? "" : "Outdated: lights or the picture's size changed since. Ask again.";
 }
 
 void Viewer::save_picture(const std::string& file) {
@@ -316,72 +341,6 @@ void Viewer::open(const std::string& file) {
   } catch (const Error& error) {
     complain(error.what());
   }
-}
-
-nlohmann::json Viewer::report() const {
-  nlohmann::json json = to_json(state_);
-  json["error"] = error_;
-  json["said"] = said_;
-  json["pictures"] = shown_.number;
-  json["picture_ms"] = picture_ms_;
-  if (!times_.interface_row().ms.empty()) json["interface_ms"] = times_.interface_row().at(0.5);
-  json["bookmarks"] = bookmarks_.size();
-  if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
-  if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
-  if (proof_) json["proof"] = words_of(*proof_);
-  if (shown_.picture_difference) json["picture_difference"] = *shown_.picture_difference;
-  if (shown_.first.legend.overlay == Overlay::difference) json["differing_pixels"] = shown_.first.legend.cells;
-  if (shown_.first.legend.overlay == Overlay::shadow_atlas) json["atlas_side_shown"] = shown_.first.legend.max;
-  if (!shown_.first.lengths.empty()) json["longest_lists"] = shown_.first.lengths.back().high;
-  json["decals_shown"] = shown_.decals.size();
-  if (shown_.first.legend.overlay == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;
-  for (const OtherList& list : others_)
-    json["others"][list.method] = {{"lights", list.lights}, {"reaching", list.reaching}, {"refused", list.refused}};
-  if (shown_.first.legend.overlay != Overlay::none)
-    json["legend"] = {{"mean", shown_.first.legend.mean},
-                      {"max", shown_.first.legend.max},
-                      {"cells", shown_.first.legend.cells},
-                      {"numbers", numbers_},
-                      {"refused", shown_.first.legend.refused}};
-  if (shown_.proxies)
-    json["proxies_shown"] = {{"drawn", shown_.proxies->drawn},
-                             {"cut", shown_.proxies->cut},
-                             {"inside", shown_.proxies->inside},
-                             {"shapes", shown_.proxies->shapes.size()},
-                             {"refused", shown_.proxies->refused}};
-  if (shown_.shadow)
-    json["shadow_of_light"] = {{"squares", shown_.shadow->squares.size()},
-                               {"side", shown_.shadow->map.side},
-                               {"age", shown_.shadow->age},
-                               {"corners", shown_.shadow->shape.corners.size()}};
-  json["probes_shown"] = shown_.probe_volumes.size();
-  if (shown_.world) json["world"] = report_of(*shown_.world);
-  if (shown_.bins) json["bins"] = report_of(*shown_.bins, shown_.inspection);
-  if (!shown_.inspection) return json;
-  const Inspection& found = *shown_.inspection;
-  // A test that drops a light which reaches the cell would lose it.
-  const auto lost = std::ranges::count_if(found.lights, [](const ListedLight& light) {
-    return (light.reaches_cell || light.reach == Reach::inside) && light.passes != gpu::PASSES_ALL;
-  });
-  nlohmann::json own = nlohmann::json::array();
-  for (std::size_t i = 0; i < test_names().size(); ++i)
-    if ((found.own.passes >> i & 1U) != 0) own.push_back(test_names()[i]);
-  const auto larger = std::ranges::count_if(found.lights, [&](const ListedLight& light) {
-    return why_listed(light, found.tests_of(light)).starts_with("larger cell");
-  });
-  json["inspection"] = {{"pixel", {found.pixel.x, found.pixel.y}},
-                        {"sky", found.sky},
-                        {"cell", found.cell},
-                        {"lights", found.lights.size()},
-                        {"lost_by_tests", lost},
-                        {"own_tests", own},
-                        {"of_larger_cells", larger},
-                        {"still_lights", std::ranges::count(found.lights, true, &ListedLight::still)},
-                        {"missed", found.proof.missed},
-                        {"pairs", found.proof.pairs}};
-  for (const ListedProbe& probe : found.probes)
-    json["inspection"]["probes"].push_back({{"slot", probe.slot}, {"weight", probe.weight}, {"share", probe.share}});
-  return json;
 }
 
 }  // namespace lamp::app

@@ -76,6 +76,9 @@ class Viewer {
 
  private:
   [[nodiscard]] glm::uvec2 paced_size() const;
+  /// While a pixel is looked into and time stands, its cell and its list do so too, and so the picture keeps its size.
+  [[nodiscard]] bool holds_size() const;
+  [[nodiscard]] glm::uvec2 next_size() const;
   void lay_out(glm::uvec2 screen);
   void use_mouse(const Input& input, float seconds, bool focus);
   void draw_panels(glm::uvec2 screen, float progress);
@@ -85,8 +88,11 @@ class Viewer {
   void pass_time(float seconds);
   void note_change();
   void queue(Job::Kind kind);
-  /// Forgets what was found out about another state.
-  void forget_findings();
+  /// The lights of the clipboard's text, which must be one, in place of the picked one; and the other way round.
+  void paste_light();
+  void copy_light();
+  /// Why what others list is not of the picture that is shown; or empty.
+  [[nodiscard]] std::string outdated() const;
   /// What is set, in the size that is shown.
   [[nodiscard]] ViewState saved_state() const;
   void add_bookmark();
@@ -115,6 +121,7 @@ class Viewer {
   double clock_ = 0.0;  ///< fractions of a frame of the flight
   Shown shown_;
   std::string drawn_content_, drawn_key_;  ///< of the last drawing that was asked for; with its size
+  std::string drawn_place_;                ///< from where
   std::vector<Job> queued_;                ///< pictures and proofs
   bool busy_ = false;
   bool idle_ = false;
@@ -123,6 +130,9 @@ class Viewer {
   bool lost_ = false;
   std::optional<Proof> proof_;
   std::vector<OtherList> others_;  ///< of the picked pixel
+  ViewState asked_state_;          ///< for which they were asked
+  glm::uvec2 asked_size_{0};
+  ListScroll list_scroll_;
   Times times_;
   double picture_ms_ = 0.0;  ///< of a picture, all in all, smoothed
   double rests_s_ = 0.0;     ///< that nothing has changed

@@ -1,4 +1,4 @@
-// What a viewer saves besides pictures and states: flights, captures, bookmarks.
+// What a viewer gives away and takes besides pictures and states: flights, captures, bookmarks, lights as glTF.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 
 #include "commands/pictures.h"
 #include "commands/render_frames.h"
+#include "scene/gltf_light_text.h"
 #include "view/viewer.h"
 
 namespace lamp::app {
@@ -42,6 +43,30 @@ void Viewer::save_flight(const std::string& file, const std::string& frames) {
 void Viewer::save_capture(const std::string& folder) {
   queued_.push_back({.kind = Job::Kind::capture, .state = state_, .size = asked_, .file = folder});
   idle_ = false;
+}
+
+void Viewer::copy_light() {
+  const std::optional<Light> light = picked_light(shown_, state_);
+  if (!light || !state_.light) return;
+  const std::string name = fmt::format("light {}", *state_.light);
+  try {
+    set_clipboard(gltf_text({&*light, 1}, name));
+    said_ = fmt::format("{} is in the clipboard, as glTF", name);
+  } catch (const Error& error) {
+    complain(error.what());
+  }
+}
+
+void Viewer::paste_light() {
+  if (!state_.light) return;
+  try {
+    const std::vector<Light> lights = lights_of_gltf(clipboard(), "clipboard");
+    if (lights.size() != 1) throw Error(fmt::format("clipboard: has {} lights, expected one", lights.size()));
+    edit_light(state_, *state_.light, lights.front());
+    said_ = fmt::format("light {} is the clipboard's", *state_.light);
+  } catch (const Error& error) {
+    complain(error.what());
+  }
 }
 
 void Viewer::save_bookmarks(const std::string& file) {

@@ -161,8 +161,14 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   if (shown_.number != 0) draw_depth_bins(shown_, picture_, scale_);
   if (state_.help) help_window(area_, scale_);
   Widgets widgets(places_);
-  InspectorFrame inspector{
-      .shown = shown_, .widgets = widgets, .state = state_, .wishes = wishes_, .others = others_, .asking = asking_};
+  InspectorFrame inspector{.shown = shown_,
+                           .widgets = widgets,
+                           .state = state_,
+                           .wishes = wishes_,
+                           .scroll = list_scroll_,
+                           .others = others_,
+                           .outdated = outdated(),
+                           .asking = asking_};
   inspector_window(inspector, area_, scale_);
   if (!state_.panels) return;
   ImGui::SetNextWindowPos({0.0F, 0.0F});

@@ -31,6 +31,23 @@ class Greyed {
   Greyed& operator=(const Greyed&) = delete;
 };
 
+/// Where a tooltip of that size leaves what is pointed at in sight: left or right of its window, or, where there is no
+/// room, a row below it, or above.
+ImVec2 beside_window(const ImVec2& size) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float gap = ImGui::GetStyle().WindowPadding.x;
+  const float left = ImGui::GetWindowPos().x - gap - size.x;
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + gap;
+  const float top = std::clamp(ImGui::GetItemRectMin().y, 0.0F, std::max(0.0F, screen.y - size.y));
+  if (right + size.x <= screen.x) return {right, top};
+  if (left >= 0.0F) return {left, top};
+  const float row = ImGui::GetTextLineHeightWithSpacing();
+  const float below = ImGui::GetItemRectMax().y + row;
+  const float above = ImGui::GetItemRectMin().y - row - size.y;
+  const float x = std::max(0.0F, std::min(ImGui::GetItemRectMin().x, screen.x - size.x));
+  return {x, below + size.y <= screen.y || above < 0.0F ? below : above};
+}
+
 void tooltip(const std::string& tip, const std::string& reason) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || (tip.empty() && reason.empty())) return;
   Widgets::tip(reason.empty() ? tip : tip + "\nIt cannot be used now: " + reason);
@@ -164,11 +181,19 @@ bool Widgets::color(const std::string& label, Vec3& value, const std::string& ti
   return changed;
 }
 
-bool Widgets::pick(const std::string& label, bool picked) {
+bool Widgets::pick(const std::string& label, bool picked, const std::string& words) {
   before(label);
-  const bool clicked = ImGui::Selectable(label.c_str(), picked, ImGuiSelectableFlags_SpanAllColumns);
+  const std::string shown = words.empty() ? label : words + "##" + label;
+  const bool clicked = ImGui::Selectable(shown.c_str(), picked, ImGuiSelectableFlags_SpanAllColumns);
   done(label, "");
   return clicked;
+}
+
+bool Widgets::fold(const std::string& label) {
+  before(label);
+  const bool open = ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
+  done(label, "");
+  return open;
 }
 
 bool Widgets::write(const std::string& label, std::string& value, const std::string& tip, const char* empty) {
@@ -181,11 +206,31 @@ bool Widgets::write(const std::string& label, std::string& value, const std::str
 }
 
 void Widgets::tip(const std::string& words) {
+  const float wrap = ImGui::GetFontSize() * 26.0F;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, wrap);
+  const ImVec2 at = beside_window({text.x + 2.0F * padding.x, text.y + 2.0F * padding.y});
+  ImGui::SetNextWindowPos(at);
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0F);
+  ImGui::PushTextWrapPos(wrap + padding.x);
   ImGui::TextUnformatted(words.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+void Widgets::excerpt(const char* name, std::string words, int lines) {
+  const ImVec2 size(-1.0F, ImGui::GetTextLineHeight() * (static_cast<float>(lines) + 0.5F));
+  ImGui::InputTextMultiline(fmt::format("##{}", name).c_str(), &words, size, ImGuiInputTextFlags_ReadOnly);
+}
+
+void Widgets::beside() { ImGui::SameLine(); }
+
+float Widgets::cursor_y() { return ImGui::GetCursorPosY(); }
+
+void Widgets::fill_to(float top, int lines) {
+  const float spacing = ImGui::GetStyle().ItemSpacing.y;
+  const float missing = top + static_cast<float>(lines) * ImGui::GetTextLineHeight() + spacing - ImGui::GetCursorPosY();
+  if (missing > spacing) ImGui::Dummy({0.0F, missing - spacing});
 }
 
 void Widgets::text(std::string_view words) {

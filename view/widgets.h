@@ -73,13 +73,27 @@ class Widgets {
   /// Three numbers that are dragged, `step` a pixel.
   bool move(const std::string& label, Vec3& value, float step, const std::string& tip);
   bool color(const std::string& label, Vec3& value, const std::string& tip);
-  /// A row of a table, by its first cell. True when it was clicked.
-  bool pick(const std::string& label, bool picked);
+  /// A row of a table, by its first cell. True when it was clicked. `words`: in place of the label, by which scripts
+  /// find it.
+  bool pick(const std::string& label, bool picked, const std::string& words = "");
+  /// A part of a panel that is closed at first. True while it is open.
+  [[nodiscard]] bool fold(const std::string& label);
   /// True when the text was changed and the widget left.
   bool write(const std::string& label, std::string& value, const std::string& tip, const char* empty = "");
 
-  /// Text beside the pointer, wrapped.
+  /// Text beside the window of the widget that was drawn last, wrapped: what the pointer is at can be read on.
   static void tip(const std::string& words);
+  /// Text that can be selected, so many lines of it in sight.
+  static void excerpt(const char* name, std::string words, int lines);
+  /// What comes next stands beside the last widget.
+  static void beside();
+  /// What `draw` draws takes the height of so many lines of text at least.
+  template <class Draw>
+  static void steady(int lines, const Draw& draw) {
+    const float top = cursor_y();
+    draw();
+    fill_to(top, lines);
+  }
   /// Text in the panel, wrapped. A title is bright, a note is quiet.
   static void text(std::string_view words);
   static void note(std::string_view words);
@@ -91,6 +105,8 @@ class Widgets {
   void before(const std::string& label);
   /// With what tells it from one of that label in another section: ImGui takes widgets of one name for one.
   [[nodiscard]] std::string unique(const std::string& label) const { return label + "##" + section_; }
+  [[nodiscard]] static float cursor_y();
+  static void fill_to(float top, int lines);
 
   Places& places_;
   std::string section_;

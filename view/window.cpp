@@ -48,7 +48,9 @@ class ViewWindow {
                  .target_ms = context.software() ? SOFTWARE_PICTURE_MS : DEVICE_PICTURE_MS,
                  .scale = window.scale(),
                  .bookmarks = info.bookmarks}),
-        worker_(stage_, wake_window) {}
+        worker_(stage_, wake_window) {
+    window.share_clipboard();
+  }
 
   ~ViewWindow() { swapchain_.wait(); }
   ViewWindow(const ViewWindow&) = delete;

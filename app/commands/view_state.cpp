@@ -55,6 +55,7 @@ void check_state(const ViewState& state) {
   check_request(state.request, state.request.method);
   check_projection(state.request.projection);
   static_cast<void>(parse_exposure(state.exposure));
+  if (!state.other.empty()) static_cast<void>(parse_method(state.other));
   if (!state.against) return;
   Request other = state.request;
   other.options = state.against->options;
@@ -70,6 +71,14 @@ void apply_edits(const ViewState& state, std::span<shared::Light> lights) {
       throw Error(fmt::format("edits: light {}: {}", edit.light, error->message));
     lights[edit.light] = pack(edit.value);
   }
+}
+
+void edit_light(ViewState& state, std::uint32_t light, const Light& value) {
+  const auto found = std::ranges::find(state.edits, light, &LightEdit::light);
+  if (found != state.edits.end())
+    found->value = value;
+  else
+    state.edits.push_back({.light = light, .value = value});
 }
 
 Light unpacked(const shared::Light& light) {

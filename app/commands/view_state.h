@@ -89,6 +89,7 @@ struct ViewState {
   bool list_lengths = false;                     ///< how long lists are is counted with every picture
   std::optional<glm::uvec2> picked;              ///< pixel that is looked into, of the size asked for
   std::optional<std::uint32_t> light;            ///< that is looked at: its marks stand out
+  std::string other;  ///< method whose answer is held against the pixel's list, once others were asked; or none
   std::optional<Against> against;
   bool panels = true;
   bool help = false;
@@ -111,6 +112,8 @@ void save_state(const std::filesystem::path& file, const ViewState& state);
 
 /// As `make_setup` of the request, with the lights that were changed.
 [[nodiscard]] Setup make_setup(const ViewState& state);
+/// Makes a light of the frame this one.
+void edit_light(ViewState& state, std::uint32_t light, const Light& value);
 /// A light of a frame as a user describes it.
 [[nodiscard]] Light unpacked(const shared::Light& light);
 /// Puts the changed lights into those of a frame. Throws Error for a light that there is not, or that no light can be.

@@ -79,6 +79,7 @@ void for_each_field(Fields&& at, State& s) {
   at.flag("list_lengths", s.list_lengths);
   at.pixel("picked", s.picked);
   at.maybe("light", s.light, MAX_LIGHTS - 1);
+  at.text("other", s.other);
   at.against("against", s.against);
   at.flag("panels", s.panels);
   at.flag("help", s.help);

@@ -73,6 +73,7 @@ ViewState full_state() {
   state.list_lengths = true;
   state.picked = glm::uvec2(7, 9);
   state.light = 3;
+  state.other = "clustered";
   state.against = Against{.method = "clustered", .options = {"tile=64"}, .divider = 0.25F};
   state.panels = false;
   state.help = true;

@@ -1,0 +1,84 @@
+// The light that was picked: its properties, as sliders and as glTF.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_light_text.h"
+#include "view/panels.h"
+
+namespace lamp::app {
+namespace {
+
+/// True where something was changed.
+bool change(Light& light, Widgets& widgets) {
+  const float step = 0.01F * std::clamp(light.range, 0.1F, 100.0F);
+  bool changed = widgets.move("position", light.position, step, "Where it is, metres. Drag a number.");
+  if (std::isfinite(light.range))
+    changed = widgets.slide("its range", light.range, {.min = 0.01, .max = 1000.0, .logarithmic = true},
+                            "How far it reaches, metres.") ||
+              changed;
+  changed = widgets.color("color", light.color, "Its colour, linear.") || changed;
+  changed = widgets.slide("intensity", light.intensity, {.min = 0.001, .max = 1e5, .logarithmic = true},
+                          "How bright it is, candela.") ||
+            changed;
+  if (light.type != LightType::spot) return changed;
+  changed = widgets.move("direction", light.direction, 0.01F, "Where it looks.") || changed;
+  if (widgets.slide("outer angle", light.outer_angle, {.min = 0.01, .max = 1.57},
+                    "Half of its cone's angle, radians.")) {
+    light.inner_angle = std::min(light.inner_angle, light.outer_angle);
+    changed = true;
+  }
+  return changed;
+}
+
+/// Its text, and why there is none.
+struct GltfText {
+  std::string text;
+  std::string refused;
+};
+GltfText gltf_of(const Light& light, std::uint32_t number) {
+  try {
+    return {.text = gltf_text({&light, 1}, fmt::format("light {}", number)), .refused = {}};
+  } catch (const Error& error) {
+    return {.text = {}, .refused = error.what()};
+  }
+}
+
+void draw_gltf(const Light& light, std::uint32_t number, InspectorFrame& p) {
+  constexpr int LINES = 12;
+  const GltfText made = gltf_of(light, number);
+  if (p.widgets.button("copy as glTF",
+                       "Puts it into the clipboard, as a glTF file that holds this light alone: a node, and a light of "
+                       "KHR_lights_punctual.",
+                       made.refused))
+    p.wishes.copy_light = true;
+  Widgets::beside();
+  if (p.widgets.button("paste glTF", "Makes it the light of the glTF text in the clipboard."))
+    p.wishes.paste_light = true;
+  if (p.widgets.fold("the light as glTF"))
+    Widgets::excerpt("gltf", made.refused.empty() ? made.text : made.refused, LINES);
+}
+
+}  // namespace
+
+std::optional<Light> picked_light(const Shown& shown, const ViewState& state) {
+  if (shown.number == 0 || !state.light || *state.light >= shown.lights->size()) return std::nullopt;
+  const auto found = std::ranges::find(state.edits, *state.light, &LightEdit::light);
+  return found != state.edits.end() ? found->value : unpacked(shown.lights->all()[*state.light]);
+}
+
+void light_editor(InspectorFrame& p) {
+  std::optional<Light> light = picked_light(p.shown, p.state);
+  if (!light) return;
+  const std::uint32_t number = p.state.light.value_or(0);
+  Widgets::text(fmt::format("light {}, a {} light", number, light->type == LightType::spot ? "spot" : "point"));
+  const bool changed = change(*light, p.widgets);
+  if (light->type == LightType::spot && light->direction == glm::vec3(0.0F)) return;  // while it is dragged through it
+  if (changed) edit_light(p.state, number, *light);
+  draw_gltf(*light, number, p);
+}
+
+}  // namespace lamp::app
