@@ -159,7 +159,8 @@ void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth
   }
 }
 
-std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel, std::span<const std::uint32_t> probes) {
+/// Lights, and what the mirrored ray has of the reflection.
+void add_listed(const Inspected& of, std::uint32_t pixel, std::span<const std::uint32_t> probes, Inspection& found) {
   const glm::dvec3 position = position_of(of, pixel);
   std::vector<std::uint32_t> ids = lights_at(of.renderer, of.lighting, pixel);
   const std::size_t of_picture = ids.size();
@@ -168,20 +169,19 @@ std::vector<ListedLight> listed(const Inspected& of, std::uint32_t pixel, std::s
   for (const std::uint32_t id : ids) records.push_back(record_of(of, id));
   const PixelTerms terms =
       terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, {.lights = records, .probes = probes});
+  found.mirrored = 1.0F - terms.left_by_mirror;
   double sum = luminance(terms.surroundings);
   for (const glm::vec3& term : terms.lights) sum += luminance(term);
-  std::vector<ListedLight> lights;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const shared::Light& light = of.lights[ids[i]];
-    lights.push_back({.light = ids[i],
-                      .spot = light.type == shared::LIGHT_SPOT,
-                      .distance_m = static_cast<float>(glm::length(glm::dvec3(light.position) - position)),
-                      .range_m = light.range,
-                      .reach = reach(light, position),
-                      .share = sum > 0.0 ? luminance(terms.lights[i]) / sum : 0.0,
-                      .still = i >= of_picture});
+    found.lights.push_back({.light = ids[i],
+                            .spot = light.type == shared::LIGHT_SPOT,
+                            .distance_m = static_cast<float>(glm::length(glm::dvec3(light.position) - position)),
+                            .range_m = light.range,
+                            .reach = reach(light, position),
+                            .share = sum > 0.0 ? luminance(terms.lights[i]) / sum : 0.0,
+                            .still = i >= of_picture});
   }
-  return lights;
 }
 
 /// As shading takes them: smallest first, until their weights sum to 1.
@@ -190,7 +190,8 @@ std::vector<std::uint32_t> walked_probes(const Inspected& of, std::uint32_t pixe
   return probes_at(of.renderer, of.lighting, pixel);
 }
 
-std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel, std::span<const std::uint32_t> found) {
+std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel, std::span<const std::uint32_t> found,
+                                       float mirrored) {
   if (found.empty()) return {};
   const std::span<const gpu::ProbeData> all = of.renderer.probes().probes();
   const std::vector<ProbeWeight> weights =
@@ -204,7 +205,7 @@ std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel,
                       .slot = all[found[i]].slot,
                       .volume = weights[i].volume,
                       .weight = weights[i].weight,
-                      .share = share});
+                      .share = share * (1.0F - mirrored)});
   }
   return probes;
 }
@@ -272,8 +273,8 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.own = own_tests(of.lighting.runner().plan(), of.lighting.info().options);
   if (of.still != nullptr) found.still_own = of.still->tests();
   const std::vector<std::uint32_t> probes = walked_probes(of, static_cast<std::uint32_t>(number));
-  found.lights = listed(of, static_cast<std::uint32_t>(number), probes);
-  found.probes = listed_probes(of, static_cast<std::uint32_t>(number), probes);
+  add_listed(of, static_cast<std::uint32_t>(number), probes, found);
+  found.probes = listed_probes(of, static_cast<std::uint32_t>(number), probes, found.mirrored);
   const Truth truth = truth_of(of, cell);
   found.proof.pixels = cell.pixels.size();
   add_reasons(of, cell, truth, found.lights);

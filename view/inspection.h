@@ -56,7 +56,7 @@ struct ListedProbe {
   std::uint32_t slot = 0;   ///< its number as the probes were made
   float volume = 0.0F;      ///< weight by its volume alone
   float weight = 0.0F;      ///< and by whether its capture sees the surface
-  float share = 0.0F;       ///< of the reflection: what smaller ones leave of the weight
+  float share = 0.0F;       ///< of the reflection: what the mirrored ray and smaller ones leave of the weight
 };
 
 struct Inspection {
@@ -74,6 +74,7 @@ struct Inspection {
   OwnTests own;                     ///< of the method
   OwnTests still_own;               ///< of lists of still lights
   Proof proof;                      ///< of all pixels of the cell
+  float mirrored = 0.0F;            ///< of the reflection, by the mirrored ray
   std::vector<ListedProbe> probes;  ///< smallest first; the surroundings have the rest of the reflection
 
   [[nodiscard]] const OwnTests& tests_of(const ListedLight& light) const { return light.still ? still_own : own; }

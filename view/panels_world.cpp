@@ -32,9 +32,7 @@ void world_panel(PanelFrame& p) {
     Widgets::steady(3, [&] { Widgets::note(p.shown.proxies ? words_of(*p.shown.proxies) : ""); });
   p.widgets.slide("probes", r.probes, {.min = 0, .max = 1024, .logarithmic = true},
                   "Reflection probes: the scene's own first, then generated ones.",
-                  p.shown.captured  ? OF_A_CAPTURE
-                  : r.mirror > 0.0F ? "mirrored light is drawn"
-                                    : "");
+                  p.shown.captured ? OF_A_CAPTURE : "");
   p.widgets.choose("probes show", r.probes_show, probes_show_names(),
                    "What each saw from its place, or a colour each, which shows how they are blended.");
   p.widgets.check("probe boxes", p.state.probe_boxes,

@@ -77,6 +77,7 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
       .captured = scene_->scene.captured.has_value(),
       .decals = !lights_->decals.empty(),
       .probes = renderer_->probes().kind(),
+      .mirror = renderer_->mirror_roughness(),
       .still = still_ ? still_->made.kind() : gpu::STILL_OFF};
   if (const Shadows* shadows = renderer_->shadows()) info.shadows = shadows->settings().filter;
   std::string key = key_of(info, request.grow);

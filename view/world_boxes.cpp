@@ -100,7 +100,9 @@ void world_of_point(const Shown& shown) {
 void probes_of_pixel(const Shown& shown) {
   if (shown.probe_volumes.empty()) return;
   const Inspection& found = *shown.inspection;
-  float rest = 1.0F;
+  float rest = 1.0F - found.mirrored;
+  if (found.mirrored > 0.0F)
+    Widgets::row("mirrored ray", fmt::format("{:.1f}% of the reflection", 100.0 * found.mirrored));
   for (const ListedProbe& probe : found.probes) {
     rest -= probe.share;
     Widgets::row(fmt::format("probe {}", probe.slot),

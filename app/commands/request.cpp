@@ -379,6 +379,7 @@ Lighting Session::lighting(const Method& method, const std::vector<std::string>&
                         .captured = setup_.scene.captured.has_value(),
                         .decals = !setup_.decals.empty(),
                         .probes = renderer_->probes().kind(),
+                        .mirror = renderer_->mirror_roughness(),
                         .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt,
                         .still = still == nullptr ? gpu::STILL_OFF : still->kind()},
                        grow_);

@@ -45,9 +45,6 @@ void check_mirror(const Request& request) {
         fmt::format("--mirror: with --still-lists {} still lights are in no list that a ray's hit can ask, "
                     "expected --still-lists off",
                     request.still_lists));
-  if (request.probes != 0)
-    throw Error(fmt::format(
-        "--mirror: with --probes {} a surface would have mirrored light twice, expected one of them", request.probes));
   if (request.decals != 0 && request.path == "forward")
     throw Error(
         "--mirror: with --decals on path forward no G-buffer holds what decals paint, expected --path deferred");

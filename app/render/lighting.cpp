@@ -45,6 +45,10 @@ std::vector<vulkan::Use> extra_uses(const LightingFrame& frame, VkPipelineStageF
   return uses;
 }
 
+[[maybe_unused]] float mirror_limit(const MirrorPass* mirror) {
+  return mirror == nullptr ? 0.0F : mirror->info().settings.roughness;
+}
+
 /// Draws reach only these rows.
 void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
   if (info.shaded.count == 0) return;
@@ -146,6 +150,8 @@ void Lighting::record_surfaces(vulkan::Recorder& recorder, const LightingFrame& 
 }
 
 void Lighting::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
+  assert((info_.probes == gpu::PROBES_OFF || info_.mirror == mirror_limit(frame.mirror)) &&
+         "make a Lighting for the limit of the frame's mirror");
   if (info_.path == ShadingPath::forward && frame.mirror == nullptr)
     frame.geometry.record_depth(recorder, frame.scene, frame.data, frame.targets);
   else if (!frame.surfaces_drawn || decals_)

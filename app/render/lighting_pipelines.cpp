@@ -58,7 +58,7 @@ vulkan::Pipeline forward_pipeline(const vulkan::Device& device, const ShaderLibr
   pipeline.bindings.push_back({BINDING_DECALS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   pipeline.bindings.push_back({BINDING_STILL, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
-  add_probes(pipeline, info.probes);
+  add_probes(pipeline, info.probes, info.mirror);
   append(pipeline.bindings, vulkan::lookup_bindings(plan.lookup));
   return take(vulkan::Pipeline::graphics(device, pipeline, shaders.spirv("mesh"),
                                          shaders.spirv(variant("forward", plan.lookup.name)), state));
@@ -102,7 +102,7 @@ vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLib
                         {CONSTANT_STILL, info.still}};
   pipeline.bindings.push_back({BINDING_STILL, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_shadows(pipeline, info.shadows);
-  add_probes(pipeline, info.probes);
+  add_probes(pipeline, info.probes, info.mirror);
   append(pipeline.constants, vulkan::lookup_constants(lookup));
   append(pipeline.bindings, vulkan::lookup_bindings(lookup));
   return take(vulkan::Pipeline::compute(device, pipeline, shaders.spirv(variant("deferred", lookup.name))));
@@ -190,7 +190,9 @@ vulkan::Pipeline transparent_pipeline(const vulkan::Device& device, const Shader
   vulkan::GraphicsState state = mesh_state(info.depth.nearer(), {VK_FORMAT_R32G32B32A32_SFLOAT});
   state.depth_write = false;
   state.blend = vulkan::GraphicsState::Blend::over;
-  return forward_pipeline(device, shaders, info, any_depth, state, "transparent");
+  LightingInfo without_rays = info;
+  without_rays.mirror = 0.0F;
+  return forward_pipeline(device, shaders, without_rays, any_depth, state, "transparent");
 }
 
 }  // namespace lamp::app

@@ -59,6 +59,7 @@ struct LightingInfo {
   bool captured = false;                ///< the scene is a captured frame
   bool decals = false;                  ///< the frames have decals
   std::uint32_t probes = 0;             ///< what probes of the frames show (probe_data.h); 0: there are none
+  float mirror = 0.0F;                  ///< where there are probes: MirrorSettings::roughness of the frames
   std::optional<ShadowFilter> shadows;  ///< lights cast shadows, filtered so
   std::uint32_t still =
       0;  ///< how lights that stand still are looked up (still_data.h); triangles on the forward path alone

@@ -116,13 +116,16 @@ PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuS
                static_cast<std::uint32_t>(walked.probes.size())},
       .answers = walked.lights.size() + 1};
   pass.constants.push_back({CONSTANT_PROBES, info.probes});
+  pass.constants.push_back(mirror_limit_constant(info.mirror));
   for (const vulkan::Bound& b : renderer.probes().bound()) pass.bound.push_back(b);
   pass.bound.push_back({4, scene.surroundings()});
   for (const vulkan::Bound& b : renderer.shadow_bound()) pass.bound.push_back(b);
   std::vector<std::uint32_t> ids(walked.lights.begin(), walked.lights.end());
   ids.insert(ids.end(), walked.probes.begin(), walked.probes.end());
   const std::vector<glm::vec4> terms = for_lights<glm::vec4>(renderer, shaders, ids, std::move(pass));
-  return {.lights = {terms.begin(), terms.end() - 1}, .surroundings = glm::vec3(terms.back())};
+  return {.lights = {terms.begin(), terms.end() - 1},
+          .surroundings = glm::vec3(terms.back()),
+          .left_by_mirror = terms.back().w};
 }
 
 std::vector<std::uint32_t> explain(Renderer& renderer, const ShaderLibrary& shaders, gpu::ExplainedCell cell,

@@ -32,6 +32,7 @@ struct ProbeWeight {
 struct PixelTerms {
   std::vector<glm::vec3> lights;  ///< radiance towards the eye, of each light asked for
   glm::vec3 surroundings{0.0F};   ///< of all that is no light of the frame: probes, what is emitted, and so on
+  float left_by_mirror = 1.0F;    ///< of the reflection, to probes and surroundings
 };
 /// What a pixel's walk brings.
 struct PixelEntities {

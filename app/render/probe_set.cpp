@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -101,8 +102,13 @@ std::vector<vulkan::Bound> ProbeSet::bound() const {
   return bound;
 }
 
-void add_probes(vulkan::PipelineInfo& pipeline, std::uint32_t kind) {
+vulkan::Constant mirror_limit_constant(float roughness) {
+  return {CONSTANT_MIRROR_LIMIT, std::bit_cast<std::uint32_t>(roughness)};
+}
+
+void add_probes(vulkan::PipelineInfo& pipeline, std::uint32_t kind, float mirror) {
   pipeline.constants.push_back({CONSTANT_PROBES, kind});
+  pipeline.constants.push_back(mirror_limit_constant(mirror));
   pipeline.bindings.push_back({BINDING_PROBES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   add_probe_atlas(pipeline);
 }

@@ -19,6 +19,7 @@ namespace lamp::app {
 
 /// Constants and bindings of common/probes.glsl, besides those of the atlas.
 inline constexpr std::uint32_t CONSTANT_PROBES = 20;
+inline constexpr std::uint32_t CONSTANT_MIRROR_LIMIT = 21;
 inline constexpr std::uint32_t BINDING_PROBES = 30;
 
 /// The GPU's records of probes, in the order of their ids.
@@ -49,8 +50,10 @@ class ProbeSet {
   vulkan::Buffer records_;
 };
 
-/// Adds the constant and the bindings to those of a pipeline that shades with probes of a kind, or without
-/// (PROBES_OFF).
-void add_probes(vulkan::PipelineInfo& pipeline, std::uint32_t kind);
+/// Adds the constants and the bindings to those of a pipeline that shades with probes of a kind, or without
+/// (PROBES_OFF), and leaves the reflection of surfaces that are less rough than `mirror` to rays; 0: of none.
+void add_probes(vulkan::PipelineInfo& pipeline, std::uint32_t kind, float mirror = 0.0F);
+/// As a constant of a shader.
+[[nodiscard]] vulkan::Constant mirror_limit_constant(float roughness);
 
 }  // namespace lamp::app

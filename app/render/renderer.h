@@ -73,13 +73,15 @@ class Renderer {
   void cast_shadows(const ShadowSettings& settings);
   /// Null: no light casts a shadow.
   [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
-  /// Surfaces below a roughness mirror what is around them, in all frames. Once, behind `cast_shadows`. Throws Error
-  /// for what the device cannot do.
+  /// Surfaces below a roughness mirror what is around them, in all frames. Once, behind `cast_shadows`. Where there are
+  /// probes, for lightings that were made for that roughness. Throws Error for what the device cannot do.
   void mirror(const MirrorSettings& settings);
   /// Instances of the scene have moved, from and to these places (GpuScene::move). Before `set_frame`.
   void move_instances(std::span<const shared::LightSphere> moved);
   /// Null: none does.
   [[nodiscard]] const MirrorPass* mirrored() const { return mirror_ ? &*mirror_ : nullptr; }
+  /// From which on surfaces mirror nothing; 0: none does.
+  [[nodiscard]] float mirror_roughness() const { return mirror_ ? mirror_->info().settings.roughness : 0.0F; }
   /// The last lights of the next frames stand still, as many as `lists` has, and are looked up in it by lightings that
   /// were made for it. Null: none do. It must live on, and be told before `set_frame`.
   void light_still(const StillLists* lists) { still_ = lists; }

@@ -24,6 +24,19 @@ TEST_F(MirrorOption, IsCountedAndChecked) {
   EXPECT_GT(check.at("lists").at("useful"), 0);
 }
 
+TEST_F(MirrorOption, GoesWithProbes) {
+  const Outcome run = lamp({"verify", "corridor", "--lights", "100", "--size", "64x36", "--method", "lamplight",
+                            "--mirror", "0.6", "--probes", "12", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json row = nlohmann::json::parse(run.out).at(0);
+  EXPECT_EQ(row.at("image_max_abs_diff"), 0.0);
+  EXPECT_EQ(row.at("probes_missed"), 0);
+  EXPECT_GT(row.at("probes_useful"), 0);
+  const nlohmann::json& check = row.at("mirror").at("check");
+  EXPECT_EQ(check.at("verdict"), "ok") << check.at("reason");
+  EXPECT_GT(check.at("lists").at("useful"), 0);
+}
+
 TEST_F(MirrorOption, FollowsAFlightOfThingsThatMove) {
   const Arguments flight{"render", "corridor",   "--lights", "20",       "--size", "64x36",    "--method",
                          "all",    "--samples",  "1",        "--mirror", "0.8",    "--moving", "--frames",
@@ -39,7 +52,6 @@ TEST_F(MirrorOption, FollowsAFlightOfThingsThatMove) {
 TEST_F(MirrorOption, SaysWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--mirror", "2"}, {"--mirror"});
   expect_error(BAD_INPUT, {"render", "--mirror", "0.5", "--mirror-lists", "tiles"}, {"--mirror-lists 'tiles'"});
-  expect_error(BAD_INPUT, {"render", "--mirror", "0.5", "--probes", "3"}, {"--mirror: with --probes 3", "twice"});
   expect_error(BAD_INPUT, {"render", "--mirror", "0.5", "--decals", "3", "--path", "forward"},
                {"--decals", "--path deferred"});
   expect_error(BAD_INPUT, {"render", "--moving", "--path", "forward", "--still-lists", "triangle-lists"},

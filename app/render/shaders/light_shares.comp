@@ -14,7 +14,9 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   Surroundings surroundings;
   DirectionalData directional_lights[];
 };
-layout(set = 0, binding = 8, std430) writeonly buffer TermBuffer { vec4 terms[]; };  // one more than lights: surroundings
+layout(set = 0, binding = 8, std430) writeonly buffer TermBuffer {
+  vec4 terms[];  // one more than lights: surroundings, and in w what a mirror ray leaves of the reflection to probes
+};
 layout(push_constant) uniform Push {
   uvec2 pixel;
   uint count;        // of lights in ids,
@@ -29,6 +31,7 @@ ProbeSum light_of_probes(Surface s, Reflector r) {
   ProbeSum sum = ProbeSum(vec3(0.0), 0.0);
   const ProbeAsker asker = probe_asker(s, r);
   for (uint i = 0u; i < probe_count && sum.weight < 1.0; ++i) add_probe(sum, asker, probes[ids[count + i]]);
+  leave_to_mirror(sum, left_by_mirror(s));
   return sum;
 }
 
@@ -46,5 +49,5 @@ void main() {
     term = PROBES == PROBES_OFF ? shade_surroundings(s, r, emission)
                                 : shade_surroundings(s, r, emission, light_of_probes(s, r));
   }
-  terms[i] = vec4(term, 0.0);
+  terms[i] = vec4(term, i == count ? left_by_mirror(s) : 0.0);
 }

@@ -21,6 +21,9 @@ vec3 from_octahedral(uint stored) {
   return normalize(n);
 }
 
+// Of the four factors that it stores, as whoever reads them back has it. What was stored once stays as it is.
+float stored_roughness(float roughness) { return max(unpackUnorm4x8(packUnorm4x8(vec4(roughness))).y, 0.045); }
+
 uvec2 pack_surface(vec3 normal, float metallic, float roughness, float occlusion) {
   return uvec2(packSnorm2x16(octahedral(normal)), packUnorm4x8(vec4(metallic, roughness, occlusion, 0.0)));
 }

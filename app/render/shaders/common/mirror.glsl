@@ -3,10 +3,11 @@
 // light's specular part, a reflection probe's) counts as much as the weight leaves.
 // Based on: Schlick, An Inexpensive BRDF Model for Physically-based Rendering, Eurographics (1994).
 // Promise: the same bits in every shader.
-// Needs: common/deferred_surface.glsl.
+// Needs: nothing; that a surface be as the G-buffer has it.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_MIRROR
 #define LAMP_MIRROR
+#include "common/brdf.glsl"
 
 // 1 up to half the limit, then less, 0 from the limit on: so that no edge shows where a texture's roughness passes it.
 float mirror_weight(float roughness, float limit) {
