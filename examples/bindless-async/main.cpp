@@ -36,6 +36,15 @@ T value_of(lamp::Result<T> result) {
 }
 // }
 
+/// Of queues for compute alone; if there is none, that of the graphics queue.
+std::uint32_t compute_family(const Gpu& gpu) {
+  constexpr vk::QueueFlags BOTH = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+  const std::vector<vk::QueueFamilyProperties> families = gpu.physical.getQueueFamilyProperties();
+  for (std::uint32_t family = 0; family < families.size(); ++family)
+    if ((families[family].queueFlags & BOTH) == vk::QueueFlagBits::eCompute) return family;
+  return gpu.graphics;
+}
+
 /// Hands buffers from one queue to the other: record it on the first when it is done with them, then on the second
 /// before it begins. Queues of one family need no such thing.
 void hand_over(const Commands& commands, std::span<const vk::Buffer> buffers, std::uint32_t from, std::uint32_t to) {
@@ -86,7 +95,8 @@ bool run(const std::string& file) {
   features.vulkan12.runtimeDescriptorArray = VK_TRUE;
   features.vulkan12.shaderSampledImageArrayNonUniformIndexing = VK_TRUE;
   gpu.make_device(features.base);
-  std::printf("culls on %s\n", gpu.compute == gpu.graphics ? "the graphics queue" : "a queue of its own");
+  const std::uint32_t compute = compute_family(gpu);
+  std::printf("culls on %s\n", compute == gpu.graphics ? "the graphics queue" : "a queue of its own");
   const double aspect = double{SIZE.width} / SIZE.height;
   const glm::dmat4 clip_from_view = reversed_projection(-0.42 * aspect, 0.42 * aspect, -0.42, 0.42);
   const glm::mat4 clip_from_world = clip_from_view * view_from_world();
@@ -113,16 +123,16 @@ bool run(const std::string& file) {
   const Image color = gpu.make_image(COLOR, SIZE);
   const Image depth = gpu.make_image(DEPTH, SIZE);
 
-  const Pipeline make_lights = gpu.make_pipeline(
-      {.compute = MAKE_LIGHTS, .descriptors = {{0, count_buffer.handle, {}}, {1, light_buffer.handle, {}}}});
+  const std::vector<vk::DescriptorBufferInfo> lights_and_count{{light_buffer.handle, 0, VK_WHOLE_SIZE},
+                                                               {count_buffer.handle, 0, VK_WHOLE_SIZE}};
+  const Pipeline make_lights = gpu.make_pipeline({.compute = MAKE_LIGHTS, .buffers = lights_and_count});
   const Pipeline draw_depth = gpu.make_pipeline({.vertex = BOX_SHADER});
   const std::vector<Image> materials = make_materials(gpu);
-  std::vector<vk::ImageView> views;
-  for (const Image& material : materials) views.push_back(*material.view);
   PipelineInfo info{.vertex = BOX_SHADER,
                     .fragment = BRUTE_FORCE,
-                    .descriptors = {{1, light_buffer.handle, {}}, {2, count_buffer.handle, {}}, {3, {}, views}},
+                    .buffers = lights_and_count,
                     .depth_compare = vk::CompareOp::eEqual};
+  for (const Image& material : materials) info.images.push_back({{}, *material.view, vk::ImageLayout::eGeneral});
   const Pipeline brute_force = gpu.make_pipeline(info);
   info.fragment = FORWARD;
   std::vector<vk::Buffer> handed_over{light_buffer.handle, count_buffer.handle};
@@ -135,11 +145,12 @@ bool run(const std::string& file) {
   const Pipeline forward = gpu.make_pipeline(info);
   lookup.write_to(device, *forward.set);  // lamplight
   const vk::raii::Semaphore culling_done(gpu.device, vk::SemaphoreCreateInfo{});
+  constexpr vk::PipelineStageFlags WAITING = vk::PipelineStageFlagBits::eAllCommands;
 
   bool same = true;
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     gpu.submit(
-        gpu.compute,
+        compute,
         [&](const Commands& commands) {
           commands.fillBuffer(count_buffer.handle, 0, VK_WHOLE_SIZE, 0);
           barrier(commands);
@@ -150,11 +161,11 @@ bool run(const std::string& file) {
           value_of(culler.record(
               *commands, {.view = &view, .lights = light_buffer.handle, .light_count_buffer = count_buffer.handle}));
           // }
-          hand_over(commands, handed_over, gpu.compute, gpu.graphics);
+          hand_over(commands, handed_over, compute, gpu.graphics);
         },
-        {}, *culling_done);
+        vk::SubmitInfo{}.setSignalSemaphores(*culling_done));
     gpu.submit(gpu.graphics, [&](const Commands& commands) {  // at the same time
-      begin_rendering(commands, {.depth = depth});
+      begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = 0.0F});
       bind(commands, draw_depth, clip_from_world);
       commands.draw(BOX_VERTICES, BOXES, 0, 0);
       commands.endRendering();
@@ -162,16 +173,16 @@ bool run(const std::string& file) {
     gpu.submit(
         gpu.graphics,
         [&](const Commands& commands) {
-          hand_over(commands, handed_over, gpu.compute, gpu.graphics);
+          hand_over(commands, handed_over, compute, gpu.graphics);
           for (const auto& [pipeline, to] : {std::pair(&forward, &culled), std::pair(&brute_force, &brute)}) {
-            begin_rendering(commands, {.depth = depth, .color = &color, .depth_load = vk::AttachmentLoadOp::eLoad});
+            begin_rendering(commands, {.color = color, .depth = depth});
             bind(commands, *pipeline, clip_from_world);
             commands.draw(BOX_VERTICES, BOXES, 0, 0);
             commands.endRendering();
             read_back(commands, color, *to);
           }
         },
-        *culling_done);
+        vk::SubmitInfo{}.setWaitSemaphores(*culling_done).setWaitDstStageMask(WAITING));
     // The next frame's lights may be made once this one has read its own. Frames that overlap take a Culler each.
     gpu.wait();
     same = compare(culled.as<glm::vec4>(), brute.as<glm::vec4>(), file, SIZE.width) && same;

@@ -6,7 +6,7 @@
 #include "lighting.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) buffer CountBuffer { uint light_count; };
+layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint light_count; };
 layout(set = 0, binding = 1, scalar) writeonly buffer LightBuffer { HostLight lights[]; };
 layout(push_constant) uniform Push {
   uint particle_count;

@@ -6,7 +6,7 @@
 
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { HostLight lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer CountBuffer { uint light_count; };
-layout(set = 0, binding = 3) uniform texture2D materials[];
+layout(set = 0, binding = 0) uniform texture2D materials[];
 layout(location = 0) in vec3 position;
 layout(location = 1) flat in vec3 normal;
 layout(location = 2) flat in uint material;

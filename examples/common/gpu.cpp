@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu.h"
 
-#include <algorithm>
 #include <array>
 
 namespace {
 
-constexpr vk::QueueFlags DRAWS_AND_COMPUTES = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
 constexpr auto ALL = vk::PipelineStageFlagBits::eAllCommands;
 constexpr auto LAYOUT = vk::ImageLayout::eGeneral;  // of all images
 
@@ -17,34 +15,16 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const T& object, vk::MemoryPrope
   const vk::MemoryRequirements needs = object.getMemoryRequirements();
   const vk::PhysicalDeviceMemoryProperties memory = gpu.physical.getMemoryProperties();
   std::uint32_t type = 0;
-  while ((needs.memoryTypeBits >> type & 1U) == 0 ||
-         (memory.memoryTypes.at(type).propertyFlags & properties) != properties)
-    ++type;
-  vk::raii::DeviceMemory made(gpu.device,
-                              vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = type});
+  while ((needs.memoryTypeBits >> type & 1U) == 0 || properties & ~memory.memoryTypes.at(type).propertyFlags) ++type;
+  vk::raii::DeviceMemory made(gpu.device, {.allocationSize = needs.size, .memoryTypeIndex = type});
   object.bindMemory(*made, 0);
   return made;
 }
 
-void write(const vk::raii::Device& device, vk::DescriptorSet set, const Descriptor& descriptor) {
-  vk::WriteDescriptorSet write{.dstSet = set, .dstBinding = descriptor.binding};
-  const vk::DescriptorBufferInfo buffer{.buffer = descriptor.buffer, .range = VK_WHOLE_SIZE};
-  std::vector<vk::DescriptorImageInfo> images;
-  for (const vk::ImageView view : descriptor.views) images.push_back({.imageView = view, .imageLayout = LAYOUT});
-  if (images.empty())
-    write.setDescriptorType(vk::DescriptorType::eStorageBuffer).setBufferInfo(buffer);
-  else
-    write.setDescriptorType(vk::DescriptorType::eSampledImage).setImageInfo(images);
-  device.updateDescriptorSets(write, {});
-}
-
 vk::raii::Pipeline make_drawing(const vk::raii::Device& device, const PipelineInfo& info, vk::PipelineLayout layout,
                                 const std::vector<vk::PipelineShaderStageCreateInfo>& stages) {
-  const std::uint32_t colors = info.fragment.empty() ? 0 : 1;
-  const vk::PipelineRenderingCreateInfo rendering{.viewMask = info.view_mask,
-                                                  .colorAttachmentCount = colors,
-                                                  .pColorAttachmentFormats = &COLOR,
-                                                  .depthAttachmentFormat = DEPTH};
+  const auto rendering = vk::PipelineRenderingCreateInfo{.viewMask = info.view_mask, .depthAttachmentFormat = DEPTH}
+                             .setColorAttachmentFormats(COLOR);
   const vk::PipelineVertexInputStateCreateInfo input;
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
   const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
@@ -52,8 +32,9 @@ vk::raii::Pipeline make_drawing(const vk::raii::Device& device, const PipelineIn
   const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = info.samples};
   const vk::PipelineDepthStencilStateCreateInfo depth{
       .depthTestEnable = VK_TRUE, .depthWriteEnable = VK_TRUE, .depthCompareOp = info.depth_compare};
-  const vk::PipelineColorBlendAttachmentState color{.colorWriteMask = vk::ColorComponentFlags(0xF)};
-  const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = colors, .pAttachments = &color};
+  const vk::PipelineColorBlendAttachmentState color{.colorWriteMask =
+                                                        vk::ColorComponentFlags(info.fragment.empty() ? 0 : 0xF)};
+  const auto blend = vk::PipelineColorBlendStateCreateInfo{}.setAttachments(color);
   constexpr std::array DYNAMIC{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
   const auto dynamic = vk::PipelineDynamicStateCreateInfo{}.setDynamicStates(DYNAMIC);
   vk::GraphicsPipelineCreateInfo create{.pNext = &rendering,
@@ -72,19 +53,14 @@ vk::raii::Pipeline make_drawing(const vk::raii::Device& device, const PipelineIn
 }  // namespace
 
 void Gpu::make_device(const VkPhysicalDeviceFeatures2& features, const std::vector<const char*>& extensions) {
-  const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
-  const auto find = [&](vk::QueueFlags flags) {
-    std::uint32_t family = 0;
-    while (family < families.size() && (families[family].queueFlags & DRAWS_AND_COMPUTES) != flags) ++family;
-    return family;
-  };
-  graphics = find(DRAWS_AND_COMPUTES);
-  compute = find(vk::QueueFlagBits::eCompute);
-  if (compute == families.size()) compute = graphics;
   constexpr float PRIORITY = 1.0F;
+  constexpr vk::QueueFlags DRAWS_AND_COMPUTES = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
   std::vector<vk::DeviceQueueCreateInfo> queues;  // of each family one
-  for (std::uint32_t family = 0; family < families.size(); ++family)
-    queues.push_back(vk::DeviceQueueCreateInfo{.queueFamilyIndex = family}.setQueuePriorities(PRIORITY));
+  for (const vk::QueueFamilyProperties& family : physical.getQueueFamilyProperties()) {
+    const auto index = static_cast<std::uint32_t>(queues.size());
+    queues.push_back(vk::DeviceQueueCreateInfo{.queueFamilyIndex = index}.setQueuePriorities(PRIORITY));
+    if ((family.queueFlags & DRAWS_AND_COMPUTES) == DRAWS_AND_COMPUTES) graphics = index;
+  }
   auto info = vk::DeviceCreateInfo{.pNext = &features}.setQueueCreateInfos(queues);
   device = {physical, info.setPEnabledExtensionNames(extensions)};
 
@@ -131,31 +107,31 @@ Image Gpu::make_image(vk::Format format, vk::Extent2D size, vk::SampleCountFlagB
 }
 
 Pipeline Gpu::make_pipeline(const PipelineInfo& info) const {
-  std::vector<vk::DescriptorSetLayoutBinding> bindings;
-  for (const Descriptor& d : info.descriptors) {
-    const auto type = d.views.empty() ? vk::DescriptorType::eStorageBuffer : vk::DescriptorType::eSampledImage;
-    const auto count = std::max(1U, static_cast<std::uint32_t>(d.views.size()));
-    bindings.push_back({d.binding, type, count, vk::ShaderStageFlagBits::eAll});
-  }
+  using Stage = vk::ShaderStageFlagBits;
+  const auto images = static_cast<std::uint32_t>(info.images.size());
+  std::vector<vk::DescriptorSetLayoutBinding> bindings{{0, vk::DescriptorType::eSampledImage, images, Stage::eAll}};
+  for (std::uint32_t i = 1; i <= info.buffers.size(); ++i)
+    bindings.push_back({i, vk::DescriptorType::eStorageBuffer, 1, Stage::eAll});
   for (const VkDescriptorSetLayoutBinding& binding : info.bindings) bindings.emplace_back() = binding;
   Pipeline made{.point = info.compute.empty() ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute};
   made.set_layout = {device, vk::DescriptorSetLayoutCreateInfo{}.setBindings(bindings)};
   const auto allocate = vk::DescriptorSetAllocateInfo{.descriptorPool = *descriptors_}.setSetLayouts(*made.set_layout);
   made.set = std::move(device.allocateDescriptorSets(allocate).front());
-  for (const Descriptor& d : info.descriptors) write(device, *made.set, d);
-  constexpr vk::PushConstantRange PUSHED{vk::ShaderStageFlagBits::eAll, 0, 128};
+  vk::WriteDescriptorSet write{.dstSet = *made.set, .descriptorType = vk::DescriptorType::eSampledImage};
+  if (images != 0) device.updateDescriptorSets(write.setImageInfo(info.images), {});
+  write = {.dstSet = *made.set, .dstBinding = 1, .descriptorType = vk::DescriptorType::eStorageBuffer};
+  if (!info.buffers.empty()) device.updateDescriptorSets(write.setBufferInfo(info.buffers), {});  // one a binding
+  constexpr vk::PushConstantRange PUSHED{Stage::eAll, 0, 128};
   made.layout = {device, vk::PipelineLayoutCreateInfo{}.setSetLayouts(*made.set_layout).setPushConstantRanges(PUSHED)};
 
-  vk::SpecializationInfo constants;
-  constants = info.constants;
   std::vector<vk::raii::ShaderModule> modules;
   std::vector<vk::PipelineShaderStageCreateInfo> stages;
-  using Stage = vk::ShaderStageFlagBits;
   for (const auto& [stage, spirv] : {std::pair(Stage::eCompute, info.compute), std::pair(Stage::eVertex, info.vertex),
                                      std::pair(Stage::eFragment, info.fragment)}) {
     if (spirv.empty()) continue;
-    modules.emplace_back(device, vk::ShaderModuleCreateInfo{.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
-    stages.push_back({.stage = stage, .module = *modules.back(), .pName = "main", .pSpecializationInfo = &constants});
+    modules.emplace_back(device, vk::ShaderModuleCreateInfo{}.setCode(spirv));
+    stages.push_back(
+        {.stage = stage, .module = *modules.back(), .pName = "main", .pSpecializationInfo = &info.constants});
   }
   if (info.compute.empty())
     made.handle = make_drawing(device, info, *made.layout, stages);
@@ -164,33 +140,22 @@ Pipeline Gpu::make_pipeline(const PipelineInfo& info) const {
   return made;
 }
 
-void Gpu::submit(std::uint32_t family, const std::function<void(const Commands&)>& record, vk::Semaphore wait_for,
-                 vk::Semaphore signal) {
+void Gpu::submit(std::uint32_t family, const std::function<void(const Commands&)>& record, vk::SubmitInfo info) {
   vk::raii::CommandPool pool(device, vk::CommandPoolCreateInfo{.queueFamilyIndex = family});
-  vk::raii::CommandBuffers buffers(device,
-                                   vk::CommandBufferAllocateInfo{.commandPool = *pool, .commandBufferCount = 1});
+  vk::raii::CommandBuffers buffers(device, {.commandPool = *pool, .commandBufferCount = 1});
   const Commands& commands = buffers.front();
   commands.begin({});
   record(commands);
   barrier(commands);
   commands.end();
-  constexpr vk::PipelineStageFlags STAGES = ALL;
-  auto info = vk::SubmitInfo{}.setCommandBuffers(*commands);
-  if (wait_for) info.setWaitSemaphores(wait_for).setWaitDstStageMask(STAGES);
-  if (signal) info.setSignalSemaphores(signal);
-  device.getQueue(family, 0).submit(info);
+  device.getQueue(family, 0).submit(info.setCommandBuffers(*commands));
   submitted_.emplace_back(std::move(pool), std::move(buffers));
 }
 
-void Gpu::wait() {
-  device.waitIdle();
-  submitted_.clear();
-}
-
 void barrier(const Commands& commands) {
-  constexpr auto WRITES = vk::AccessFlagBits::eMemoryWrite;
-  constexpr vk::MemoryBarrier EVERYTHING{.srcAccessMask = WRITES,
-                                         .dstAccessMask = WRITES | vk::AccessFlagBits::eMemoryRead};
+  using Access = vk::AccessFlagBits;
+  constexpr vk::MemoryBarrier EVERYTHING{.srcAccessMask = Access::eMemoryWrite,
+                                         .dstAccessMask = Access::eMemoryWrite | Access::eMemoryRead};
   commands.pipelineBarrier(ALL, ALL | vk::PipelineStageFlagBits::eHost, {}, EVERYTHING, {}, {});
 }
 
@@ -203,18 +168,17 @@ void read_back(const Commands& commands, const Image& image, const Buffer& to) {
 
 void begin_rendering(const Commands& commands, const Targets& targets) {
   barrier(commands);
-  vk::RenderingAttachmentInfo depth{
-      .imageView = *targets.depth.view, .imageLayout = LAYOUT, .loadOp = targets.depth_load};
-  depth.clearValue.depthStencil.depth = targets.clear_depth;
+  const vk::RenderingAttachmentInfo color{
+      .imageView = *targets.color.view, .imageLayout = LAYOUT, .loadOp = vk::AttachmentLoadOp::eClear};
+  const vk::RenderingAttachmentInfo depth{
+      .imageView = *targets.depth.view,
+      .imageLayout = LAYOUT,
+      .loadOp = targets.clear_depth ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad,
+      .clearValue = vk::ClearDepthStencilValue{.depth = targets.clear_depth.value_or(0.0F)}};
   const vk::Extent2D size = targets.depth.size;
   vk::RenderingInfo info{
       .renderArea = {.extent = size}, .layerCount = 1, .viewMask = targets.view_mask, .pDepthAttachment = &depth};
-  vk::RenderingAttachmentInfo color{.imageLayout = LAYOUT, .loadOp = vk::AttachmentLoadOp::eClear};
-  if (targets.color != nullptr) {
-    color.imageView = *targets.color->view;
-    info.setColorAttachments(color);
-  }
-  commands.beginRendering(info);
+  commands.beginRendering(info.setColorAttachments(color));
   commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1});
   commands.setScissor(0, vk::Rect2D{.extent = size});
 }

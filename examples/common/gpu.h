@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,17 +34,13 @@ struct Image {
 constexpr vk::Format COLOR = vk::Format::eR32G32B32A32Sfloat;
 constexpr vk::Format DEPTH = vk::Format::eD32Sfloat;
 
-struct Descriptor {
-  std::uint32_t binding = 0;         ///< in set 0
-  vk::Buffer buffer;                 ///< a storage buffer, or
-  std::vector<vk::ImageView> views;  ///< an array of sampled images
-};
-/// A compute shader, or those that draw: depth, and with a fragment shader a colour. 128 bytes of push constants.
+/// A compute shader, or those that draw; without a fragment shader depth alone. 128 bytes of push constants.
 struct PipelineInfo {
   std::span<const std::uint32_t> compute, vertex, fragment;  ///< SPIR-V
-  std::vector<Descriptor> descriptors;
-  std::vector<VkDescriptorSetLayoutBinding> bindings;  ///< more, which the example writes itself
-  VkSpecializationInfo constants{};
+  std::vector<vk::DescriptorImageInfo> images;               ///< sampled, an array at binding 0 of set 0
+  std::vector<vk::DescriptorBufferInfo> buffers;             ///< of storage, at bindings 1, 2 and so on
+  std::vector<VkDescriptorSetLayoutBinding> bindings;        ///< more, which the example writes itself
+  vk::SpecializationInfo constants;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   std::uint32_t view_mask = 0;
@@ -56,12 +53,11 @@ struct Pipeline {
   vk::raii::Pipeline handle = nullptr;
 };
 
-/// What is drawn to. Colour is cleared to 0, depth to `clear_depth`.
+/// What is drawn to. Colour is cleared to 0.
 struct Targets {
+  const Image& color;
   const Image& depth;
-  const Image* color = nullptr;
-  vk::AttachmentLoadOp depth_load = vk::AttachmentLoadOp::eClear;
-  float clear_depth = 0.0F;
+  std::optional<float> clear_depth;  ///< none: it stays as it is
   std::uint32_t view_mask = 0;
 };
 
@@ -77,18 +73,19 @@ class Gpu {
                                  std::uint32_t layers = 1);
   [[nodiscard]] Pipeline make_pipeline(const PipelineInfo& info) const;
 
-  /// Records and submits. What it wrote is visible to the host after `wait`, which waits for everything.
-  void submit(std::uint32_t family, const std::function<void(const Commands&)>& record, vk::Semaphore wait_for = {},
-              vk::Semaphore signal = {});
-  void wait();
+  /// Records and submits, with the semaphores of `info`. After `wait` all is done, and visible to the host.
+  void submit(std::uint32_t family, const std::function<void(const Commands&)>& record, vk::SubmitInfo info = {});
+  void wait() {
+    device.waitIdle();
+    submitted_.clear();
+  }
 
   vk::raii::Context context;  ///< loads Vulkan's functions: no example links a loader
   vk::ApplicationInfo application{.apiVersion = VK_API_VERSION_1_3};
   vk::raii::Instance instance{context, vk::InstanceCreateInfo{.pApplicationInfo = &application}};
   vk::raii::PhysicalDevice physical = std::move(vk::raii::PhysicalDevices(instance).at(0));
   vk::raii::Device device = nullptr;
-  std::uint32_t graphics = 0;  ///< a queue family
-  std::uint32_t compute = 0;   ///< one without graphics; if there is none, the same
+  std::uint32_t graphics = 0;  ///< a queue family that computes, too
 
  private:
   vk::raii::DescriptorPool descriptors_ = nullptr;

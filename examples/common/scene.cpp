@@ -39,26 +39,11 @@ glm::dmat4 reversed_projection(double left, double right, double bottom, double 
   return glm::frustumRH_ZO(left * FAR, right * FAR, top * FAR, bottom * FAR, FAR, NEAR);
 }
 
-namespace {
-
-/// Near enough to sRGB.
-void write_picture(const std::string& file, std::uint32_t width, Pixels pixels) {
-  std::ofstream out(file, std::ios::binary);
-  out << "P6\n" << width << ' ' << pixels.size() / width << "\n255\n";
-  for (const glm::vec4& pixel : pixels) {
-    const glm::vec4 encoded = 255.0F * glm::pow(glm::clamp(pixel, 0.0F, 1.0F), glm::vec4(1.0F / 2.2F)) + 0.5F;
-    for (int i = 0; i < 3; ++i) out.put(static_cast<char>(encoded[i]));
-  }
-  if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
-}
-
-}  // namespace
-
 bool compare(Pixels culled, Pixels brute_force, const std::string& file, std::uint32_t width) {
-  float difference = 0.0F;
-  bool same = true;
   glm::dvec4 mean(0.0);
   glm::dvec4 mean_of_all(0.0);
+  float difference = 0.0F;
+  bool same = true;
   for (std::size_t i = 0; i < culled.size(); ++i) {
     const glm::vec3 d = glm::abs(glm::vec3(culled[i] - brute_force[i]));
     difference = std::max({difference, d.x, d.y, d.z});
@@ -68,7 +53,15 @@ bool compare(Pixels culled, Pixels brute_force, const std::string& file, std::ui
   }
   std::printf("walked %.1f lights a pixel instead of %.1f; mean green %.3f, largest difference %g\n", mean.w,
               mean_of_all.w, mean_of_all.y, static_cast<double>(difference));
-  if (!file.empty()) write_picture(file, width, culled);
+  if (!file.empty()) {
+    std::ofstream out(file, std::ios::binary);
+    out << "P6\n" << width << ' ' << culled.size() / width << "\n255\n";
+    for (const glm::vec4& pixel : culled) {
+      const glm::vec4 near_srgb = 255.0F * glm::pow(glm::clamp(pixel, 0.0F, 1.0F), glm::vec4(1.0F / 2.2F)) + 0.5F;
+      for (int i = 0; i < 3; ++i) out.put(static_cast<char>(near_srgb[i]));
+    }
+    if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
+  }
   return same && mean_of_all.y > 0.05 && mean.w > 0.0 && mean.w < 0.5 * mean_of_all.w;
 }
 

@@ -14,15 +14,8 @@
 constexpr std::uint32_t BOXES = 65;
 constexpr std::uint32_t BOX_VERTICES = 36;
 
-/// The examples' own light record (shaders/lighting.glsl). World space, metres, radians.
-struct HostLight {
-  glm::vec3 position;
-  float range;
-  glm::vec3 direction;
-  float outer_angle;  ///< half-angle of a spot's cone; negative: a point light
-  glm::vec3 color;    ///< candela
-  float reserved;
-};
+using glm::vec3;
+#include "shaders/host_light.h"
 [[nodiscard]] std::vector<HostLight> make_lights(std::uint32_t count, std::uint32_t frame);
 
 [[nodiscard]] glm::dmat4 view_from_world();

@@ -98,7 +98,7 @@ bool run(const std::string& file) {
       gpu.make_pipeline({.vertex = BOX_SHADER, .depth_compare = vk::CompareOp::eLess, .samples = SAMPLES});
   PipelineInfo info{.vertex = BOX_SHADER,
                     .fragment = BRUTE_FORCE,
-                    .descriptors = {{.binding = 1, .buffer = light_buffer.handle}},
+                    .buffers = {{light_buffer.handle, 0, VK_WHOLE_SIZE}},
                     .depth_compare = vk::CompareOp::eEqual,
                     .samples = SAMPLES};
   const Pipeline brute_force = gpu.make_pipeline(info);
@@ -116,7 +116,7 @@ bool run(const std::string& file) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     std::ranges::copy(make_lights(LIGHTS, frame), light_buffer.as<HostLight>().begin());
     gpu.submit(gpu.graphics, [&](const Commands& commands) {
-      begin_rendering(commands, {.depth = depth, .clear_depth = SKY});
+      begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = SKY});
       bind(commands, draw_depth, push);
       vkCmdDraw(*commands, BOX_VERTICES, BOXES, 0, 0);
       vkCmdEndRendering(*commands);
@@ -131,7 +131,7 @@ bool run(const std::string& file) {
                                          .depth_layout = VK_IMAGE_LAYOUT_GENERAL}));
       // }
       for (const auto& [pipeline, to] : {std::pair(&forward, &culled), std::pair(&brute_force, &brute)}) {
-        begin_rendering(commands, {.depth = depth, .color = &color, .depth_load = vk::AttachmentLoadOp::eLoad});
+        begin_rendering(commands, {.color = color, .depth = depth});
         bind(commands, *pipeline, push);
         vkCmdDraw(*commands, BOX_VERTICES, BOXES, 0, 0);
         vkCmdEndRendering(*commands);

@@ -55,7 +55,7 @@ std::vector<Record> pack(const std::vector<HostLight>& lights) {
 /// Draws the scene and copies the picture to `to`.
 void draw(const Commands& commands, const Pipeline& pipeline, const Push& push, const Image& color, const Image& depth,
           const Buffer& to) {
-  begin_rendering(commands, {.depth = depth, .color = &color});
+  begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = 0.0F});
   bind(commands, pipeline, push);
   commands.draw(BOX_VERTICES, BOXES, 0, 0);
   commands.endRendering();
@@ -89,7 +89,7 @@ bool run(const std::string& file) {
   const Image depth = gpu.make_image(DEPTH, SIZE);
 
   PipelineInfo info{
-      .vertex = BOX_SHADER, .fragment = BRUTE_FORCE, .descriptors = {{.binding = 1, .buffer = light_buffer.handle}}};
+      .vertex = BOX_SHADER, .fragment = BRUTE_FORCE, .buffers = {{light_buffer.handle, 0, VK_WHOLE_SIZE}}};
   const Pipeline brute_force = gpu.make_pipeline(info);
   info.fragment = FORWARD;
   // lamplight {

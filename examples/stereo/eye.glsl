@@ -4,10 +4,9 @@
 #include "lighting.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0) uniform texture2D surfaces;
-layout(set = 0, binding = 1) uniform texture2D depths;
-layout(set = 0, binding = 2, scalar) readonly buffer LightBuffer { HostLight lights[]; };
-layout(set = 0, binding = 3, scalar) writeonly buffer PictureBuffer { vec4 picture[]; };
+layout(set = 0, binding = 0) uniform texture2D surface_and_depth[2];
+layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { HostLight lights[]; };
+layout(set = 0, binding = 2, scalar) writeonly buffer PictureBuffer { vec4 picture[]; };
 layout(push_constant, scalar) uniform Push {
   mat4 world_from_clip;
   uvec2 size_px;

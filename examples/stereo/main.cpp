@@ -115,19 +115,18 @@ bool run(const std::string& file) {
   std::vector<lamp::View> cameras;
   std::vector<lamp::vulkan::CullerView> views;
   // }
+  constexpr auto GENERAL = vk::ImageLayout::eGeneral;
   std::array eyes{make_eye(-1), make_eye(1)};
   for (std::uint32_t i = 0; i < EYES; ++i) {
     Eye& eye = eyes[i];
     eye.culled = gpu.make_buffer(sizeof(glm::vec4) * SIZE.width * SIZE.height);
     eye.brute_force = gpu.make_buffer(eye.culled.bytes.size());
     PipelineInfo info{.compute = BRUTE_FORCE,
-                      .descriptors = {{.binding = 0, .views = {*surface_views[i]}},
-                                      {.binding = 1, .views = {*depth_views[i]}},
-                                      {.binding = 2, .buffer = light_buffer.handle},
-                                      {.binding = 3, .buffer = eye.brute_force.handle}}};
+                      .images = {{{}, *surface_views[i], GENERAL}, {{}, *depth_views[i], GENERAL}},
+                      .buffers = {{light_buffer.handle, 0, VK_WHOLE_SIZE}, {eye.brute_force.handle, 0, VK_WHOLE_SIZE}}};
     eye.shade_all = gpu.make_pipeline(info);
     info.compute = SHADE;
-    info.descriptors[3].buffer = eye.culled.handle;
+    info.buffers[1].buffer = eye.culled.handle;
     // lamplight {
     cameras.push_back(value_of(lamp::View::create(SIZE.width, SIZE.height, eye.clip_from_eye, eye.eye_from_world)));
     info.bindings = lookup.layout_bindings(VK_SHADER_STAGE_COMPUTE_BIT);
@@ -147,7 +146,7 @@ bool run(const std::string& file) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     std::ranges::copy(make_lights(LIGHTS, frame), light_buffer.as<HostLight>().begin());
     gpu.submit(gpu.graphics, [&](const Commands& commands) {
-      begin_rendering(commands, {.depth = depths, .color = &surfaces, .view_mask = BOTH_EYES});
+      begin_rendering(commands, {.color = surfaces, .depth = depths, .clear_depth = 0.0F, .view_mask = BOTH_EYES});
       bind(commands, draw, clip_from_world);
       commands.draw(BOX_VERTICES, BOXES + 1, 0, 0);
       commands.endRendering();

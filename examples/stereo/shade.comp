@@ -13,8 +13,8 @@
 void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, size_px))) return;
-  const float depth = texelFetch(depths, ivec2(pixel), 0).x;
-  const vec4 surface = texelFetch(surfaces, ivec2(pixel), 0);
+  const float depth = texelFetch(surface_and_depth[1], ivec2(pixel), 0).x;
+  const vec4 surface = texelFetch(surface_and_depth[0], ivec2(pixel), 0);
   vec4 sum = vec4(0.0);  // w: lights that were walked
   if (depth > 0.0) {
     const vec3 position = position_of(pixel, depth);

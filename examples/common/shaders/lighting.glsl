@@ -1,13 +1,6 @@
 // What a light of the scene adds to a diffuse surface: exactly 0 from its range on and outside of its cone.
 // SPDX-License-Identifier: Apache-2.0
-struct HostLight {
-  vec3 position;
-  float range;
-  vec3 direction;
-  float outer_angle;  // negative: a point light
-  vec3 color;
-  float reserved;
-};
+#include "host_light.h"
 
 vec3 light_on(HostLight light, vec3 position, vec3 normal) {
   const vec3 way = light.position - position;
