@@ -68,8 +68,10 @@ class PipelineLister {
     add("", decal_pipeline(device_, shaders_, plan));
     info.decals = false;
     info.probes = gpu::PROBES_CAPTURED;
+    info.mirror = 1.0F;  // which asks for more registers than probes alone
     add_paths(info, plan);
     info.probes = gpu::PROBES_OFF;
+    info.mirror = 0.0F;
     info.still = gpu::STILL_TRIANGLES;
     add_path(info, ShadingPath::forward, plan);
     info.still = gpu::STILL_TREE;
