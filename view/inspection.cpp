@@ -12,6 +12,7 @@
 
 #include "gpu/check.h"
 #include "image/image.h"
+#include "render/cell_masks.h"
 #include "render/pixel_lights.h"
 #include "render/verification.h"
 
@@ -110,20 +111,19 @@ void add(Proof& proof, const Truth& truth, std::span<const Visit> visits, std::u
   }
 }
 
+gpu::CellMask mask_of(const Inspected& of, const CellPixels& cell) {
+  std::vector<std::uint32_t> cell_of(of.visits.size(), gpu::NO_CELL);
+  for (const std::size_t pixel : cell.pixels) cell_of[pixel] = 0;
+  return cell_masks(of.renderer, cell_of, 1).front();
+}
+
 /// The smallest tile and depths that hold the cell's pixels.
-gpu::ExplainedCell volume_of(const Inspected& of, const CellPixels& cell) {
-  const View& view = of.renderer.view();
-  std::uint32_t mask = 0;
-  const double part = std::max(cell.far_m - cell.near_m, 1e-30) / 32.0;
-  for (const std::size_t i : cell.pixels) {
-    const double place = (view.z_view(of.depth[i]) - cell.near_m) / part;
-    mask |= 1U << static_cast<std::uint32_t>(std::clamp(place, 0.0, 31.0));
-  }
+gpu::ExplainedCell volume_of(const CellPixels& cell, const gpu::CellMask& mask) {
   return {.min_px = glm::vec2(cell.min_px),
           .max_px = glm::vec2(cell.end_px),
-          .z_near = static_cast<float>(cell.near_m),
-          .z_far = static_cast<float>(cell.far_m),
-          .mask = mask,
+          .z_near = mask.z_near,
+          .z_far = mask.z_far,
+          .mask = mask.mask,
           .count = 0};
 }
 
@@ -147,16 +147,24 @@ void add_still(Proof& proof, const Inspected& of, std::span<const std::size_t> p
 }
 
 /// Which lights reach a pixel of the cell, and which tests they pass.
-void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth, std::vector<ListedLight>& lights) {
+/// Of the lights that are listed, and of the one that is looked at.
+void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth, Inspection& found) {
+  std::vector<ListedLight>& lights = found.lights;
   const std::set<std::uint32_t> reaching(truth.lights.begin(), truth.lights.end());
   std::vector<std::uint32_t> ids;
   for (const ListedLight& light : lights) ids.push_back(record_of(of, light.light));
-  const std::vector<std::uint32_t> passes = explain(of.renderer, of.shaders, volume_of(of, cell), ids);
+  const bool looks = of.light && *of.light < of.lights.size();
+  if (looks) ids.push_back(record_of(of, *of.light));
+  const std::vector<gpu::Explained> explained = explain(of.renderer, of.shaders, volume_of(cell, found.mask), ids);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     lights[i].reaches_cell =
         lights[i].still ? reaches_any(of, cell, lights[i].light) : reaching.contains(lights[i].light);
-    lights[i].passes = passes[i];
+    lights[i].passes = explained[i].passes;
   }
+  if (!looks) return;
+  const bool is_listed = std::ranges::find(lights, *of.light, &ListedLight::light) != lights.end();
+  found.looked_at = {
+      .light = *of.light, .listed = is_listed, .passes = explained.back().passes, .parts = explained.back().parts};
 }
 
 /// Lights, and what the mirrored ray has of the reflection.
@@ -210,13 +218,6 @@ std::vector<ListedProbe> listed_probes(const Inspected& of, std::uint32_t pixel,
   return probes;
 }
 
-std::string names_of(std::uint32_t tests) {
-  std::string names;
-  for (std::size_t i = 0; i < test_names().size(); ++i)
-    if ((tests >> i & 1U) != 0) names += fmt::format("{}{}", names.empty() ? "" : ", ", test_names()[i]);
-  return names;
-}
-
 }  // namespace
 
 std::string words_of(const Proof& proof) {
@@ -232,6 +233,13 @@ std::string words_of(const Proof& proof) {
 std::span<const std::string_view> test_names() {
   static constexpr std::array<std::string_view, 6> NAMES{"sides", "depths", "mask", "box", "exact", "cone"};
   return NAMES;
+}
+
+std::string names_of(std::uint32_t tests) {
+  std::string names;
+  for (std::size_t i = 0; i < test_names().size(); ++i)
+    if ((tests >> i & 1U) != 0) names += fmt::format("{}{}", names.empty() ? "" : ", ", test_names()[i]);
+  return names;
 }
 
 std::string why_listed(const ListedLight& light, const OwnTests& own) {
@@ -277,7 +285,8 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   found.probes = listed_probes(of, static_cast<std::uint32_t>(number), probes, found.mirrored);
   const Truth truth = truth_of(of, cell);
   found.proof.pixels = cell.pixels.size();
-  add_reasons(of, cell, truth, found.lights);
+  found.mask = mask_of(of, cell);
+  add_reasons(of, cell, truth, found);
   add(found.proof, truth, of.renderer.visit(of.lighting, truth), view.width());
   add_still(found.proof, of, cell.pixels);
   return found;

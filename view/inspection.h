@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "oracle/reference.h"
 #include "render/lighting.h"
 #include "render/renderer.h"
+#include "render/shaders/cell_mask_data.h"
 #include "render/shaders/explain_data.h"
 #include "view/own_tests.h"
 #include "view/still_pixels.h"
@@ -47,8 +49,17 @@ struct Proof {
 [[nodiscard]] std::string why_listed(const ListedLight& light, const OwnTests& own);
 /// The same in whole sentences, for who does not know the tests.
 [[nodiscard]] std::string explained(const ListedLight& light, const OwnTests& own);
-/// The names of the tests in `passes`.
+/// The names of all tests, in the order of their bits; and those of some, with commas between.
 [[nodiscard]] std::span<const std::string_view> test_names();
+[[nodiscard]] std::string names_of(std::uint32_t tests);
+
+/// The light that is looked at, listed or not, against the cell's pixels.
+struct LookedAt {
+  std::uint32_t light = 0;
+  bool listed = false;
+  std::uint32_t passes = 0;  ///< gpu::PASSES_SIDES and so on
+  std::uint32_t parts = 0;   ///< of the mask, that its depths meet
+};
 
 /// A reflection probe whose volume the method lists for the pixel.
 struct ListedProbe {
@@ -71,6 +82,8 @@ struct Inspection {
   float cell_near_m = 0.0F;  ///< of the surfaces in the cell's pixels, z_view
   float cell_far_m = 0.0F;
   std::vector<ListedLight> lights;  ///< ascending
+  gpu::CellMask mask{};             ///< what a mask of the cell's depths holds, whether the method keeps one or not
+  std::optional<LookedAt> looked_at;
   OwnTests own;                     ///< of the method
   OwnTests still_own;               ///< of lists of still lights
   Proof proof;                      ///< of all pixels of the cell
@@ -90,6 +103,7 @@ struct Inspected {
   std::span<const Visit> visits;          ///< of all pixels
   std::span<const float> depth;           ///< likewise
   const StillPixels* still = nullptr;     ///< null: all lights are the picture's
+  std::optional<std::uint32_t> light;     ///< that is looked at
 
   /// The lights that the picture's lists have.
   [[nodiscard]] std::span<const shared::Light> listed() const {

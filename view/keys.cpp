@@ -14,7 +14,7 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<KeyHelp, 26> HELP{{
+constexpr std::array<KeyHelp, 27> HELP{{
     {"H, F1", "Shows and hides this help."},
     {"Tab", "Shows and hides the panels."},
     {"click", "Looks into a pixel: its cell and the lights there."},
@@ -30,6 +30,7 @@ constexpr std::array<KeyHelp, 26> HELP{{
     {"3, 4", "The slice of clusters nearer, farther."},
     {"Z", "Shows bins of depth as a strip."},
     {"L", "Shows lights: none, those of the cell, all."},
+    {"K", "Shows the cells that list the light that is looked at."},
     {"X", "Shows the meshes that a method rasterises: none, of the cell's lights, of all."},
     {"C", "Shows what the light's shadow map bounds: nothing, by direction, its mesh."},
     {"Y", "Shows cells of the world around the picked point."},
@@ -75,6 +76,8 @@ void move_slice(ViewState& state, float factor) {
   state.slice_m = std::clamp(state.slice_m * factor, 0.01F, 1e6F);
 }
 
+void toggle(Overlay& overlay, Overlay which) { overlay = overlay == which ? Overlay::none : which; }
+
 void step_time(ViewState& state, const Shown& shown, int by) {
   state.paused = true;
   const int frames = shown.flight_frames != 0 ? static_cast<int>(shown.flight_frames) : 300;
@@ -92,6 +95,7 @@ void apply_letter(std::string_view key, int by, ViewState& state, const Shown& s
   if (key == "g") state.request.path = next_name(state.request.path, path_names(), by);
   if (key == "b") state.against = state.against ? std::nullopt : std::optional(Against());
   if (key == "v") wishes.prove = true;
+  if (key == "k") toggle(state.overlay, Overlay::light_cells);
   if (key == "x") next_word(state.proxies, light_mark_names().size(), by);
   if (key == "c") next_word(state.shadow_shape, shadow_shape_names().size(), by);
   if (key == "y") state.world_cells = !state.world_cells;

@@ -14,7 +14,12 @@ namespace lamp::app {
 namespace {
 
 constexpr float DOT_PX = 3.0F;
-constexpr int AROUND = 24;  // corners of a circle
+constexpr int AROUND = 48;  // corners of a circle
+
+struct Ink {
+  ImU32 color;
+  float width = 1.0F;
+};
 
 struct Marks {
   const View& view;
@@ -27,16 +32,16 @@ struct Marks {
     const glm::vec2 px = glm::vec2(picture.min) + *place * glm::vec2(picture.size());
     return ImVec2(px.x, px.y);
   }
-  /// A closed line through points around a centre, where all are ahead of the eye.
-  void ring(const glm::vec3& center, const glm::vec3& u, const glm::vec3& v, ImU32 color) const {
-    std::array<ImVec2, AROUND> corners;
+  /// A closed line through points around a centre, as far as they are ahead of the eye.
+  void ring(const glm::vec3& center, const glm::vec3& u, const glm::vec3& v, const Ink& ink) const {
+    std::array<std::optional<ImVec2>, AROUND> corners;
     for (int i = 0; i < AROUND; ++i) {
       const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / AROUND;
-      const auto corner = at(center + std::cos(angle) * u + std::sin(angle) * v);
-      if (!corner) return;
-      corners[static_cast<std::size_t>(i)] = *corner;
+      corners[static_cast<std::size_t>(i)] = at(center + std::cos(angle) * u + std::sin(angle) * v);
     }
-    draw.AddPolyline(corners.data(), AROUND, color, ImDrawFlags_Closed, 1.0F);
+    for (std::size_t i = 0; i < AROUND; ++i)
+      if (const auto &from = corners[i], &to = corners[(i + 1) % AROUND]; from && to)
+        draw.AddLine(*from, *to, ink.color, ink.width);
   }
 };
 
@@ -46,7 +51,7 @@ ImU32 mark_color(const shared::Light& light, float alpha) {
   return ImGui::GetColorU32(ImVec4(color.r, color.g, color.b, alpha));
 }
 
-void draw_cone(const Marks& marks, const shared::Light& light) {
+void draw_cone(const Marks& marks, const shared::Light& light, const Ink& ink) {
   const glm::vec3 apex_at = light.position;
   const glm::vec3 axis = light.direction;
   const glm::vec3 side = std::abs(axis.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
@@ -54,30 +59,42 @@ void draw_cone(const Marks& marks, const shared::Light& light) {
   const glm::vec3 v = glm::cross(axis, u);
   const float along = light.range * std::cos(light.outer_angle);
   const float across = light.range * std::sin(light.outer_angle);
-  const ImU32 color = mark_color(light, 0.6F);
-  marks.ring(apex_at + along * axis, across * u, across * v, color);
+  marks.ring(apex_at + along * axis, across * u, across * v, ink);
   const auto apex = marks.at(apex_at);
   for (const glm::vec3& edge : {u, -u, v, -v})
     if (const auto end = marks.at(apex_at + along * axis + across * edge); apex && end)
-      marks.draw.AddLine(*apex, *end, color);
+      marks.draw.AddLine(*apex, *end, ink.color, ink.width);
+}
+
+bool has_outline(const shared::Light& light) { return std::isfinite(light.range) && light.range < 1e6F; }
+
+void draw_outline(const Marks& marks, const shared::Light& light, const Ink& ink) {
+  if (light.type == shared::LIGHT_SPOT) return draw_cone(marks, light, ink);
+  const glm::mat3 world_from_view(glm::dmat4(marks.view.world_from_view()));
+  marks.ring(light.position, light.range * world_from_view[0], light.range * world_from_view[1], ink);
 }
 
 /// True if the light is in sight.
 bool draw_light(const Marks& marks, const shared::Light& light, bool outlined) {
+  if (outlined && has_outline(light)) draw_outline(marks, light, {.color = mark_color(light, 0.6F)});
   const auto at = marks.at(light.position);
-  if (outlined && std::isfinite(light.range) && light.range < 1e6F) {
-    if (light.type == shared::LIGHT_SPOT) {
-      draw_cone(marks, light);
-    } else {
-      const glm::mat3 world_from_view(glm::dmat4(marks.view.world_from_view()));
-      marks.ring(light.position, light.range * world_from_view[0], light.range * world_from_view[1],
-                 mark_color(light, 0.6F));
-    }
-  }
   if (!at) return false;
   marks.draw.AddCircleFilled(*at, DOT_PX, mark_color(light, 1.0F), 8);
   marks.draw.AddCircle(*at, DOT_PX + 1.0F, IM_COL32(0, 0, 0, 160), 8);
   return true;
+}
+
+/// Stands out from any picture, and a point light's sphere is one: three circles of it, too.
+void draw_looked_at(const Marks& marks, const shared::Light& light) {
+  for (const Ink& ink : {Ink{IM_COL32(0, 0, 0, 180), 4.0F}, Ink{mark_color(light, 1.0F), 2.0F}}) {
+    if (!has_outline(light)) break;
+    draw_outline(marks, light, ink);
+    if (light.type == shared::LIGHT_SPOT) continue;
+    const glm::mat3 axes(light.range);
+    for (int i = 0; i < 3; ++i) marks.ring(light.position, axes[i], axes[(i + 1) % 3], {ink.color, 0.5F * ink.width});
+  }
+  draw_light(marks, light, false);
+  if (const auto at = marks.at(light.position)) marks.draw.AddCircle(*at, 3.0F * DOT_PX, IM_COL32_WHITE, 16, 2.0F);
 }
 
 /// To be popped by the caller.
@@ -127,11 +144,7 @@ void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& pi
     for (std::size_t i = 0; i < shown.lights->size() && drawn < MOST_MARKS; ++i)
       drawn += draw_light(marks, shown.lights->all()[i], shown.lights->size() <= MOST_OUTLINED) ? 1 : 0;
   }
-  if (one) {
-    const shared::Light& light = shown.lights->all()[*shown.state.light];
-    draw_light(marks, light, true);
-    if (const auto at = marks.at(light.position)) draw.AddCircle(*at, 3.0F * DOT_PX, IM_COL32_WHITE, 16, 2.0F);
-  }
+  if (one) draw_looked_at(marks, shown.lights->all()[*shown.state.light]);
   draw.PopClipRect();
 }
 

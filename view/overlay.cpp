@@ -152,6 +152,10 @@ Overlaid difference(const Walked& walked) {
 
 }  // namespace
 
+Overlaid refused_overlay(Overlay overlay, std::size_t pixels, std::string why) {
+  return {.pixels = std::vector<std::uint32_t>(pixels), .legend = {.overlay = overlay, .refused = std::move(why)}};
+}
+
 std::vector<ListLengths> list_lengths(std::span<const Visit> visits) {
   std::unordered_map<std::uint32_t, std::uint32_t> lengths;
   for (const Visit& visit : visits) {
@@ -244,7 +248,9 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
     case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay, make_shadow_heat
     case Overlay::shadow_age:
     case Overlay::shadow_size:
-    case Overlay::slice:  // of another walk: make_slice
+    case Overlay::slice:        // of another walk: make_slice
+    case Overlay::light_cells:  // make_light_cells
+    case Overlay::mask:         // make_mask_overlay
     case Overlay::none:
       break;
   }

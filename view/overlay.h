@@ -37,6 +37,9 @@ struct Legend {
   std::uint64_t cells = 0;  ///< that hold pixels; of Overlay::overflow, pixels that walk every light; of
                             ///< Overlay::missed, pixels that miss one, and `max` is of how many pairs; of
                             ///< Overlay::difference, pixels that differ, and `mean` is of the first less the second
+  // Of Overlay::light_cells, whose `cells` list the light:
+  std::uint64_t reached = 0;  ///< of these cells, those in which it reaches a pixel
+  std::uint64_t lacking = 0;  ///< cells in which it does, and that do not list it
 };
 
 /// RGBA of every pixel, eight bits each, red lowest. Alpha 0 leaves the picture as it is.
@@ -45,6 +48,9 @@ struct Overlaid {
   Legend legend;
 };
 [[nodiscard]] Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked);
+
+/// Nothing over the picture, and why.
+[[nodiscard]] Overlaid refused_overlay(Overlay overlay, std::size_t pixels, std::string why);
 
 /// Cells whose lists have from `low` to `high` lights.
 struct ListLengths {

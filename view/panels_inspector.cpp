@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/light_cells.h"
+#include "view/mask_overlay.h"
 #include "view/panels.h"
 #include "view/shape_lines.h"
 #include "view/world_boxes.h"
@@ -37,7 +39,9 @@ void draw_inspection(InspectorFrame& p) {
   Widgets::note(
       "Click a row: its light is shown in the picture, and can be changed. Point at a reason: it is explained. Tests "
       "see the cell's pixels; the method's own cell may be larger.");
+  mask_of_cell(found);
   light_editor(p);
+  cells_of_light(p.state, p.widgets);
   shadow_of_light(shown, p.state, p.widgets);
 }
 

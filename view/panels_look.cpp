@@ -8,12 +8,16 @@
 
 #include "commands/pictures.h"
 #include "render/heatmap_legend.h"
+#include "view/light_cells.h"
+#include "view/mask_overlay.h"
 #include "view/panels.h"
 
 namespace lamp::app {
 namespace {
 
 ImU32 color_of(glm::u8vec3 color) { return IM_COL32(color.r, color.g, color.b, 255); }
+
+bool in_metres(Overlay overlay) { return overlay == Overlay::depth_range || overlay == Overlay::mask; }
 
 /// The scale with numbers below it.
 void draw_scale(const Legend& legend, Palette palette) {
@@ -34,7 +38,7 @@ void draw_scale(const Legend& legend, Palette palette) {
     if (share > 0.0) ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + x, 0.0F);
     ImGui::TextUnformatted(text.c_str());
   };
-  if (legend.overlay != Overlay::depth_range) {
+  if (!in_metres(legend.overlay)) {
     const double middle = std::exp2(std::round(std::log2(legend.high) / 2.0));
     number(0.0, "1");
     number(heat_position(middle, static_cast<std::uint32_t>(legend.high)), fmt::format("{:.0f}", middle));
@@ -55,7 +59,25 @@ void shadow_heat_text(const char* what, const Legend& legend) {
             .c_str());
 }
 
-void legend_text(const Legend& legend) {
+/// What the overlays say that know of the whole frame.
+std::string words_of_light_cells(const Shown& shown) {
+  const std::uint32_t light = shown.state.light.value_or(0);
+  const std::string first = words_of_light_cells(shown.first.legend, light);
+  if (!shown.second) return first;
+  return fmt::format("A: {}\nB: {}", first, words_of_light_cells(shown.second->legend, light));
+}
+
+std::string words_of_masks(const Shown& shown) {
+  const Stats& stats = shown.first.stats;
+  return words_of_masks(shown.first.legend, shown.first.keeps_masks, stats.method);
+}
+
+void legend_text(const Shown& shown) {
+  const Legend& legend = shown.first.legend;
+  if (!legend.refused.empty()) {
+    ImGui::TextUnformatted(legend.refused.c_str());
+    return;
+  }
   switch (legend.overlay) {
     case Overlay::heat:
       ImGui::TextUnformatted(
@@ -96,23 +118,25 @@ void legend_text(const Legend& legend) {
       shadow_heat_text("texels a side of the smallest map that a pixel looks up", legend);
       break;
     case Overlay::slice:
-      ImGui::TextUnformatted(
-          legend.refused.empty()
-              ? fmt::format("lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} "
-                            "cells; fainter behind surfaces",
-                            legend.mean, legend.max, legend.cells)
-                    .c_str()
-              : legend.refused.c_str());
+      ImGui::TextUnformatted(fmt::format("lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} "
+                                         "cells; fainter behind surfaces",
+                                         legend.mean, legend.max, legend.cells)
+                                 .c_str());
+      break;
+    case Overlay::light_cells:
+      ImGui::TextUnformatted(words_of_light_cells(shown).c_str());
+      break;
+    case Overlay::mask:
+      ImGui::TextUnformatted(words_of_masks(shown).c_str());
       break;
     case Overlay::none:
       break;
   }
 }
 
-/// Which colour stands for which of two methods.
-void draw_sides() {
-  for (const auto& [color, words] :
-       {std::pair(FIRST_WALKS_MORE, "A walks more"), std::pair(SECOND_WALKS_MORE, "B walks more")}) {
+/// What colours stand for.
+void draw_colors(std::initializer_list<std::pair<glm::u8vec3, const char*>> colors) {
+  for (const auto& [color, words] : colors) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float side = ImGui::GetFontSize();
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, color_of(color));
@@ -139,12 +163,15 @@ void look_panel(PanelFrame& p) {
   }
   p.widgets.choose_word(
       "overlay", p.state.overlay, overlay_names(),
-      "What is laid over the picture: how many lights pixels walk, the cells, how deep they reach, those that did not "
-      "fit, what is missed, how two methods differ, how old and how large shadow maps are, or a slice through the "
+      "What is laid over the picture: how many lights pixels walk, the cells, those that list one light, how deep they "
+      "reach and what a mask of that leaves out, those that did not fit, what is missed, how two methods differ, how "
+      "old and how large shadow maps are, or a slice through the "
       "clusters.",
       [&](std::string_view name) {
         const auto overlay = static_cast<Overlay>(std::ranges::find(overlay_names(), name) - overlay_names().begin());
         if (is_of_shadows(overlay) && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
+        if (overlay == Overlay::light_cells && !p.state.light)
+          return std::string("no light is looked at: click a pixel, then a row of the inspector's table");
         return overlay == Overlay::difference && !p.state.against
                    ? std::string("needs a second method: see A against B, or press B")
                    : "";
@@ -175,17 +202,19 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
   if (ImGui::Begin("legend", nullptr, FIXED)) {
     const Legend& legend = shown.first.legend;
     ImGui::PushTextWrapPos(std::max(100.0F, static_cast<float>(picture.size().x) - 32.0F));
-    legend_text(legend);
+    legend_text(shown);
     const std::uint64_t cells = shown.first.cells.cells + (shown.second ? shown.second->cells.cells : 0);
     if (const std::string words = words_of_numbers(cells, numbers); !words.empty())
       ImGui::TextUnformatted(words.c_str());
     ImGui::PopTextWrapPos();
     const bool scaled = legend.overlay == Overlay::heat ||
-                        (legend.overlay == Overlay::slice && legend.refused.empty()) ||
-                        legend.overlay == Overlay::depth_range || legend.overlay == Overlay::shadow_age ||
-                        legend.overlay == Overlay::shadow_size;
+                        (legend.overlay == Overlay::slice && legend.refused.empty()) || in_metres(legend.overlay) ||
+                        legend.overlay == Overlay::shadow_age || legend.overlay == Overlay::shadow_size;
     if (scaled) draw_scale(legend, shown.state.palette);
-    if (legend.overlay == Overlay::difference) draw_sides();
+    if (legend.overlay == Overlay::difference)
+      draw_colors({{FIRST_WALKS_MORE, "A walks more"}, {SECOND_WALKS_MORE, "B walks more"}});
+    if (legend.overlay == Overlay::light_cells && legend.refused.empty())
+      draw_colors({{REACHES_A_PIXEL, "it reaches a pixel of the cell"}, {LISTED_IN_VAIN, "listed in vain"}});
     if (shown.picture_difference)
       ImGui::TextUnformatted(
           fmt::format("largest difference of the two pictures: {:.3g}", *shown.picture_difference).c_str());

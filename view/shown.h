@@ -26,6 +26,7 @@ struct ShownSide {
   bool by_auto = false;
   Legend legend;
   std::vector<ListLengths> lengths;  ///< where lists were walked
+  bool keeps_masks = false;          ///< of the occupied parts of each cell's depths
   CellPlaces cells;                  ///< with Overlay::cells
 };
 

@@ -105,6 +105,8 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
                                      chosen.lighting, std::move(rendered)),
                  .by_auto = chosen.by_auto,
                  .legend = {}};
+  const OwnTests own = own_tests(chosen.lighting.runner().plan(), chosen.lighting.info().options);
+  made.keeps_masks = (own.passes & gpu::PASSES_MASK) != 0;
   made.stats.shadows = shadow_stats(renderer_->shadows());
   made.stats.mirror = mirror_stats(renderer_->mirrored());
   if (probes_ && probes_->captures) made.stats.captures = probes_->captures->counts();
@@ -129,26 +131,7 @@ Legend Stage::lay_over(const Overlaying& o) {
   const Overlay overlay = o.state.overlay;
   if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
   visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
-  const bool with_still = still_ && overlay == Overlay::heat;
-  std::vector<Visit> walked;
-  if (with_still) {
-    walked = visits_;
-    add_still_walks(walked);
-  }
-  const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
-  const Overlaid made = is_of_shadows(overlay) ? shadow_overlay(o)
-                        : overlay == Overlay::slice
-                            ? slice_overlay(o)
-                            : make_overlay(overlay, o.state.palette,
-                                           {.view = view,
-                                            .visits = o.second && !other.empty() ? other
-                                                      : with_still               ? walked
-                                                                                 : visits_,
-                                            .depth = depth_,
-                                            .other = o.second ? visits_ : other,
-                                            .lights = static_cast<std::uint32_t>(lights_->lights->size()),
-                                            .overflowed = o.overflowed,
-                                            .scale_max = o.scale_max});
+  const Overlaid made = overlaid(o);
   const std::span<std::uint32_t> to = display_->overlay();
   for (std::uint32_t y = 0; y < view.height(); ++y)
     for (std::uint32_t x = o.first_x; x < std::min(o.end_x, view.width()); ++x)
@@ -156,7 +139,7 @@ Legend Stage::lay_over(const Overlaying& o) {
   return made.legend;
 }
 
-Inspected Stage::inspected(Lighting& lighting) {
+Inspected Stage::inspected(Lighting& lighting, std::optional<std::uint32_t> light) {
   depth_ = renderer_->read_depth();
   visits_ = renderer_->visit_all(lighting);
   still_at_.reset();
@@ -168,7 +151,8 @@ Inspected Stage::inspected(Lighting& lighting) {
           .lights = lights_->lights->all(),
           .visits = visits_,
           .depth = depth_,
-          .still = still_at_ ? &*still_at_ : nullptr};
+          .still = still_at_ ? &*still_at_ : nullptr,
+          .light = light};
 }
 
 Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
@@ -218,7 +202,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
   auto [first, first_lighting] = draw_side(state.request.method, state.request.options, 0, end_x, true);
   shown.first = std::move(first);
   if (state.picked) {
-    shown.inspection = inspect(inspected(*first_lighting), picked_pixel(asked));
+    shown.inspection = inspect(inspected(*first_lighting, state.light), picked_pixel(asked));
     set_walked(shown.first.stats, visits_);
   }
   add_findings(state, *first_lighting, shown);

@@ -101,8 +101,13 @@ class Stage {
     std::uint32_t end_x = 0;
   };
   [[nodiscard]] Legend lay_over(const Overlaying& o);
+  /// Of `visits_`, which are known.
+  [[nodiscard]] Overlaid overlaid(const Overlaying& o);
+  [[nodiscard]] Overlaid walk_overlay(const Overlaying& o);
   [[nodiscard]] Overlaid shadow_overlay(const Overlaying& o);
   [[nodiscard]] Overlaid slice_overlay(const Overlaying& o);
+  [[nodiscard]] Overlaid light_cells_overlay(const Overlaying& o);
+  [[nodiscard]] Overlaid mask_overlay(const Overlaying& o);
   /// What lists of the first method hold besides what its pixels walk, as far as the state asks for it.
   void add_findings(const ViewState& state, Lighting& lighting, Shown& shown);
   /// Of what the method made last; nothing if it has none.
@@ -122,7 +127,7 @@ class Stage {
   [[nodiscard]] float picture_difference(const ViewState& state);
   /// Of all pixels, against the oracle's truth of `depth_`.
   [[nodiscard]] std::vector<Visit> checked_visits(Lighting& lighting);
-  [[nodiscard]] Inspected inspected(Lighting& lighting);
+  [[nodiscard]] Inspected inspected(Lighting& lighting, std::optional<std::uint32_t> light = std::nullopt);
   /// The state's picked pixel, of what is rendered.
   [[nodiscard]] glm::uvec2 picked_pixel(const ViewState& asked) const;
   /// The state's frame in the renderer, drawn.

@@ -7,13 +7,17 @@
 
 #include "gpu/check.h"
 #include "gpu/transfer.h"
+#include "render/cell_masks.h"
 #include "render/judgement.h"
 #include "render/pass_uses.h"
+#include "render/pixel_lights.h"
 #include "render/shadow_heat.h"
 #include "render/slice_walk.h"
 #include "view/depth_bins.h"
+#include "view/light_cells.h"
+#include "view/mask_overlay.h"
 #include "view/shadow_overlay.h"
-#include "view/stage.h"
+#include "view/stage_kept.h"
 
 namespace lamp::app {
 
@@ -48,19 +52,75 @@ Overlaid Stage::shadow_overlay(const Overlaying& o) {
 }
 
 Overlaid Stage::slice_overlay(const Overlaying& o) {
-  if (!o.lighting.runner().plan().any_depth) {
-    const std::string refused = fmt::format(
-        "{} lists lights for the depths of surfaces alone: a slice through the air needs a method that is right at any "
-        "depth, such as clustered",
-        o.lighting.info().method->name);
-    return {.pixels = std::vector<std::uint32_t>(visits_.size()),
-            .legend = {.overlay = Overlay::slice, .refused = refused}};
-  }
+  if (!o.lighting.runner().plan().any_depth)
+    return refused_overlay(Overlay::slice, visits_.size(),
+                           fmt::format("{} lists lights for the depths of surfaces alone: a slice through the air "
+                                       "needs a method that is right at any depth, such as clustered",
+                                       o.lighting.info().method->name));
   depth_ = renderer_->read_depth();
   const std::vector<Visit> visits = visit_at(*renderer_, o.lighting, o.state.slice_m);
   return make_slice(o.state.palette,
                     {.view = renderer_->view(), .visits = visits, .depth = depth_, .scale_max = o.scale_max},
                     o.state.slice_m);
+}
+
+Overlaid Stage::light_cells_overlay(const Overlaying& o) {
+  const auto refused = [&](std::string why) {
+    return refused_overlay(Overlay::light_cells, visits_.size(), std::move(why));
+  };
+  const std::span<const shared::Light> lights = lights_->lights->all();
+  if (!o.state.light) return refused("no light is looked at: click a pixel, then a row of the inspector's table");
+  const std::uint32_t light = *o.state.light;
+  if (light >= lights.size())
+    return refused(fmt::format("there is no light {}: the frame has {}", light, lights.size()));
+  if (light >= listed_count())
+    return refused(
+        fmt::format("light {} stands still: it is in lists of its own, which have no cells of the picture", light));
+  const View& view = renderer_->view();
+  depth_ = renderer_->read_depth();
+  std::vector<Reach> reached(visits_.size(), Reach::outside);
+  for (std::uint32_t i = 0; i < reached.size(); ++i)
+    if (visits_[i].cell != gpu::SKY_CELL)
+      reached[i] = reach(lights[light], view.world_position(i % view.width(), i / view.width(), depth_[i]));
+  return make_light_cells({.width = view.width(),
+                           .visits = visits_,
+                           .listed = pixels_with(*renderer_, o.lighting, light),
+                           .reached = reached});
+}
+
+Overlaid Stage::mask_overlay(const Overlaying& o) {
+  const NumberedCells cells = numbered_cells(visits_);
+  return make_mask_overlay(o.state.palette, cells.of_pixels, cell_masks(*renderer_, cells.of_pixels, cells.count),
+                           o.scale_max);
+}
+
+Overlaid Stage::walk_overlay(const Overlaying& o) {
+  const Overlay overlay = o.state.overlay;
+  const bool with_still = still_ && overlay == Overlay::heat;
+  std::vector<Visit> walked;
+  if (with_still) {
+    walked = visits_;
+    add_still_walks(walked);
+  }
+  const std::vector<Visit> other = overlay == Overlay::difference ? visits_of_other(o) : std::vector<Visit>();
+  return make_overlay(overlay, o.state.palette,
+                      {.view = renderer_->view(),
+                       .visits = o.second && !other.empty() ? other
+                                 : with_still               ? walked
+                                                            : visits_,
+                       .depth = depth_,
+                       .other = o.second ? visits_ : other,
+                       .lights = static_cast<std::uint32_t>(lights_->lights->size()),
+                       .overflowed = o.overflowed,
+                       .scale_max = o.scale_max});
+}
+
+Overlaid Stage::overlaid(const Overlaying& o) {
+  if (is_of_shadows(o.state.overlay)) return shadow_overlay(o);
+  if (o.state.overlay == Overlay::slice) return slice_overlay(o);
+  if (o.state.overlay == Overlay::light_cells) return light_cells_overlay(o);
+  if (o.state.overlay == Overlay::mask) return mask_overlay(o);
+  return walk_overlay(o);
 }
 
 std::vector<std::uint32_t> Stage::read_words(VkBuffer buffer, std::size_t count, std::size_t first) {

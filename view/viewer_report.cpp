@@ -1,12 +1,19 @@
 // What is set and what is seen, as JSON: for scripts.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <nlohmann/json.hpp>
 
+#include "view/mask_overlay.h"
 #include "view/viewer.h"
 
 namespace lamp::app {
 namespace {
+
+nlohmann::json report_of(const Legend& legend) {
+  return {{"mean", legend.mean},       {"max", legend.max},         {"cells", legend.cells},
+          {"reached", legend.reached}, {"lacking", legend.lacking}, {"refused", legend.refused}};
+}
 
 nlohmann::json report_of(const DepthBins& bins, const std::optional<Inspection>& picked) {
   std::uint32_t longest = 0;
@@ -56,12 +63,12 @@ nlohmann::json Viewer::report() const {
                                    {"refused", list.refused}};
   json["outdated"] = outdated();
   json["list_row_in_sight"] = list_scroll_.in_sight;
-  if (shown_.first.legend.overlay != Overlay::none)
-    json["legend"] = {{"mean", shown_.first.legend.mean},
-                      {"max", shown_.first.legend.max},
-                      {"cells", shown_.first.legend.cells},
-                      {"numbers", numbers_},
-                      {"refused", shown_.first.legend.refused}};
+  if (shown_.first.legend.overlay != Overlay::none) {
+    json["legend"] = report_of(shown_.first.legend);
+    json["legend"]["numbers"] = numbers_;
+    if (shown_.second) json["legend_b"] = report_of(shown_.second->legend);
+  }
+  if (shown_.number != 0) json["keeps_masks"] = shown_.first.keeps_masks;
   if (shown_.proxies)
     json["proxies_shown"] = {{"drawn", shown_.proxies->drawn},
                              {"cut", shown_.proxies->cut},
@@ -97,7 +104,13 @@ nlohmann::json Viewer::report() const {
                         {"of_larger_cells", larger},
                         {"still_lights", std::ranges::count(found.lights, true, &ListedLight::still)},
                         {"missed", found.proof.missed},
-                        {"pairs", found.proof.pairs}};
+                        {"pairs", found.proof.pairs},
+                        {"occupied_parts", std::popcount(found.mask.mask)},
+                        {"empty_m", empty_m(found.mask)}};
+  if (found.looked_at)
+    json["inspection"]["looked_at"] = {{"listed", found.looked_at->listed},
+                                       {"parts", std::popcount(found.looked_at->parts)},
+                                       {"words", words_of_parts(found)}};
   for (const ListedProbe& probe : found.probes)
     json["inspection"]["probes"].push_back({{"slot", probe.slot}, {"weight", probe.weight}, {"share", probe.share}});
   return json;

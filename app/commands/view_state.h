@@ -20,7 +20,9 @@ enum class Overlay : std::uint8_t {
   none,
   heat,          ///< lights that each pixel walks
   cells,         ///< a colour for each cell
+  light_cells,   ///< cells that list the light that is looked at, and of them those in which it reaches a pixel
   depth_range,   ///< how deep the surfaces of a cell's pixels reach from front to back
+  mask,          ///< how much of that a mask of the occupied parts leaves out
   overflow,      ///< cells that did not fit, in a signal colour
   missed,        ///< pixels whose list lacks a light that reaches them, likewise
   difference,    ///< lights that one of two methods walks and the other does not; of two methods alone
@@ -29,8 +31,8 @@ enum class Overlay : std::uint8_t {
   shadow_size,   ///< texels a side of the smallest of them
   slice,         ///< lights that a point of each pixel's ray would walk, at one depth
 };
-/// "none", "heat", "cells", "depth-range", "overflow", "missed", "difference", "shadow-atlas", "shadow-age",
-/// "shadow-size", "slice", in the order of Overlay.
+/// "none", "heat", "cells", "light-cells", "depth-range", "mask", "overflow", "missed", "difference", "shadow-atlas",
+/// "shadow-age", "shadow-size", "slice", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
 
 /// Whether an overlay shows shadow maps: without a light that casts a shadow there is nothing to lay over.

@@ -60,19 +60,29 @@ std::vector<Answer> for_lights(Renderer& renderer, const ShaderLibrary& shaders,
   return found;
 }
 
-std::vector<std::uint32_t> entities_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel,
-                                       const EntityRange& range) {
-  const std::uint32_t words = (range.count() + 31) / 32;
-  const vulkan::Buffer marks = readback_buffer(renderer.device(), "marks of a pixel", words * sizeof(std::uint32_t));
+struct MarkedPixels {
+  std::uint32_t first = 0;
+  std::uint32_t end = 0;
+};
+
+/// For each pixel a bit for each entity of the range that its walk brings, in whole words.
+std::vector<std::uint32_t> marks_at(Renderer& renderer, Lighting& lighting, const MarkedPixels& pixels,
+                                    const EntityRange& range) {
+  const std::size_t words = std::size_t{pixels.end - pixels.first} * ((range.count() + 31) / 32);
+  const vulkan::Buffer marks = readback_buffer(renderer.device(), "marks of pixels", words * sizeof(std::uint32_t));
   renderer.run({.shader = "visit_marks",
                 .lighting = &lighting,
                 .storage = {{2, vulkan::Resource::storage(marks.handle()),
                              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                              /*zeroed=*/true}},
-                .push = {pixel, pixel + 1, range.first, range.end, range.end}});
+                .push = {pixels.first, pixels.end, range.first, range.end, range.end}});
   renderer.forget(marks);
-  std::vector<std::uint32_t> found(words);
-  if (words != 0) std::memcpy(found.data(), marks.mapped().data(), words * sizeof(std::uint32_t));
+  return first_values<std::uint32_t>(marks, words);
+}
+
+std::vector<std::uint32_t> entities_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel,
+                                       const EntityRange& range) {
+  const std::vector<std::uint32_t> found = marks_at(renderer, lighting, {pixel, pixel + 1}, range);
   std::vector<std::uint32_t> ids;
   for (std::uint32_t bit = 0; bit < range.count(); ++bit)
     if ((found[bit / 32] >> bit % 32 & 1U) != 0) ids.push_back(range.first + bit);
@@ -83,6 +93,12 @@ std::vector<std::uint32_t> entities_at(Renderer& renderer, Lighting& lighting, s
 
 std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel) {
   return entities_at(renderer, lighting, pixel, renderer.entities().lights);
+}
+
+std::vector<std::uint32_t> pixels_with(Renderer& renderer, Lighting& lighting, std::uint32_t light) {
+  const Targets& targets = renderer.targets();
+  const std::uint32_t id = renderer.entities().lights.first + light;
+  return marks_at(renderer, lighting, {0, targets.width * targets.height}, {id, id + 1});
 }
 
 std::vector<std::uint32_t> probes_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel) {
@@ -128,13 +144,13 @@ PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuS
           .left_by_mirror = terms.back().w};
 }
 
-std::vector<std::uint32_t> explain(Renderer& renderer, const ShaderLibrary& shaders, gpu::ExplainedCell cell,
-                                   std::span<const std::uint32_t> lights) {
+std::vector<gpu::Explained> explain(Renderer& renderer, const ShaderLibrary& shaders, gpu::ExplainedCell cell,
+                                    std::span<const std::uint32_t> lights) {
   cell.count = static_cast<std::uint32_t>(lights.size());
   std::vector<std::uint32_t> push(sizeof(cell) / sizeof(std::uint32_t));
   std::memcpy(push.data(), &cell, sizeof(cell));
-  return for_lights<std::uint32_t>(renderer, shaders, lights,
-                                   {.shader = "explain", .push = std::move(push), .answers = lights.size()});
+  return for_lights<gpu::Explained>(renderer, shaders, lights,
+                                    {.shader = "explain", .push = std::move(push), .answers = lights.size()});
 }
 
 }  // namespace lamp::app

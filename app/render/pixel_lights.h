@@ -17,7 +17,9 @@ namespace lamp::app {
 /// The lights that the walk of a pixel of the last frame brings, ascending; none of sky. Culls anew. `pixel`: numbered
 /// row by row.
 [[nodiscard]] std::vector<std::uint32_t> lights_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel);
-/// The same of reflection probes: their places in the frame's order (Renderer::probes).
+/// Of all pixels of the last frame, 1 where the walk brings the light, else 0. Culls anew.
+[[nodiscard]] std::vector<std::uint32_t> pixels_with(Renderer& renderer, Lighting& lighting, std::uint32_t light);
+/// As `lights_at`, reflection probes: their places in the frame's order (Renderer::probes).
 [[nodiscard]] std::vector<std::uint32_t> probes_at(Renderer& renderer, Lighting& lighting, std::uint32_t pixel);
 
 /// How much of a surface's reflection a probe asks for: by its volume, and with what its capture sees of the surface.
@@ -43,8 +45,9 @@ struct PixelEntities {
 [[nodiscard]] PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene,
                                   const LightingInfo& info, std::uint32_t pixel, const PixelEntities& walked);
 
-/// Which of the library's tests each light passes against the cell (gpu::PASSES_SIDES and so on). `cell.count` is set.
-[[nodiscard]] std::vector<std::uint32_t> explain(Renderer& renderer, const ShaderLibrary& shaders,
-                                                 gpu::ExplainedCell cell, std::span<const std::uint32_t> lights);
+/// Which of the library's tests each light passes against the cell, and which parts of its depths it lies beside.
+/// `cell.count` is set.
+[[nodiscard]] std::vector<gpu::Explained> explain(Renderer& renderer, const ShaderLibrary& shaders,
+                                                  gpu::ExplainedCell cell, std::span<const std::uint32_t> lights);
 
 }  // namespace lamp::app

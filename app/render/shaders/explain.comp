@@ -17,7 +17,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 2, std430) readonly buffer IdBuffer { uint ids[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer LightBuffer { Light lights[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer PassBuffer { uint passes[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer ExplainedBuffer { Explained explained[]; };
 layout(push_constant, scalar) uniform Push { ExplainedCell cell; };
 
 void main() {
@@ -38,5 +38,6 @@ void main() {
   if (sphere_touches_frustum(sphere, sides, cell.z_near, cell.z_far)) passed |= PASSES_EXACT;
   const bool spot = light.type == LIGHT_SPOT;
   if (!spot || spot_touches_tile(frame, light, sides, cell.z_near, cell.z_far, cell.mask)) passed |= PASSES_CONE;
-  passes[i] = passed;
+  const bool beside = (passed & PASSES_DEPTHS) != 0u;
+  explained[i] = Explained(passed, beside ? parts_near(sphere, cell.z_near, scale, ~0u) : 0u);
 }

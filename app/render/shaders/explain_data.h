@@ -30,6 +30,12 @@ struct ExplainedCell {
   uint count;  // of lights
 };
 
+// Of one light.
+struct Explained {
+  uint passes;  // PASSES_SIDES and so on
+  uint parts;   // those of 32 that its depths meet, with a surface or without
+};
+
 #ifdef __cplusplus
 }  // namespace lamp::app::gpu
 #endif
