@@ -17,7 +17,7 @@ constexpr float DOT_PX = 3.0F;
 constexpr int AROUND = 48;  // corners of a circle
 
 struct Ink {
-  ImU32 color;
+  ImU32 color = IM_COL32_WHITE;
   float width = 1.0F;
 };
 

@@ -62,7 +62,7 @@ void shadow_heat_text(const char* what, const Legend& legend) {
 /// What the overlays say that know of the whole frame.
 std::string words_of_light_cells(const Shown& shown) {
   const std::uint32_t light = shown.state.light.value_or(0);
-  const std::string first = words_of_light_cells(shown.first.legend, light);
+  std::string first = words_of_light_cells(shown.first.legend, light);
   if (!shown.second) return first;
   return fmt::format("A: {}\nB: {}", first, words_of_light_cells(shown.second->legend, light));
 }
