@@ -47,13 +47,16 @@ Stage::~Stage() = default;
 
 MethodChoice Stage::choice(const Request& request, const std::string& method, const std::vector<std::string>& options) {
   if (!is_auto(method)) return {.method = &parse_method(method), .options = options};
-  std::string key = fmt::format("{} {} {} {} {} {}", request.scene, request.size, request.lights, request.spots,
-                                request.range, request.seed);
+  std::string key = fmt::format("{} {} {} {} {} {} {} {}", request.scene, request.size, request.lights, request.spots,
+                                request.range, request.seed, request.decals, request.probes);
   if (key != auto_key_) {
-    auto_choice_ = chooser_.choose(*renderer_, {.scene = scene_->scene,
-                                                .view = renderer_->view(),
-                                                .lights = lights_->lights->all(),
-                                                .light_capacity = static_cast<std::uint32_t>(lights_->lights->size())});
+    auto_choice_ = chooser_.choose(
+        *renderer_,
+        {.scene = scene_->scene,
+         .view = renderer_->view(),
+         .lights = lights_->lights->all(),
+         .light_capacity = static_cast<std::uint32_t>(lights_->lights->size()),
+         .boxes = static_cast<std::uint32_t>(lights_->decals.size() + renderer_->probes().probes().size())});
     auto_key_ = std::move(key);
   }
   return auto_choice_;

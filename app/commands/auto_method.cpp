@@ -1,11 +1,13 @@
 // Chooses and explains.
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/auto_method.h"
-#include "system/print.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "lamplight/shared/lamplight.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -36,7 +38,9 @@ MethodChoice AutoMethod::choose(Renderer& renderer, const AutoFrame& frame) {
   if (!known_) known_ = find_calibration(context_, shaders_, file_);
   const std::vector<float> depth = frame.scene.captured ? frame.scene.captured->depth : renderer.draw_depth();
   Workload workload = estimate_workload(frame.view, depth, frame.lights);
-  workload.capacity = frame.light_capacity;
+  workload.capacity = frame.light_capacity + frame.boxes;
+  // Cells that gather are for as many records as a piece has, and cull no boxes by their shape.
+  if (frame.boxes != 0) workload.capacity = std::max(workload.capacity, shared::PIECE + 1);
   const Choice choice = lamp::choose(known_->calibration, workload, context_.device().traits);
   explanation_ = words_of(workload) + words_of(choice, known_->origin);
   return {.method = &parse_method(choice.method), .options = choice.options, .by_auto = true};
@@ -50,7 +54,8 @@ std::vector<MethodChoice> chosen_methods(Session& session, const Setup& setup, c
     automatic = chooser.choose(session.renderer(), {.scene = setup.scene,
                                                     .view = setup.view,
                                                     .lights = setup.lights,
-                                                    .light_capacity = static_cast<std::uint32_t>(setup.lights.size())});
+                                                    .light_capacity = static_cast<std::uint32_t>(setup.lights.size()),
+                                                    .boxes = static_cast<std::uint32_t>(setup.boxes())});
     if (request.explain) (json ? write_error : write_out)(chooser.explanation());
   }
   std::vector<MethodChoice> chosen;

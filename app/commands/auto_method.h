@@ -24,6 +24,7 @@ struct AutoFrame {
   const View& view;
   std::span<const shared::Light> lights;
   std::uint32_t light_capacity = 0;
+  std::uint32_t boxes = 0;  ///< decals and probes, besides
 };
 
 /// Chooses for frame after frame; finds the calibration when it is first needed.

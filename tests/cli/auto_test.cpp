@@ -53,6 +53,13 @@ TEST_F(Auto, Explains) {
   expect_explained(with_json.err);
 }
 
+TEST_F(Auto, GathersNoBoxes) {
+  for (const char* kind : {"--decals", "--probes"}) {
+    const std::string text = output_of(small({"render", "--explain", kind, "2"}));
+    EXPECT_NE(text.find("lamplight cells=gather   cannot run: "), std::string::npos) << text;
+  }
+}
+
 TEST_F(Auto, IsCheckedLikeAnyMethod) {
   const json rows = json_of(small({"verify", "--method", "auto", "--method", "tiled", "--json"}));
   ASSERT_EQ(rows.size(), 2U);
