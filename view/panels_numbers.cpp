@@ -12,7 +12,7 @@ namespace {
 
 void draw_graph(const Times::Row& row, float top) {
   ImGui::PlotLines(("##" + row.name).c_str(), row.ms.data(), static_cast<int>(row.ms.size()), 0, nullptr, 0.0F, top,
-                   {ImGui::GetWindowWidth() * 0.4F, ImGui::GetFontSize() * 1.4F});
+                   {ImGui::GetWindowWidth() * 0.22F, ImGui::GetFontSize() * 1.4F});
 }
 
 void draw_times(const Times& times) {
@@ -30,6 +30,7 @@ void draw_times(const Times& times) {
     ImGui::TextUnformatted(fmt::format("{:.2f} ({:.2f} .. {:.2f})", row.at(0.5), row.at(0.05), p95).c_str());
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(row.name.c_str());
+    if (ImGui::IsItemHovered()) Widgets::tip(row.name);  // a long one is cut
   }
   ImGui::EndTable();
 }
@@ -76,6 +77,7 @@ void times_panel(PanelFrame& p) {
   const Stats& stats = p.shown.first.stats;
   Widgets::note("Median of the last pictures (5th .. 95th percentile), milliseconds on the device.");
   draw_times(p.times);
+  Widgets::row("GPU's clock", words_of(stats.clock.value_or(Clock())));
   Widgets::row("cells", fmt::format("{}", stats.cells));
   Widgets::row("lists", stats.findings ? fmt::format("{:.1f} lights on average, {} at most",
                                                      stats.findings->list_mean(), stats.findings->list_max)

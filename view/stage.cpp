@@ -41,7 +41,7 @@ bool can_be_laid_over(const ViewState& state) {
 }  // namespace
 
 Stage::Stage(Context& context, const ShaderLibrary& shaders, const std::string& calibration)
-    : context_(context), shaders_(shaders), chooser_(context, shaders, calibration) {}
+    : context_(context), shaders_(shaders), clock_(context), chooser_(context, shaders, calibration) {}
 
 Stage::~Stage() = default;
 
@@ -97,7 +97,7 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
   return {.lighting = lightings_.front().lighting, .by_auto = chosen.by_auto};
 }
 
-ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered rendered) const {
+ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered rendered) {
   ShownSide made{.stats = make_stats({.device = context_.row(),
                                       .scene = state.request.scene,
                                       .view = renderer_->view(),
@@ -110,6 +110,7 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
                  .legend = {}};
   const OwnTests own = own_tests(chosen.lighting.runner().plan(), chosen.lighting.info().options);
   made.keeps_masks = (own.passes & gpu::PASSES_MASK) != 0;
+  made.stats.clock = clock_.read();
   made.stats.shadows = shadow_stats(renderer_->shadows());
   made.stats.mirror = mirror_stats(renderer_->mirrored());
   if (probes_ && probes_->captures) made.stats.captures = probes_->captures->counts();

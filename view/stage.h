@@ -89,7 +89,7 @@ class Stage {
                                     const std::vector<std::string>& options);
   [[nodiscard]] Chosen lighting(const Request& request, const std::string& method,
                                 const std::vector<std::string>& options);
-  [[nodiscard]] ShownSide side(const ViewState& state, const Chosen& chosen, Rendered rendered) const;
+  [[nodiscard]] ShownSide side(const ViewState& state, const Chosen& chosen, Rendered rendered);
   /// An overlay of columns of the picture that `lighting` made last.
   struct Overlaying {
     const ViewState& state;
@@ -135,6 +135,7 @@ class Stage {
 
   Context& context_;
   const ShaderLibrary& shaders_;
+  DeviceClock clock_;
   AutoMethod chooser_;
   std::unique_ptr<KeptScene> scene_;
   std::unique_ptr<KeptLights> lights_;

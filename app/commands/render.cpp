@@ -107,6 +107,7 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   line("times", fmt::format("cull {:.3f} ms{}shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
                             stats.views == 1 ? ", " : " for both eyes; of the left one: ", stats.rendered.shade_ms,
                             stats.rendered.frame_ms, passes));
+  if (stats.clock && stats.clock->now_mhz) line("clock", words_of(*stats.clock));
   if (stats.still) line("still", still_words(*stats.still));
   if (stats.still)
     for (const std::string& note : stats.still->notes) line("note", note);
@@ -145,6 +146,7 @@ struct Drawing {
   const MethodChoice& chosen;
   Lighting& lighting;
   Sampling sampling;
+  DeviceClock& clock;
 };
 
 /// What heat maps are made of.
@@ -177,16 +179,18 @@ void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& dra
 
 /// Draws the session's frame, writes its pictures, and says what it took.
 Stats draw(const RenderOptions& o, const Drawing& drawing) {
-  auto& [session, setup, chosen, lighting, sampling] = drawing;
+  auto& [session, setup, chosen, lighting, sampling, clock] = drawing;
   const std::optional<float> exposure = parse_exposure(o.state.exposure);
   session.renderer().wake(lighting);
   Rendered rendered = render_views(session.renderer(), lighting, setup.lights, setup.decals, sampling);
+  const Clock clock_now = clock.read();
   const std::vector<Visit> visits = visit_all(session, lighting);
   const HdrImage image = std::move(rendered.image);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
   write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
   Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), sampling.frames);
+  stats.clock = clock_now;
   set_walked(stats, visits);
   write_maps(o, drawing, {.stats = stats, .visits = visits, .toned = toned});
   return stats;
@@ -250,7 +254,9 @@ Exit render(const RenderOptions& o) {
   const std::uint32_t timed = wanted.timed != 0 ? wanted.timed : software || wanted.flight ? 1 : 20;
   // A device's first frame is slow: its driver is still translating shaders.
   const std::uint32_t warm_up = !software ? 3 : samples > 1 ? 0 : 1;
-  const Drawing drawing{session, setup, chosen, lighting, {.samples = samples, .frames = timed, .warm_up = warm_up}};
+  DeviceClock clock(session.context());
+  const Drawing drawing{session, setup, chosen, lighting, {.samples = samples, .frames = timed, .warm_up = warm_up},
+                        clock};
   if (wanted.flight) {
     draw_flight(o, drawing, *wanted.flight);
     return Exit::done;

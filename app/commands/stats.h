@@ -10,6 +10,7 @@
 #include "commands/mirror_stats.h"
 #include "commands/request.h"
 #include "commands/still_stats.h"
+#include "gpu/device_clock.h"
 #include "render/judgement.h"
 #include "render/shadow_truth.h"
 
@@ -53,6 +54,7 @@ struct Stats {
   std::optional<Verifier> verifier;        ///< whose truth the findings were held against, if any
   std::optional<float> image_max_abs_diff;
   std::optional<float> image_tolerance;  ///< how large it may be
+  std::optional<Clock> clock;            ///< of the device when it had drawn, where it was asked for
 };
 
 /// What of a run is known before it begins.
