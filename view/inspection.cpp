@@ -292,6 +292,17 @@ Inspection inspect(const Inspected& of, glm::uvec2 pixel) {
   return found;
 }
 
+void compare(OtherList& other, std::span<const ListedLight> lights) {
+  std::vector<std::uint32_t> own;
+  for (const ListedLight& light : lights) own.push_back(light.light);
+  std::ranges::sort(own);
+  other.beyond.clear();
+  other.without.clear();
+  if (!other.refused.empty()) return;
+  std::ranges::set_difference(other.lights, own, std::back_inserter(other.beyond));
+  std::ranges::set_difference(own, other.lights, std::back_inserter(other.without));
+}
+
 Proof prove(const Inspected& of, const std::function<void(float)>& progress) {
   const View& view = of.renderer.view();
   Proof proof;

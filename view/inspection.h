@@ -117,12 +117,15 @@ struct OtherList {
   std::string method;
   std::vector<std::uint32_t> lights;   ///< ascending
   std::size_t reaching = 0;            ///< of them, those that reach the pixel
-  std::vector<std::uint32_t> beyond;   ///< of them, those that the picture's method does not list
-  std::vector<std::uint32_t> without;  ///< that the picture's method lists, and this one does not
+  std::vector<std::uint32_t> beyond;   ///< of them, those that are not in the list of the picture
+  std::vector<std::uint32_t> without;  ///< that the list of the picture has, and this one has not
   std::string refused;                 ///< why this device cannot run it; or empty
 
   [[nodiscard]] bool has(std::uint32_t light) const { return std::ranges::binary_search(lights, light); }
 };
+
+/// Fills what tells it from the list of the picture.
+void compare(OtherList& other, std::span<const ListedLight> lights);
 
 /// The proof of all pixels, in bands; `progress` is told the share that is done.
 [[nodiscard]] Proof prove(const Inspected& of, const std::function<void(float)>& progress);

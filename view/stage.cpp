@@ -287,25 +287,17 @@ std::vector<OtherList> Stage::ask_others(const ViewState& state, glm::uvec2 size
   const glm::uvec2 pixel = glm::min(picked_pixel(state), glm::uvec2(view.width(), view.height()) - 1U);
   const std::uint32_t number = pixel.x + view.width() * pixel.y;
   const glm::dvec3 position = view.world_position(pixel.x, pixel.y, of.depth[number]);
-  const auto lights_of = [&](Lighting& by) {
-    std::vector<std::uint32_t> ids = lights_at(*renderer_, by, number);
-    if (of.still != nullptr) std::ranges::copy(of.still->lights_at(number), std::back_inserter(ids));
-    std::ranges::sort(ids);
-    return ids;
-  };
-  const std::vector<std::uint32_t> own =
-      lights_of(lighting(state.request, state.request.method, state.request.options).lighting);
   std::vector<OtherList> lists;
   for (const Method& method : methods()) {
     progress_ = static_cast<float>(lists.size()) / static_cast<float>(methods().size());
     OtherList& list = lists.emplace_back();
     list.method = method.name;
     try {
-      list.lights = lights_of(lighting(state.request, list.method, {}).lighting);
+      list.lights = lights_at(*renderer_, lighting(state.request, list.method, {}).lighting, number);
+      if (of.still != nullptr) std::ranges::copy(of.still->lights_at(number), std::back_inserter(list.lights));
+      std::ranges::sort(list.lights);
       list.reaching = static_cast<std::size_t>(std::ranges::count_if(
           list.lights, [&](std::uint32_t light) { return reach(of.lights[light], position) == Reach::inside; }));
-      std::ranges::set_difference(list.lights, own, std::back_inserter(list.beyond));
-      std::ranges::set_difference(own, list.lights, std::back_inserter(list.without));
     } catch (const Error& error) {
       list.refused = error.what();
     }

@@ -140,7 +140,12 @@ void Viewer::finish(Done done) {
     asked_state_ = done.job.state;
     asked_size_ = done.job.size;
   }
-  if (!done.shown) return;
+  if (done.shown) take_picture(done);
+  if (shown_.inspection && (done.shown || done.others))
+    for (OtherList& other : others_) compare(other, shown_.inspection->lights);
+}
+
+void Viewer::take_picture(Done& done) {
   const bool rested = done.job.size != glm::uvec2(paced_size());
   if (!done.shown->made_anew && !rested) {
     if (paced_) pace_.took(done.ms);

@@ -79,6 +79,7 @@ class Viewer {
   /// While a pixel is looked into and time stands, its cell and its list do so too, and so the picture keeps its size.
   [[nodiscard]] bool holds_size() const;
   [[nodiscard]] glm::uvec2 next_size() const;
+  void take_picture(Done& done);
   void lay_out(glm::uvec2 screen);
   void use_mouse(const Input& input, float seconds, bool focus);
   void draw_panels(glm::uvec2 screen, float progress);

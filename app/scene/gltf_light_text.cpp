@@ -34,6 +34,24 @@ glm::dquat rotation_to(const glm::dvec3& direction) {
   return glm::normalize(glm::dquat(real, glm::cross(AHEAD, unit)));
 }
 
+/// Arrays that hold no object on one line each. Strings of JSON have no ends of lines: what they hold does no harm.
+std::string with_short_arrays(std::string_view text) {
+  std::string made;
+  bool in_array = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char letter = text[i];
+    if (letter == '[') in_array = text.find_first_of("{[]", i + 1) == text.find(']', i + 1);
+    if (letter == ']') in_array = false;
+    if (!in_array || letter != '\n') {
+      made += letter;
+      continue;
+    }
+    while (i + 1 < text.size() && text[i + 1] == ' ') ++i;
+    if (made.back() != '[' && text[i + 1] != ']') made += ' ';
+  }
+  return made;
+}
+
 json light_json(const Light& light, const std::string& name) {
   if (light.range == 0.0F)
     throw Error(fmt::format("{}: range is 0, which glTF cannot say, expected one above 0 m", name));
@@ -78,7 +96,7 @@ std::string gltf_text(std::span<const Light> lights, const std::string& name) {
     made["nodes"].push_back(node_json(light, number, own));
     made["scenes"][0]["nodes"].push_back(number);
   }
-  return json_text(made, 2) + "\n";
+  return with_short_arrays(json_text(made, 2)) + "\n";
 }
 
 std::vector<Light> lights_of_gltf(std::string_view text, const std::string& name) {

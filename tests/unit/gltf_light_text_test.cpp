@@ -91,6 +91,15 @@ TEST(GltfLightText, SaysWhatTheExtensionAllows) {
   EXPECT_FALSE(light.contains("range")) << "infinite";
 }
 
+TEST(GltfLightText, HasAVectorALine) {
+  const Light light{.position = {1.0F, 2.0F, 3.5F}, .range = 2.0F};
+  const std::string text = gltf_text({&light, 1}, "one [of] \\\"two\", [\"");
+  EXPECT_NE(text.find("\"translation\": [1.0, 2.0, 3.5]"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"nodes\": [0]"), std::string::npos) << text;
+  EXPECT_EQ(json::parse(text)["nodes"][0]["name"], "one [of] \\\"two\", [\"");
+  EXPECT_EQ(lights_of_gltf(text, "text").size(), 1U);
+}
+
 std::string error_of(const auto& use) {
   try {
     use();
