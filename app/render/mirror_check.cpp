@@ -18,8 +18,9 @@ namespace lamp::app {
 namespace {
 
 constexpr double NEVER = std::numeric_limits<double>::infinity();
-constexpr double SAME_M = 1e-4;    // of the way and a metre: hits so close are one
-constexpr double ROUNDING = 1e-5;  // of the way and the distance from the origin: what rays may be off
+constexpr double SAME_M = 1e-4;        // of the way and a metre: hits so close are one
+constexpr double ROUNDING = 1e-5;      // of the way and the distance from the origin: what rays may be off
+constexpr double LEAST_COSINE = 1e-3;  // rays that graze more may be off along their way as much as those
 constexpr std::uint32_t GROUP_PX = 8;
 
 /// Everything of the frame, row by row.
@@ -80,16 +81,22 @@ class Reference {
     farthest_ = glm::length(glm::max(glm::abs(glm::dvec3(box.min)), glm::abs(glm::dvec3(box.max))));
   }
 
-  /// m; NEVER where nothing is met.
-  [[nodiscard]] double first(const glm::dvec3& origin, const glm::dvec3& direction) const {
+  struct Met {
+    double distance = NEVER;  ///< m
+    double cosine = 1.0;      ///< of the angle at which the ray comes in
+  };
+  /// NEVER where nothing is met.
+  [[nodiscard]] Met first(const glm::dvec3& origin, const glm::dvec3& direction) const {
     const double length = glm::length(origin) + farthest_ + reach_;
     Ray ray{.from = origin, .to = origin + direction * length, .first = 1e-18, .last = 1.0};
     while (const auto hit = occluders_.first_hit(ray)) {
       const DrawnSides& sides = sides_[hit->triangle];
-      if (sides.both || glm::dot(sides.normal, direction) < 0.0) return hit->at * length;
+      const double facing = -glm::dot(sides.normal, direction);
+      if (sides.both || facing > 0.0)
+        return {.distance = hit->at * length, .cosine = std::abs(facing) / glm::length(sides.normal)};
       ray.first = hit->at * (1.0 + 1e-12);
     }
-    return NEVER;
+    return {};
   }
 
  private:
@@ -106,27 +113,50 @@ bool is_same(double a, double b) {
 
 enum class Answer : std::uint8_t { same, unclear, wrong };
 
-/// Whether the reference, or one that is a little beside it, meets something at the distance `found`.
-Answer compare(const Reference& reference, const gpu::MirrorAsked& ray, double found) {
+struct Compared {
+  Answer answer = Answer::same;
+  double expected = NEVER;  ///< m, by the reference
+};
+
+/// What the GPU found of a ray.
+struct Found {
+  double distance = NEVER;  ///< m
+  glm::dvec3 at{0.0};       ///< if there is something
+};
+
+Found found_at(const Frame& frame, std::size_t pixel) {
+  if (frame.hits[pixel].triangle == gpu::MIRROR_SKY) return {};
+  const glm::dvec3 at(glm::vec3(frame.surfaces[pixel].position));
+  return {.distance = glm::distance(at, glm::dvec3(glm::vec3(frame.rays[pixel].origin))), .at = at};
+}
+
+/// Whether the reference, or one that is a little beside it, meets something at the distance that was found. Of a
+/// surface that the ray grazes, distances change so much from one to the next that the one through the hit is asked,
+/// too: there, the hit may be off the surface as much as it may be off the ray.
+Compared compare(const Reference& reference, const gpu::MirrorAsked& ray, const Found& found) {
   const glm::dvec3 origin(glm::vec3(ray.origin));
   const glm::dvec3 direction(glm::vec3(ray.direction));
-  const double expected = reference.first(origin, direction);
-  if (is_same(expected, found)) return Answer::same;
+  const double expected = reference.first(origin, direction).distance;
+  if (is_same(expected, found.distance)) return {.answer = Answer::same, .expected = expected};
+  const double way = std::min({expected, found.distance, 1e6});
+  const double off = ROUNDING * (1.0 + glm::length(origin) + way);
+  const Compared unclear{.answer = Answer::unclear, .expected = expected};
   const glm::dvec3 any = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(direction, any));
   const glm::dvec3 y = glm::cross(direction, x);
-  const double way = std::min({expected, found, 1e6});
-  const double off = ROUNDING * (1.0 + glm::length(origin) + way);
   for (const glm::dvec3& side : {x, -x, y, -y, x + y, x - y, y - x, -x - y, direction, -direction})
-    if (is_same(reference.first(origin + off * side, direction), found)) return Answer::unclear;
-  return Answer::wrong;
+    if (is_same(reference.first(origin + off * side, direction).distance, found.distance)) return unclear;
+  const glm::dvec3 to_hit = found.at - origin;
+  const double along = glm::dot(to_hit, direction);
+  const glm::dvec3 beside = to_hit - along * direction;
+  if (!std::isinf(found.distance) && glm::length(beside) <= off) {
+    const Reference::Met met = reference.first(origin + beside, direction);
+    if (std::abs(met.distance - along) * std::max(met.cosine, LEAST_COSINE) <= off) return unclear;
+  }
+  return {.answer = Answer::wrong, .expected = expected};
 }
 
-double distance_of(const Frame& frame, std::size_t pixel) {
-  if (frame.hits[pixel].triangle == gpu::MIRROR_SKY) return NEVER;
-  return glm::distance(glm::dvec3(glm::vec3(frame.surfaces[pixel].position)),
-                       glm::dvec3(glm::vec3(frame.rays[pixel].origin)));
-}
+std::string words_of(double distance) { return std::isinf(distance) ? "the sky" : fmt::format("{:.6g} m", distance); }
 
 /// Every so many of the pixels that have a ray.
 std::vector<std::size_t> chosen_pixels(const Frame& frame, std::size_t most, MirrorFindings& findings) {
@@ -176,20 +206,21 @@ MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, co
   MirrorFindings findings;
   const std::vector<std::size_t> chosen = chosen_pixels(frame, most, findings);
   findings.checked = chosen.size();
-  std::vector<Answer> answers(chosen.size());
+  std::vector<Compared> compared(chosen.size());
   const Reference reference(scene);
   tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
-    answers[i] = compare(reference, frame.rays[chosen[i]], distance_of(frame, chosen[i]));
+    compared[i] = compare(reference, frame.rays[chosen[i]], found_at(frame, chosen[i]));
   });
   std::vector<glm::vec3> points;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::size_t pixel = chosen[i];
     if (frame.hits[pixel].triangle != gpu::MIRROR_SKY) points.emplace_back(frame.surfaces[pixel].position);
-    findings.unclear += answers[i] == Answer::unclear ? 1 : 0;
-    if (answers[i] != Answer::wrong) continue;
+    findings.unclear += compared[i].answer == Answer::unclear ? 1 : 0;
+    if (compared[i].answer != Answer::wrong) continue;
     if (findings.wrong++ == 0)
-      findings.first_wrong = fmt::format("pixel {}, {}: {} m", pixel % mirror.info().width, pixel / mirror.info().width,
-                                         distance_of(frame, pixel));
+      findings.first_wrong =
+          fmt::format("pixel {}, {}: {}, expected {}", pixel % mirror.info().width, pixel / mirror.info().width,
+                      words_of(found_at(frame, pixel).distance), words_of(compared[i].expected));
   }
   findings.hits = points.size();
   if (mirror.info().settings.lists != MirrorLists::brute_force)

@@ -59,7 +59,51 @@ struct BvhMet {
   bool front;
 };
 
-// Both sides; an edge belongs to both its triangles.
+// In two parts of half the bits, whose products are exact.
+// Based on: Dekker, A Floating-Point Technique for Extending the Available Precision, Numerische Mathematik 18 (1971).
+struct Halves {
+  vec2 high;
+  vec2 low;
+};
+
+Halves halves_of(vec2 v) {
+  precise const vec2 scaled = 4097.0 * v;  // 2^12 + 1
+  precise const vec2 high = scaled - (scaled - v);
+  precise const vec2 low = v - high;
+  return Halves(high, low);
+}
+
+// What rounding took from p * q = `rounded`; the same of q and p.
+float lost_of(float rounded, float p_high, float p_low, float q_high, float q_low) {
+  precise const float lost = (p_high * q_high - rounded) + (p_high * q_low + p_low * q_high) + p_low * q_low;
+  return lost;
+}
+
+// p.x q.y - p.y q.x, about as near as 32 bits can say. Of q and p it is the same number with the other sign, however sums
+// are rounded: so the two triangles at an edge agree on who has a ray.
+float cross_of(vec2 p, vec2 q, Halves p2, Halves q2) {
+  precise const vec2 rounded = p * q.yx;
+  precise const float lost_x = lost_of(rounded.x, p2.high.x, p2.low.x, q2.high.y, q2.low.y);
+  precise const float lost_y = lost_of(rounded.y, p2.high.y, p2.low.y, q2.high.x, q2.low.x);
+  precise const float of_edge = (rounded.x - rounded.y) + (lost_x - lost_y);
+  return of_edge;
+}
+
+float largest_of(vec2 a, vec2 b, vec2 c) {
+  const vec2 most = max(abs(a), max(abs(b), abs(c)));
+  return max(most.x, most.y);
+}
+
+// Whether a ray through 0 passes by a triangle, so far that rounding of plain products cannot matter.
+bool passes_by(vec2 a, vec2 b, vec2 c) {
+  const float size = largest_of(a, b, c);
+  const float room = 1e-6 * size * size;  // two products and their difference are off by half of it, however rounded
+  const vec3 of_edges = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+  return min(of_edges.x, min(of_edges.y, of_edges.z)) < -room && max(of_edges.x, max(of_edges.y, of_edges.z)) > room;
+}
+
+// Both sides; an edge belongs to both its triangles. With plain products, a hit on a triangle L long and w wide would be off
+// by L / w times as much as its corners are.
 bool meets(BvhRay ray, vec3 corner_a, vec3 corner_b, vec3 corner_c, out BvhMet met) {
   const vec3 d = turned(ray.direction, ray.direction);
   precise const vec3 shear = vec3(d.xy, 1.0) / d.z;
@@ -69,10 +113,13 @@ bool meets(BvhRay ray, vec3 corner_a, vec3 corner_b, vec3 corner_c, out BvhMet m
   precise const vec2 at_a = a.xy - shear.xy * a.z;
   precise const vec2 at_b = b.xy - shear.xy * b.z;
   precise const vec2 at_c = c.xy - shear.xy * c.z;
-  // Each product rounded by itself: the other triangle at an edge then finds the same number, with the other sign.
-  precise const float of_a = at_c.x * at_b.y - at_c.y * at_b.x;
-  precise const float of_b = at_a.x * at_c.y - at_a.y * at_c.x;
-  precise const float of_c = at_b.x * at_a.y - at_b.y * at_a.x;
+  if (passes_by(at_a, at_b, at_c)) return false;
+  const Halves a2 = halves_of(at_a);
+  const Halves b2 = halves_of(at_b);
+  const Halves c2 = halves_of(at_c);
+  precise const float of_a = cross_of(at_c, at_b, c2, b2);
+  precise const float of_b = cross_of(at_a, at_c, a2, c2);
+  precise const float of_c = cross_of(at_b, at_a, b2, a2);
   precise const float sum = of_a + of_b + of_c;
   const bool is_out = min(of_a, min(of_b, of_c)) < 0.0 && max(of_a, max(of_b, of_c)) > 0.0;
   if (is_out || sum == 0.0) return false;
