@@ -16,7 +16,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { WorldPiece b
 layout(set = 0, binding = 4, scalar) writeonly buffer LongBuffer { WorldPiece long_pieces[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer WindowBuffer { uint windows[]; };
 
-const uint HELD = 4u;  // buckets of a thread
+const uint HELD = 4u;  // buckets of a thread, as far apart as the group has threads: neighbours are read together
 
 shared uint s_first;
 shared uint s_piece;
@@ -40,17 +40,18 @@ void write_pieces(uint bucket, uint entries, uint piece, uint long_piece) {
 }
 
 void main() {
-  const uint bucket = gl_GlobalInvocationID.x * HELD;
+  const uint threads = gl_WorkGroupSize.x;
+  const uint bucket = gl_WorkGroupID.x * HELD * threads + gl_LocalInvocationIndex;
   uint held[HELD];
   uint sum = 0u;
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
-    held[k] = counts[bucket + k];
+    held[k] = counts[bucket + k * threads];
     sum += held[k];
   }
   uint total;
   uint first = group_scan(sum, total);
   if (total == 0u) {  // the same for all threads of the group
-    [[unroll]] for (uint k = 0u; k < HELD; ++k) buckets[bucket + k] = WorldBucket(0u, 0u);
+    [[unroll]] for (uint k = 0u; k < HELD; ++k) buckets[bucket + k * threads] = WorldBucket(0u, 0u);
     return;
   }
   if (gl_LocalInvocationIndex == 0u) s_first = atomicAdd(totals.counters.entries_needed, total);
@@ -60,8 +61,8 @@ void main() {
   uint longs = 0u;
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
     const bool fits = held[k] <= ENTRIES && first <= ENTRIES - held[k];
-    buckets[bucket + k] = WorldBucket(fits ? first : 0u, fits ? held[k] : WORLD_ALL);
-    counts[bucket + k] = 0u;
+    buckets[bucket + k * threads] = WorldBucket(fits ? first : 0u, fits ? held[k] : WORLD_ALL);
+    counts[bucket + k * threads] = 0u;
     write_windows(first, held[k]);
     first += held[k];
     if (!fits) {
@@ -83,7 +84,7 @@ void main() {
   piece += s_piece;
   long_piece += s_long;
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
-    write_pieces(bucket + k, held[k], piece, long_piece);
+    write_pieces(bucket + k * threads, held[k], piece, long_piece);
     piece += pieces_of(held[k]);
     long_piece += long_pieces_of(held[k]);
   }
