@@ -29,15 +29,19 @@ CullerPass::CullerPass(const vulkan::Device& device, const LightingInfo& info)
                                                    .method = std::string(info.method->name),
                                                    .options = words_of(info.options),
                                                    .depth_samples = info.depth.samples,
-                                                   .brings_spheres = true}))) {}
+                                                   .brings_spheres = true,
+                                                   .host_barriers = info.host == Host::host_barriers}))),
+      host_barriers_(info.host == Host::host_barriers) {}
 
 void CullerPass::record(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  std::vector<vulkan::Use> uses{reads(frame.data.lights(), COMPUTE), reads(frame.data.spheres(), COMPUTE)};
+  if (host_barriers_) recorder.order_with_next(culler_.barrier_before());
+  const VkPipelineStageFlags2 stages =
+      host_barriers_ ? culler_.barrier_before().dstStageMask : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  std::vector<vulkan::Use> uses{reads(frame.data.lights(), stages), reads(frame.data.spheres(), stages)};
   std::vector<vulkan::CullerView> views;
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const vulkan::Resource& depth = frame.inputs.depths[i];
-    uses.push_back(reads(depth, COMPUTE));
+    uses.push_back(reads(depth, stages));
     views.push_back({&frame.views[i], depth.image, depth.view, depth.layout});
   }
   recorder.begin_pass(NAME, uses);
@@ -47,6 +51,7 @@ void CullerPass::record(vulkan::Recorder& recorder, const LightingFrame& frame) 
                                                         .host_lights = frame.inputs.host_lights,
                                                         .views = views}));
   recorder.end_pass();
+  if (host_barriers_) recorder.order_with_next(culler_.barrier_behind());
 }
 
 void CullerPass::finish() {

@@ -28,6 +28,7 @@ class CullerPass {
 
  private:
   vulkan::Culler culler_;
+  bool host_barriers_ = false;
   std::uint64_t recorded_ = 0;  ///< frame that was not finished yet, or 0
 };
 

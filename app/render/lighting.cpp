@@ -69,7 +69,7 @@ std::vector<std::pair<std::string, std::string>> changed_options(const Options& 
 Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, const LightingInfo& info)
     : info_(info), traits_(device.traits) {
   runner_ = take(vulkan::PlanRunner::create(device, plan_or_throw(info, device), shaders.source()));
-  if (info.host == Host::culler) culler_.emplace(device, info);
+  if (has_culler(info.host)) culler_.emplace(device, info);
   shade_ = shading_pipeline(device, shaders, info, runner_.plan());
   if (info.path == ShadingPath::standard_deferred) volumes_ = volumes_pipeline(device, shaders, info);
   if (info.transparency) {

@@ -116,9 +116,12 @@ std::span<const std::string_view> path_names() {
 }
 
 std::span<const std::string_view> host_names() {
-  static constexpr std::array<std::string_view, 4> NAMES{"plan", "culler", "larger-plan", "changing-size"};
+  static constexpr std::array<std::string_view, 5> NAMES{"plan", "culler", "host-barriers", "larger-plan",
+                                                         "changing-size"};
   return NAMES;
 }
+
+bool has_culler(Host host) { return host == Host::culler || host == Host::host_barriers; }
 
 Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
   const std::uint32_t sides = info.host == Host::larger_plan || info.host == Host::changing_size ? 2 : 1;
@@ -152,8 +155,7 @@ vulkan::Constant shown_view_constant(const Plan& plan) { return {CONSTANT_SEVERA
 
 bool is_fused(const LightingInfo& info, const Plan& plan) {
   // Decals must be in the G-buffer before it is lit, and need the cells for that: the cull comes first.
-  return info.path == ShadingPath::tiled_deferred && plan.fused.has_value() && !info.decals &&
-         info.host != Host::culler;
+  return info.path == ShadingPath::tiled_deferred && plan.fused.has_value() && !info.decals && !has_culler(info.host);
 }
 
 glm::uvec2 shade_group(const LightingInfo& info, const Plan& plan) {

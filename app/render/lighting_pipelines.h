@@ -39,11 +39,13 @@ struct Rows {
 enum class Host : std::uint8_t {
   plan,           ///< a plan runner, made for the frame's size
   culler,         ///< a Culler, made for it
+  host_barriers,  ///< likewise, between barriers of its host's
   larger_plan,    ///< a plan runner for frames twice as wide and high
   changing_size,  ///< likewise, and no frame has the size of the one before
 };
-/// "plan", "culler", "larger-plan", "changing-size", in the order of Host.
+/// "plan", "culler", "host-barriers", "larger-plan", "changing-size", in the order of Host.
 [[nodiscard]] std::span<const std::string_view> host_names();
+[[nodiscard]] bool has_culler(Host host);
 
 struct LightingInfo {
   const Method* method = nullptr;

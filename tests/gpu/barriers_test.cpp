@@ -8,11 +8,11 @@
 namespace lamp::app {
 namespace {
 
-void record_barrier(VkCommandBuffer commands, const VkMemoryBarrier2& memory,
+void record_barrier(VkCommandBuffer commands, std::span<const VkMemoryBarrier2> memory,
                     std::span<const VkImageMemoryBarrier2> images = {}) {
   const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                    .memoryBarrierCount = 1,
-                                    .pMemoryBarriers = &memory,
+                                    .memoryBarrierCount = static_cast<std::uint32_t>(memory.size()),
+                                    .pMemoryBarriers = memory.data(),
                                     .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
                                     .pImageMemoryBarriers = images.data()};
   vkCmdPipelineBarrier2(commands, &dependency);
@@ -32,12 +32,14 @@ class CopiedInputs {
                                          .format = VK_FORMAT_D32_SFLOAT,
                                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}) {}
 
-  /// After any reader: compute shaders have read. Before the cull: visible to compute shaders.
-  void record_copies(VkCommandBuffer commands, const EngineFrame& frame, const vulkan::Buffer& depth_values) {
+  /// After any reader: `stages` have read. Before the cull: visible to these. And what is ordered besides.
+  void record_copies(VkCommandBuffer commands, const EngineFrame& frame, const vulkan::Buffer& depth_values,
+                     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                     const VkMemoryBarrier2& besides = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2}) {
     record_barrier(commands,
-                   {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                    .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                    .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT},
+                   std::array{VkMemoryBarrier2{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                               .srcStageMask = stages,
+                                               .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT}},
                    std::array{depth_barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
                                             VK_PIPELINE_STAGE_2_COPY_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL)});
     const auto copy = [&](const vulkan::Buffer& from, const vulkan::Buffer& to) {
@@ -52,11 +54,12 @@ class CopiedInputs {
                            &whole);
     record_barrier(
         commands,
-        {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-         .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-         .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-         .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-         .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT},
+        std::array{VkMemoryBarrier2{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                    .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                    .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                    .dstStageMask = stages,
+                                    .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT},
+                   besides},
         std::array{depth_barrier(VK_PIPELINE_STAGE_2_COPY_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)});
   }
@@ -99,6 +102,10 @@ class CopiedInputs {
   GpuImage depth_;
 };
 
+bool works_on_cpu(const CullerCandidate& candidate) {
+  return std::ranges::find(candidate.options, "sort=cpu") != candidate.options.end();
+}
+
 class Barriers : public GpuTest {
  protected:
   const EngineFrame frames_[2] = {engine_frame(), engine_frame({.projection = "orthographic", .seed = 2})};
@@ -110,7 +117,6 @@ TEST_F(Barriers, OfThePageAreEnoughForEveryMethod) {
   CopiedInputs inputs;
   for (const CullerCandidate& candidate : culler_candidates()) {
     SCOPED_TRACE(candidate.method);
-    const bool on_cpu = std::ranges::find(candidate.options, "sort=cpu") != candidate.options.end();
     vulkan::Culler culler = take(engine_culler(candidate.method, candidate.options, /* brings_spheres= */ true));
     std::vector<MaskPass> passes;
     for (const EngineFrame& frame : frames_) passes.emplace_back(culler.lookup(), frame);
@@ -118,7 +124,7 @@ TEST_F(Barriers, OfThePageAreEnoughForEveryMethod) {
       test_context().submit([&](VkCommandBuffer commands) {
         for (std::size_t i = 0; i < 2; ++i) {
           inputs.record_copies(commands, frames_[i], depths[i]);
-          static_cast<void>(take(culler.record(commands, inputs.culler_frame(frames_[i], !on_cpu))));
+          static_cast<void>(take(culler.record(commands, inputs.culler_frame(frames_[i], !works_on_cpu(candidate)))));
           passes[i].record(commands, culler.lookup());
         }
         MaskPass::record_to_host(commands);
@@ -127,6 +133,54 @@ TEST_F(Barriers, OfThePageAreEnoughForEveryMethod) {
       for (const std::string& message : test_context().take_messages()) ADD_FAILURE() << message;
     }
   }
+}
+
+/// The same, with barriers of the engine's in place of the Culler's own.
+std::vector<Masks> culled_between(const CullerCandidate& candidate, std::span<const EngineFrame> frames,
+                                  std::span<const vulkan::Buffer> depths, CopiedInputs& inputs, bool gpu_counts,
+                                  bool has_behind = true) {
+  vulkan::Culler culler = take(vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
+                                                                                .height = ENGINE_HEIGHT,
+                                                                                .light_capacity = ENGINE_LIGHTS,
+                                                                                .method = std::string(candidate.method),
+                                                                                .options = candidate.options,
+                                                                                .brings_spheres = true,
+                                                                                .host_barriers = true}));
+  const VkMemoryBarrier2 before = culler.barrier_before();
+  std::vector<MaskPass> passes;
+  for (const EngineFrame& frame : frames) passes.emplace_back(culler.lookup(), frame);
+  test_context().submit([&](VkCommandBuffer commands) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      inputs.record_copies(commands, frames[i], depths[i], before.dstStageMask, before);
+      static_cast<void>(take(culler.record(commands, inputs.culler_frame(frames[i], gpu_counts))));
+      if (has_behind) record_barrier(commands, std::array{culler.barrier_behind()});
+      passes[i].record(commands, culler.lookup());
+    }
+    MaskPass::record_to_host(commands);
+  });
+  std::vector<Masks> masks;
+  for (const MaskPass& pass : passes) masks.push_back(pass.masks());
+  return masks;
+}
+
+TEST_F(Barriers, OfTheHostMayStandForTheCullers) {
+  const vulkan::Buffer depths[2] = {host_buffer_of("depth", frames_[0].depth),
+                                    host_buffer_of("depth", frames_[1].depth)};
+  CopiedInputs inputs;
+  for (const CullerCandidate& candidate : culler_candidates()) {
+    SCOPED_TRACE(candidate.method);
+    for (const bool gpu_counts : {false, true}) {
+      if (gpu_counts && works_on_cpu(candidate)) continue;
+      const std::vector<Masks> masks = culled_between(candidate, frames_, depths, inputs, gpu_counts);
+      for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(masks[i], masks_alone(candidate, frames_[i])) << i;
+      for (const std::string& message : test_context().take_messages()) ADD_FAILURE() << message;
+    }
+  }
+  static_cast<void>(culled_between({"tiled-bits", {}}, frames_, depths, inputs, /* gpu_counts= */ false,
+                                   /* has_behind= */ false));
+  std::string all;
+  for (const std::string& message : test_context().take_messages()) all += message;
+  EXPECT_NE(all.find("SYNC-HAZARD-READ-AFTER-WRITE"), std::string::npos);
 }
 
 /// Messages about a look-up that is copied without a barrier, by an engine that says who reads it.

@@ -17,6 +17,7 @@ MemoryFlags flags_of(MemoryUse use) {
     case MemoryUse::readback:
       return {HOST, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
     case MemoryUse::counts:
+    case MemoryUse::records:
       return {HOST, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
     case MemoryUse::device:
       break;

@@ -29,6 +29,15 @@ std::optional<Error> check_gpu_count(const CullerFrame& frame, const Plan& plan)
                "expected light_count, since option " + host->option + " works on the CPU, which knows no other"};
 }
 
+/// None where passes wait for a copy of the records anyway.
+Result<Buffer> make_records(const Device& device, const CullerInfo& info) {
+  if (!info.host_barriers) return Buffer();
+  return Buffer::create(device, {.name = "frame records",
+                                 .bytes = info.frames_in_flight * info.views * sizeof(shared::Frame),
+                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                 .memory = MemoryUse::records});
+}
+
 }  // namespace
 
 Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
@@ -61,14 +70,18 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                .usage = device.addressable(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT)});
   if (!frame) return frame.error();
+  Result<Buffer> records = make_records(device, info);
+  if (!records) return records.error();
   Result<Buffer> counts = Buffer::create(device, {.name = "light counts read-back",
                                                   .bytes = info.frames_in_flight * LIGHT_COUNT_BYTES,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
   if (!counts) return counts.error();
   culler.frame_ = std::move(frame.value());
+  culler.records_ = std::move(records.value());
   culler.light_counts_ = std::move(counts.value());
   culler.readers_ = info.readers;
+  culler.host_barriers_ = info.host_barriers;
   culler.still_ = info.still;
   culler.slots_.assign(info.frames_in_flight, FREE);
   culler.reserve();
@@ -77,7 +90,7 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
 
 /// For whatever a record touches.
 void Culler::reserve() {
-  tracker_.reserve(runner_.plan().buffers.size() + problem_.views + PLAN_BUFFER + 2, problem_.views);
+  tracker_.reserve(runner_.plan().buffers.size() + problem_.views + PLAN_BUFFER + 3, problem_.views);
 }
 
 Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
@@ -131,6 +144,9 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
   if (problem_.views > 1) inputs.depths = depths;
   if (auto error = runner_.check(inputs)) return *error;
   inputs.slot = last_slot_ = take_slot(++frames_);
+  // Passes that wait for nothing of the Culler's own read records that the host has written; the look-up's follow them.
+  const bool waits = !host_barriers_ || gpu_counts;
+  if (!waits) inputs.frame = write_records(views.value());
   // It knows nothing of other frames, which may never run, and keeps nothing of the host's.
   tracker_.reset();
   for (const Resource& depth : depths)
@@ -139,14 +155,31 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
        {inputs.lights, inputs.cones, inputs.spheres, inputs.radial, inputs.meshes, inputs.still})
     if (part.buffer != VK_NULL_HANDLE) tracker_.assume(Resource::storage(part));
   Recorder recorder(device_, commands, tracker_);
-  // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
-  const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  recorder.order(stages | readers_, stages);
-  record_frame(recorder, views.value(), frame);
+  if (!host_barriers_) recorder.order(barrier_before());
+  if (waits) record_frame(recorder, views.value(), frame);
   if (const Result<std::uint64_t> recorded = runner_.record(recorder, inputs); !recorded) return recorded.error();
-  recorder.order(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_ | VK_PIPELINE_STAGE_2_HOST_BIT);
+  if (!waits) record_frame(recorder, views.value(), frame);
+  if (!host_barriers_) recorder.order(barrier_behind());
   if (gpu_counts) record_light_count(recorder);
   return frames_;
+}
+
+VkMemoryBarrier2 Culler::barrier_before() const {
+  // Hosts order what they do with inputs against compute shaders; other stages of the passes hang on these.
+  const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  return full_barrier(stages | readers_, stages);
+}
+
+VkMemoryBarrier2 Culler::barrier_behind() const {
+  const VkPipelineStageFlags2 stages = runner_.stages() | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  return full_barrier(stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | readers_ | VK_PIPELINE_STAGE_2_HOST_BIT);
+}
+
+/// In the slot of the frame, whose last one is done.
+BufferPart Culler::write_records(const Views& views) const {
+  const std::size_t bytes = problem_.views * sizeof(shared::Frame);
+  std::memcpy(records_.mapped().subspan(last_slot_ * bytes, bytes).data(), views.records.data(), bytes);
+  return {records_.handle(), last_slot_ * bytes, bytes};
 }
 
 void Culler::record_frame(Recorder& recorder, const Views& views, const CullerFrame& frame) const {

@@ -126,7 +126,7 @@ std::optional<Error> PlanRunner::check(const PlanInputs& inputs) const {
     if (!error) error = check_count_of_views(record, *inputs.host_frame);
     if (error) return plan_.views == 1 ? error : of_view(std::move(*error), view);
   }
-  if (auto error = check_buffer("frame", inputs.frame)) return error;
+  if (auto error = check_buffer("frame", inputs.frame.buffer)) return error;
   if (auto error = check_lights(inputs)) return error;
   if (auto error = check_depths(inputs)) return error;
   if (inputs.slot >= plan_.frames_in_flight)

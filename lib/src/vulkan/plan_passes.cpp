@@ -57,7 +57,9 @@ BufferPart PlanRunner::part(ResourceId id, std::uint32_t view, std::uint32_t slo
 
 Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs, std::uint32_t view) const {
   if (id >= PLAN_BUFFER) return Resource::storage(part(id, view, inputs.slot));
-  if (id == INPUT_FRAME) return Resource::storage({inputs.frame, view * sizeof(shared::Frame), sizeof(shared::Frame)});
+  if (id == INPUT_FRAME)
+    return Resource::storage(
+        {inputs.frame.buffer, inputs.frame.offset + view * sizeof(shared::Frame), sizeof(shared::Frame)});
   if (id != INPUT_DEPTH) return all_views(id, inputs);
   Resource depth = inputs.depths.empty() ? inputs.depth : inputs.depths[view];
   depth.type = descriptor_type(id);
@@ -68,7 +70,7 @@ Resource PlanRunner::resource(ResourceId id, const PlanInputs& inputs, std::uint
 Resource PlanRunner::all_views(ResourceId id, const PlanInputs& inputs) const {
   switch (id) {
     case INPUT_FRAME:
-      return Resource::storage({inputs.frame, 0, plan_.views * sizeof(shared::Frame)});
+      return Resource::storage({inputs.frame.buffer, inputs.frame.offset, plan_.views * sizeof(shared::Frame)});
     case INPUT_LIGHTS:
       return Resource::storage(inputs.lights);
     case INPUT_CONES:

@@ -70,7 +70,7 @@ class Label {
 }  // namespace
 
 void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses) {
-  VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  VkMemoryBarrier2 memory = std::exchange(besides_, {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2});
   images_.clear();
   for (const Use& use : uses) {
     State& state = state_of(use.resource);
@@ -123,6 +123,13 @@ void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands,
                                     .imageMemoryBarrierCount = static_cast<std::uint32_t>(images_.size()),
                                     .pImageMemoryBarriers = images_.data()};
   vk.vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void AccessTracker::add(const VkMemoryBarrier2& besides) {
+  besides_.srcStageMask |= besides.srcStageMask;
+  besides_.srcAccessMask |= besides.srcAccessMask;
+  besides_.dstStageMask |= besides.dstStageMask;
+  besides_.dstAccessMask |= besides.dstAccessMask;
 }
 
 AccessTracker::State& AccessTracker::state_of(const Resource& resource) {
@@ -209,14 +216,17 @@ void Recorder::begin_pass(std::string_view name, std::span<const Use> uses) {
   tracker_.barrier(device_.vk, commands_, uses);
 }
 
-void Recorder::order(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after) {
-  const VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                .srcStageMask = before,
-                                .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                .dstStageMask = after,
-                                .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+VkMemoryBarrier2 full_barrier(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after) {
+  return {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+          .srcStageMask = before,
+          .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+          .dstStageMask = after,
+          .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+}
+
+void Recorder::order(const VkMemoryBarrier2& barrier) {
   const VkDependencyInfo dependency{
-      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &memory};
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
   device_.vk.vkCmdPipelineBarrier2(commands_, &dependency);
 }
 

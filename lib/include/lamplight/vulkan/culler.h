@@ -27,6 +27,9 @@ struct CullerInfo {
   /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
   VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   std::uint32_t frames_in_flight = MAX_FRAMES_IN_FLIGHT;  ///< that may be recorded and not done yet, 1 .. that
+  /// Barriers that a renderer records anyway, before the passes and behind them, order what the Culler's own two would:
+  /// they contain Culler::barrier_before and Culler::barrier_behind. The Culler then records neither.
+  bool host_barriers = false;
   /// Only for world-tree: a storage buffer with WorldTree::words, which the caller keeps, and brings up to date after
   /// changes. None: every point walks every light.
   BufferPart still;
@@ -106,6 +109,12 @@ class LAMPLIGHT_API Culler {
   /// Says that a frame was recorded and will never run, so that it is under way no longer.
   void drop(std::uint64_t frame);
 
+  /// With CullerInfo::host_barriers: what the barrier before the passes contains, and that between them and whatever
+  /// reads the look-up, with the host, which reads the counts. Lights, their count, spheres and depth must be visible
+  /// to the second stages of the first. They change when the Culler grows.
+  [[nodiscard]] VkMemoryBarrier2 barrier_before() const;
+  [[nodiscard]] VkMemoryBarrier2 barrier_behind() const;
+
   /// How a shader reads the result, of all views: the file lookup/NAME.glsl, constants for its specialization,
   /// resources for its descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows
   /// in `finish`.
@@ -135,6 +144,7 @@ class LAMPLIGHT_API Culler {
   };
   void reserve();
   [[nodiscard]] Result<Views> views_of(const CullerFrame& frame) const;
+  [[nodiscard]] BufferPart write_records(const Views& views) const;
   void record_frame(Recorder& recorder, const Views& views, const CullerFrame& frame) const;
   void record_light_count(Recorder& recorder) const;
   [[nodiscard]] std::span<std::byte> light_count_in(std::uint32_t slot) const;
@@ -144,12 +154,14 @@ class LAMPLIGHT_API Culler {
   Device device_;
   const Method* method_ = nullptr;
   Problem problem_;
-  Buffer frame_;
+  Buffer frame_;                      ///< of the look-up, which shows the same part in every frame
+  Buffer records_;                    ///< host_barriers: the same for the passes, one for each frame in flight
   Buffer light_counts_;               ///< of the GPU, read back: one for each frame in flight
   std::vector<std::uint64_t> slots_;  ///< the frame that has each, or FREE
   std::uint32_t last_slot_ = 0;
   PlanRunner runner_;
   VkPipelineStageFlags2 readers_ = 0;
+  bool host_barriers_ = false;
   BufferPart still_;
   AccessTracker tracker_;  ///< of one record alone; here so that the next one allocates nothing
   std::vector<Retired> retired_;

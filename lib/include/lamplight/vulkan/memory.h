@@ -14,6 +14,7 @@ enum class MemoryUse : std::uint8_t {
   upload,    ///< host writes, GPU reads; mapped
   readback,  ///< GPU writes, host reads; mapped
   counts,    ///< GPU adds up, host reads few bytes; mapped, and the device's own memory where such can be mapped
+  records,   ///< host writes few bytes, GPU reads them; likewise
 };
 
 /// A part of a device's memory, which Lamplight binds a buffer to.

@@ -20,7 +20,7 @@ namespace lamp::vulkan {
 
 /// What a frame brings. The buffers and the depth image must live until the frame is done.
 struct PlanInputs {
-  VkBuffer frame = VK_NULL_HANDLE;   ///< a shared::Frame of each view; usable as uniform and as storage buffer
+  BufferPart frame;                  ///< a shared::Frame of each view; usable as uniform and as storage buffer
   BufferPart lights;                 ///< as many as the record says, in the plan's layout
   BufferPart cones;                  ///< likewise, where the layout has them
   BufferPart spheres;                ///< shared::LightSphere, as many

@@ -55,8 +55,13 @@ class LAMPLIGHT_API AccessTracker {
  public:
   /// Puts a barrier for these uses into the command buffer, if one is needed, and remembers them.
   void barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses);
+  /// What the next call of `barrier` orders besides.
+  void add(const VkMemoryBarrier2& besides);
   /// Forgets all, and keeps the memory for it.
-  void reset() { known_.clear(); }
+  void reset() {
+    known_.clear();
+    besides_ = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  }
   /// Memory for as many resources, of which so many are images.
   void reserve(std::size_t resources, std::size_t images) {
     known_.reserve(resources);
@@ -83,6 +88,7 @@ class LAMPLIGHT_API AccessTracker {
   };
   std::vector<Known> known_;                   ///< as many as a frame touches, a few dozen
   std::vector<VkImageMemoryBarrier2> images_;  ///< of one barrier; here so that the next one allocates nothing
+  VkMemoryBarrier2 besides_{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
 };
 
 /// Begin and end times of named passes, or of runs of passes that belong together.
@@ -120,6 +126,9 @@ class LAMPLIGHT_API Timestamps {
   bool open_ = false;  ///< the last time has no end yet
 };
 
+/// What ran in `before` comes before what runs in `after`, and what it wrote can be read there.
+[[nodiscard]] LAMPLIGHT_API VkMemoryBarrier2 full_barrier(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after);
+
 class LAMPLIGHT_API Recorder {
  public:
   /// `timestamps` may be null.
@@ -135,7 +144,10 @@ class LAMPLIGHT_API Recorder {
   void end_pass();
   /// What was recorded before and runs in `before` comes before what is recorded from now on and runs in `after`, and
   /// what it wrote can be read there, whoever recorded it.
-  void order(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after);
+  void order(VkPipelineStageFlags2 before, VkPipelineStageFlags2 after) { order(full_barrier(before, after)); }
+  void order(const VkMemoryBarrier2& barrier);
+  /// The same by the barrier of the next pass or transfer: a GPU stops at each.
+  void order_with_next(const VkMemoryBarrier2& barrier) { tracker_.add(barrier); }
   /// Only the barrier: for transfers between passes.
   void barrier(std::span<const Use> uses) { tracker_.barrier(device_.vk, commands_, uses); }
   void barrier(std::initializer_list<Use> uses) { barrier(std::span(uses)); }
