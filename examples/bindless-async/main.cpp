@@ -1,7 +1,8 @@
 // Lights that the GPU makes and counts, culled on a queue of its own while the graphics queue draws depth; then forward
 // shading with materials in an array of textures. Where the device has no queue for compute alone, all runs on one.
 // SPDX-License-Identifier: Apache-2.0
-#include <lamplight/vulkan.h>  // lamplight
+#include <lamplight/value_of.h>  // lamplight
+#include <lamplight/vulkan.h>    // lamplight
 
 #include <cstdio>
 #include <stdexcept>
@@ -29,11 +30,6 @@ constexpr vk::Extent2D SIZE{320, 180};
 constexpr std::uint32_t PARTICLES = 750;  // of which the GPU makes some lights
 
 // lamplight {
-template <class T>
-T value_of(lamp::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text());
-  return std::move(result.value());
-}
 // }
 
 /// Of queues for compute alone; if there is none, that of the graphics queue.

@@ -5,7 +5,8 @@
 #define VOLK_IMPLEMENTATION
 #include <volk.h>
 
-#include <lamplight/vulkan.h>  // lamplight
+#include <lamplight/value_of.h>  // lamplight
+#include <lamplight/vulkan.h>    // lamplight
 
 #include <algorithm>
 #include <stdexcept>
@@ -37,11 +38,6 @@ struct Push {
 };
 
 // lamplight {
-template <class T>
-T value_of(lamp::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text());
-  return std::move(result.value());
-}
 // }
 
 /// Standard depth is one less the reversed one.

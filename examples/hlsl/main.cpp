@@ -1,7 +1,8 @@
 // Forward shading in HLSL, with Lamplight's 64-byte light records and a method that needs no depth: the least that an
 // engine with HLSL shaders has to do. Three frames of moving lights, each compared with a picture from all lights.
 // SPDX-License-Identifier: Apache-2.0
-#include <lamplight/vulkan.h>  // lamplight
+#include <lamplight/value_of.h>  // lamplight
+#include <lamplight/vulkan.h>    // lamplight
 
 #include <algorithm>
 #include <stdexcept>
@@ -31,12 +32,6 @@ struct Push {
 };
 
 // lamplight {
-template <class T>
-T value_of(lamp::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text());
-  return std::move(result.value());
-}
-
 using Record = lamp::shared::Light;  // 64 bytes
 
 std::vector<Record> pack(const std::vector<HostLight>& lights) {

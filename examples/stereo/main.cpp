@@ -1,7 +1,8 @@
 // Two eyes of a headset: both are drawn at once, by multiview, into layers of one image, and culled together, each with
 // the depth of its layer. A compute shader shades an eye, and tells the look-up which.
 // SPDX-License-Identifier: Apache-2.0
-#include <lamplight/vulkan.h>  // lamplight
+#include <lamplight/value_of.h>  // lamplight
+#include <lamplight/vulkan.h>    // lamplight
 
 #include <algorithm>
 #include <array>
@@ -64,11 +65,6 @@ Eye make_eye(double side) {
 }
 
 // lamplight {
-template <class T>
-T value_of(lamp::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text());
-  return std::move(result.value());
-}
 // }
 
 void shade(const Commands& commands, const Pipeline& pipeline, const Eye& eye, std::uint32_t index) {

@@ -2,18 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light_culling.h"
 
+#include <lamplight/value_of.h>
+
 #include <stdexcept>
-#include <utility>
-
-namespace {
-
-template <class T>
-T value_of(lamp::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text());
-  return std::move(result.value());
-}
-
-}  // namespace
 
 LightCulling::LightCulling(Engine& engine, const LightCullingInfo& info) : engine_(engine), info_(info) {
   const lamp::vulkan::Device device =
