@@ -16,7 +16,7 @@ constexpr std::string_view PICTURE_KINDS[] = {".png", ".exr"};
 
 void save_picture(Stage& stage, const Job& job) {
   check_output("save picture", job.file, PICTURE_KINDS);
-  const Stage::Picture picture = stage.picture(job.state);
+  const Stage::Picture picture = stage.picture(job.state, job.follows);
   write_output(job.file, [&](const std::filesystem::path& file) {
     if (file.extension() == ".exr")
       write_exr(file, picture.radiance);

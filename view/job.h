@@ -20,7 +20,8 @@ struct Job {
   } kind = Kind::draw;
   ViewState state;
   glm::uvec2 size{0};
-  std::string file;  ///< or folder
+  std::string file;      ///< or folder
+  bool follows = false;  ///< a picture of a flight, behind that of the frame before
 };
 
 struct Done {

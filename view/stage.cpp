@@ -226,7 +226,8 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
   return shown;
 }
 
-Stage::Picture Stage::picture(const ViewState& state) {
+Stage::Picture Stage::picture(const ViewState& state, bool follows) {
+  if (renderer_ && !follows) renderer_->restart_shadows();  // what was shown before is no part of the state
   need_frame(state, Captures::all);
   const Chosen chosen = lighting(state.request, state.request.method, state.request.options);
   if (scene_->scene.captured && state.samples > 1)

@@ -33,7 +33,8 @@ class Stage {
     HdrImage radiance;
     LdrImage toned;
   };
-  [[nodiscard]] Picture picture(const ViewState& state);
+  /// `follows`: shadow maps go on from those of the picture before, as in a flight.
+  [[nodiscard]] Picture picture(const ViewState& state, bool follows = false);
   /// The frame of that picture as a capture's scene.
   [[nodiscard]] Scene capture(const ViewState& state);
 

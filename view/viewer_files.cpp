@@ -32,6 +32,7 @@ void Viewer::save_flight(const std::string& file, const std::string& frames) {
       job.state.request.free_camera.reset();
       job.state.request.frame = static_cast<int>(frame);
       job.state.request.light_frame = -1;
+      job.follows = frame != range->first;
       queued_.push_back(std::move(job));
     }
     idle_ = false;

@@ -79,7 +79,10 @@ ProbeCapture::ProbeCapture(Context& context, const ShaderLibrary& shaders, const
       face_(face_pipeline(context.device(), shaders)),
       depths_{targets_.depth.sampled()} {
   assert(scene.captured() == nullptr && "a captured frame is seen from one place alone");
-  if (info.shadows) shadows_.emplace(context, shaders, scene, *info.shadows, info.light_capacity);
+  if (!info.shadows) return;
+  ShadowSettings settings = *info.shadows;
+  settings.budget_texels = ALL_TEXELS;
+  shadows_.emplace(context, shaders, scene, settings, info.light_capacity);
 }
 
 void ProbeCapture::set(std::span<const shared::Light> lights, std::span<const gpu::DecalData> decals) {
@@ -91,7 +94,10 @@ void ProbeCapture::capture(const glm::vec3& position, const ProbeAtlas& atlas, s
   assert(slot < atlas.slots() && "a slot of the atlas");
   const std::vector<View> views = probe_views(position);
   data_.set({views.data(), 1}, lights_, decals_);
-  if (shadows_) shadows_->schedule(views, lights_);
+  if (shadows_) {
+    shadows_->restart();
+    shadows_->schedule(views, lights_);
+  }
   for (std::uint32_t face = 0; face < gpu::PROBE_FACES; ++face) draw_face(face, views, atlas);
   context_.submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);

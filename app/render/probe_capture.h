@@ -1,6 +1,6 @@
 // Draws what reflection probes see: six pictures of a scene around a position, lit like any other, into an atlas.
 // Promise: a method that looks up by position is culled once for all six; the picture is that of brute force, bit for
-// bit where lists ascend. A capture sees no probes.
+// bit where lists ascend. A capture sees no probes, and depends on no capture before it: all shadow maps are its own.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,8 @@ struct ProbeCaptureInfo {
   std::uint32_t light_capacity = 0;
   std::uint32_t decal_capacity = 0;
   Brdf brdf = Brdf::ggx;
-  std::optional<ShadowSettings> shadows;  ///< lights cast them, into maps of the captures' own
+  std::optional<ShadowSettings>
+      shadows;  ///< lights cast them, into maps of each capture's own; the budget is the picture's
 };
 
 /// Views of the faces of a cube around a position, in the order of gpu::PROBE_FACES (common/probe_map.glsl).

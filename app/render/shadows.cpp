@@ -75,6 +75,13 @@ Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene&
                      std::uint64_t{settings.atlas_size} * settings.atlas_size);
 }
 
+void Shadows::restart() {
+  schedule_ = make_atlas(device_, settings_, std::min(light_capacity_, settings_.lights));
+  moved_.clear();
+  ages_.clear();
+  changed_ = false;
+}
+
 void Shadows::schedule(std::span<const View> views, std::span<const shared::Light> lights) {
   const auto shadowed = lights.first(std::min<std::size_t>(lights.size(), settings_.lights));
   if (std::exchange(changed_, true)) schedule_.redraw_all();  // nobody drew the last one

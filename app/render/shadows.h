@@ -65,6 +65,8 @@ class Shadows {
 
   /// What has moved before the next `schedule`: spheres around where it was and is.
   void move(std::span<const shared::LightSphere> moved) { moved_.insert(moved_.end(), moved.begin(), moved.end()); }
+  /// Forgets all frames: the next is as the first. Sizes and places of squares follow from those before, too.
+  void restart();
   /// Of the next frame.
   void schedule(std::span<const View> views, std::span<const shared::Light> lights);
   /// Draws and uploads what the last `schedule` asked for; nothing if that is done.

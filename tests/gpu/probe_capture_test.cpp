@@ -110,17 +110,24 @@ TEST_F(ProbeCaptures, EmissionSkyAndDistanceLieWhereTheyAre) {
   EXPECT_NEAR(1.0F / wall.w, 2.0F, 5e-3F);
 }
 
-/// A light behind a plate: with shadows, the wall behind the plate is dark.
-TEST_F(ProbeCaptures, LightsCastShadowsIntoCaptures) {
-  const Material white;
-  Scene made = wall_scene(white);
+/// A plate between a wall and `plate_lights`.
+Scene wall_and_plate() {
+  Scene made = wall_scene(Material{});
   made.ambient = glm::vec3(0.0F);
   made.sky = glm::vec3(0.0F);
   add_wall(made, {.x0 = -1.0F, .y0 = -1.0F, .x1 = 1.0F, .y1 = 1.0F, .z = 1.0F}, 0);
   made.materials.front().double_sided = true;
-  const TestScene scene(std::move(made));
-  const std::vector<shared::Light> lights{
-      pack(Light{.position = {0.0F, 0.0F, 2.0F}, .range = 30.0F, .intensity = 500.0F})};
+  return made;
+}
+
+std::vector<shared::Light> plate_lights() {
+  return {pack(Light{.position = {0.0F, 0.0F, 2.0F}, .range = 30.0F, .intensity = 500.0F})};
+}
+
+/// A light behind a plate: with shadows, the wall behind the plate is dark.
+TEST_F(ProbeCaptures, LightsCastShadowsIntoCaptures) {
+  const TestScene scene(wall_and_plate());
+  const std::vector<shared::Light> lights = plate_lights();
   const auto radiance = [&](std::optional<ShadowSettings> shadows) {
     ProbeCaptureInfo info = with("world-cells", 1);
     info.shadows = shadows;
@@ -131,6 +138,44 @@ TEST_F(ProbeCaptures, LightsCastShadowsIntoCaptures) {
   };
   EXPECT_GT(radiance(std::nullopt), 1.0F);
   EXPECT_EQ(radiance(ShadowSettings{.filter = ShadowFilter::hard, .atlas_size = 1024}), 0.0F);
+}
+
+TEST_F(ProbeCaptures, SeeShadowsOfWhatHasMoved) {
+  TestScene scene(wall_and_plate());
+  const std::vector<shared::Light> lights = plate_lights();
+  ProbeCaptureInfo info = with("world-cells", 1);
+  info.shadows = ShadowSettings{.filter = ShadowFilter::hard, .atlas_size = 1024};
+  ProbeCapture capture(test_context(), shader_library(), scene.gpu, info);
+  capture.set(lights);
+  const auto radiance = [&] {
+    capture.capture({0.0F, 0.0F, 0.5F}, atlas_, 0);
+    return atlas_.read_level(test_context(), 0, 0).pixels.front().x;  // -z: the wall
+  };
+  EXPECT_EQ(radiance(), 0.0F);
+  scene.scene.instances.back().world_from_object[3].x = 20.0F;
+  static_cast<void>(scene.gpu.move(test_context()));
+  EXPECT_GT(radiance(), 1.0F);
+}
+
+/// Shadow maps keep their sizes and places from frame to frame, where there is room for few texels all the more.
+TEST_F(ProbeCaptures, DoNotDependOnThoseBefore) {
+  const TestScene& scene = builtin_test_scene("corridor");
+  const std::vector<AirCell>& cells = scene.air.cells;
+  const auto place = [&](std::size_t i) { return cells[i].min + 0.5F * scene.air.cell_m; };
+  const glm::vec3 position = place(cells.size() / 2);
+  const std::vector<shared::Light> lights =
+      test_lights(scene.air, probe_views(position).front(), {.count = COUNT, .mix = Mix::both});
+  ProbeCaptureInfo info = with("world-cells", COUNT);
+  info.shadows = ShadowSettings{.atlas_size = 512};
+  ProbeCapture first(test_context(), shader_library(), scene.gpu, info);
+  first.set(lights);
+  first.capture(position, atlas_, 0);
+  info.shadows->budget_texels = 64 * 64;  // of the picture's frames
+  ProbeCapture later(test_context(), shader_library(), scene.gpu, info);
+  later.set(lights);
+  for (const std::size_t i : {std::size_t{0}, cells.size() / 3, cells.size() - 1}) later.capture(place(i), atlas_, 1);
+  later.capture(position, atlas_, 1);
+  EXPECT_TRUE(atlas_.read_level(test_context(), 0, 0).pixels == atlas_.read_level(test_context(), 1, 0).pixels);
 }
 
 }  // namespace
