@@ -7,6 +7,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #define TILE_PX 16u  // of functions that are not called
 #define BOUNDS BOUNDS_MASK
+#include "common/atomic_load.glsl"
 #include "common/tile_ranges.glsl"
 #include "cell_mask_data.h"
 
@@ -26,8 +27,8 @@ void main() {
   const uint number = pixel.x + frame.size_px.x * pixel.y;
   if (step_number == 1u) {
     if (number >= count) return;
-    cells[number].z_near = z_view_of_key(frame, cells[number].nearest);
-    cells[number].z_far = z_view_of_key(frame, ~cells[number].not_farthest);
+    cells[number].z_near = z_view_of_key(frame, LOAD_OF_DEVICE(cells[number].nearest));
+    cells[number].z_far = z_view_of_key(frame, ~LOAD_OF_DEVICE(cells[number].not_farthest));
     return;
   }
   const uint cell = cell_of[number];
