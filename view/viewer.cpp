@@ -91,8 +91,9 @@ bool Viewer::holds_size() const {
 
 glm::uvec2 Viewer::next_size() const {
   if (holds_size()) return {shown_.view.width(), shown_.view.height()};
-  // What rests is drawn once more, as large as a second allows.
-  return rests_s_ > REST_S ? part_of(asked_, pace_.rest_scale()) : paced_size();
+  // What rests is drawn once more, as large as a second allows, unless somebody has said how large.
+  const bool rests = rests_s_ > REST_S && state_.resolution == 0.0F;
+  return rests ? part_of(asked_, pace_.rest_scale()) : paced_size();
 }
 
 std::optional<Job> Viewer::next_job() {
