@@ -9,8 +9,8 @@
 
 namespace lamp {
 
-/// What a result holds. Throws std::runtime_error, whose text is Error::text(), if that is an error. May be called for that
-/// alone.
+/// What a result holds. Throws std::runtime_error, whose text is Error::text(), if that is an error. May be called for
+/// that alone.
 template <class T>
 T value_of(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().text());
