@@ -62,6 +62,7 @@ void run_headless(Context& context, const HeadlessInfo& info, const std::functio
     Viewer viewer({.state = info.state,
                    .traits = context.device().traits,
                    .target_ms = info.target_ms,
+                   .rest_ms = info.rest_ms,
                    .bookmarks = info.bookmarks});
     HeadlessScreen screen(context, stage, viewer, info.screen);
     Player player{.viewer = viewer,

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/context.h"
+#include "view/pace.h"
 #include "view/script.h"
 
 namespace lamp::app {
@@ -15,6 +16,7 @@ struct HeadlessInfo {
   glm::uvec2 screen{1280, 720};
   std::vector<Bookmark> bookmarks;
   double target_ms = 0.0;  ///< as ViewerInfo's
+  double rest_ms = Pace::MOST_REST_MS;
 };
 
 /// Draws a first frame, then lets `use` play. Throws Error; with Exit::check_failed where validation says something.

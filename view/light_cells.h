@@ -17,6 +17,9 @@ namespace lamp::app {
 inline constexpr glm::u8vec3 REACHES_A_PIXEL{70, 165, 255};
 inline constexpr glm::u8vec3 LISTED_IN_VAIN{255, 140, 20};
 
+/// Why there is nothing to show.
+inline constexpr const char* NO_LIGHT = "no light is looked at: click a pixel, then a row of the inspector's table";
+
 /// Of each pixel, row by row.
 struct LightSeen {
   std::uint32_t width = 0;

@@ -13,8 +13,6 @@ constexpr int SLOW_PICTURES = 2;    // before it becomes smaller: one alone may 
 constexpr int QUICK_PICTURES = 12;  // before it becomes larger: about a second
 constexpr double WITH_ROOM = 0.8;   // of the target, that the next larger one is expected to take
 
-constexpr double MOST_REST_MS = 1000.0;
-
 double pixels(std::size_t step) { return SCALES[step] * SCALES[step]; }
 
 }  // namespace
@@ -23,7 +21,7 @@ double Pace::scale() const { return SCALES[step_]; }
 
 double Pace::rest_scale() const {
   for (std::size_t step = 0; step < step_; ++step)
-    if (last_ms_ * pixels(step) / pixels(step_) <= MOST_REST_MS) return SCALES[step];
+    if (last_ms_ * pixels(step) / pixels(step_) <= rest_ms_) return SCALES[step];
   return scale();
 }
 

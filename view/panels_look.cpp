@@ -170,8 +170,7 @@ void look_panel(PanelFrame& p) {
       [&](std::string_view name) {
         const auto overlay = static_cast<Overlay>(std::ranges::find(overlay_names(), name) - overlay_names().begin());
         if (is_of_shadows(overlay) && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
-        if (overlay == Overlay::light_cells && !p.state.light)
-          return std::string("no light is looked at: click a pixel, then a row of the inspector's table");
+        if (overlay == Overlay::light_cells && !p.state.light) return std::string(NO_LIGHT);
         return overlay == Overlay::difference && !p.state.against
                    ? std::string("needs a second method: see A against B, or press B")
                    : "";

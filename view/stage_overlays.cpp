@@ -69,7 +69,7 @@ Overlaid Stage::light_cells_overlay(const Overlaying& o) {
     return refused_overlay(Overlay::light_cells, visits_.size(), std::move(why));
   };
   const std::span<const shared::Light> lights = lights_->lights->all();
-  if (!o.state.light) return refused("no light is looked at: click a pixel, then a row of the inspector's table");
+  if (!o.state.light) return refused(NO_LIGHT);
   const std::uint32_t light = *o.state.light;
   if (light >= lights.size())
     return refused(fmt::format("there is no light {}: the frame has {}", light, lights.size()));

@@ -53,6 +53,8 @@ std::string lights_of(const ViewState& state) {
                          "still_bytes", "probes", "light_frame", "edits", "depth", "depth_samples"});
 }
 
+int light_frame_of(const ViewState& state) { return std::max(0, state.request.light_frame); }
+
 /// What undo goes back over: a state without what moves by itself.
 std::string change_key(ViewState state) {
   state.request.light_frame = -1;
@@ -74,7 +76,7 @@ Viewer::Viewer(ViewerInfo info)
     : state_(std::move(info.state)),
       settled_(state_),
       traits_(info.traits),
-      pace_(info.target_ms),
+      pace_(info.target_ms, info.rest_ms),
       paced_(info.target_ms > 0.0),
       scale_(info.scale),
       bookmarks_(std::move(info.bookmarks)) {}
@@ -91,7 +93,7 @@ bool Viewer::holds_size() const {
 
 glm::uvec2 Viewer::next_size() const {
   if (holds_size()) return {shown_.view.width(), shown_.view.height()};
-  // What rests is drawn once more, as large as a second allows, unless somebody has said how large.
+  // What rests is drawn once more, as large as its time allows, unless somebody has said how large.
   const bool rests = rests_s_ > REST_S && state_.resolution == 0.0F;
   return rests ? part_of(asked_, pace_.rest_scale()) : paced_size();
 }
@@ -138,11 +140,17 @@ void Viewer::finish(Done done) {
   }
   if (done.others) {
     others_ = std::move(*done.others);
-    asked_state_ = done.job.state;
-    asked_size_ = done.job.size;
+    const ViewState& state = done.job.state;
+    asked_for_ = {.place = place_of(state),
+                  .lights = lights_of(state),
+                  .picked = state.picked,
+                  .light_frame = light_frame_of(state),
+                  .size = done.job.size};
   }
   if (done.shown) take_picture(done);
-  if (shown_.inspection && (done.shown || done.others))
+  if (!done.shown && !done.others) return;
+  outdated_ = others_.empty() ? "" : why_outdated();
+  if (shown_.inspection)
     for (OtherList& other : others_) compare(other, shown_.inspection->lights);
 }
 
@@ -196,8 +204,10 @@ void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float p
   if (paced_ && state_.resolution == 0.0F && !busy_) rests_s_ += seconds;
   try_state(before);
   note_change();
-  if (!others_.empty() && (place_of(state_) != place_of(asked_state_) || state_.picked != asked_state_.picked))
+  if (!others_.empty() && (state_.picked != asked_for_.picked || place_of(state_) != asked_for_.place)) {
     others_.clear();
+    outdated_.clear();
+  }
   draw_status(screen);
 }
 
@@ -272,14 +282,12 @@ void Viewer::queue(Job::Kind kind) {
   queued_.push_back({.kind = kind, .state = state_, .size = size, .file = {}});
 }
 
-std::string Viewer::outdated() const {
-  if (others_.empty()) return "";
-  const auto moment = [](const ViewState& state) { return std::max(0, state.request.light_frame); };
-  const int then = moment(asked_state_);
-  const int now = moment(shown_.state);
+std::string Viewer::why_outdated() const {
+  const int then = asked_for_.light_frame;
+  const int now = light_frame_of(shown_.state);
   if (then != now) return fmt::format("Outdated: of frame {}, the picture is of frame {}. Ask again.", then, now);
-  const bool same = lights_of(asked_state_) == lights_of(shown_.state) &&
-                    asked_size_ == glm::uvec2(shown_.view.width(), shown_.view.height());
+  const bool same = asked_for_.lights == lights_of(shown_.state) &&
+                    asked_for_.size == glm::uvec2(shown_.view.width(), shown_.view.height());
   return same ? "" : "Outdated: lights or the picture's size changed since. Ask again.";
 }
 

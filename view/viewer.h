@@ -20,8 +20,9 @@ namespace lamp::app {
 struct ViewerInfo {
   ViewState state;
   DeviceTraits traits;
-  double target_ms = 0.0;  ///< how long a picture may take; 0: resolution is never lowered by itself
-  float scale = 1.0F;      ///< of letters and panels
+  double target_ms = 0.0;               ///< how long a picture may take; 0: resolution is never lowered by itself
+  double rest_ms = Pace::MOST_REST_MS;  ///< the same of a picture that is drawn once and stays
+  float scale = 1.0F;                   ///< of letters and panels
   std::vector<Bookmark> bookmarks;
 };
 
@@ -93,7 +94,7 @@ class Viewer {
   void paste_light();
   void copy_light();
   /// Why what others list is not of the picture that is shown; or empty.
-  [[nodiscard]] std::string outdated() const;
+  [[nodiscard]] std::string why_outdated() const;
   /// What is set, in the size that is shown.
   [[nodiscard]] ViewState saved_state() const;
   void add_bookmark();
@@ -131,8 +132,15 @@ class Viewer {
   bool lost_ = false;
   std::optional<Proof> proof_;
   std::vector<OtherList> others_;  ///< of the picked pixel
-  ViewState asked_state_;          ///< for which they were asked
-  glm::uvec2 asked_size_{0};
+  /// The picture for which they were asked.
+  struct AskedFor {
+    std::string place, lights;
+    std::optional<glm::uvec2> picked;
+    int light_frame = 0;
+    glm::uvec2 size{0};
+  };
+  AskedFor asked_for_;
+  std::string outdated_;  ///< why they are not of the picture that is shown; or empty
   ListScroll list_scroll_;
   Times times_;
   double picture_ms_ = 0.0;  ///< of a picture, all in all, smoothed

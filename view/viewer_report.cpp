@@ -61,7 +61,7 @@ nlohmann::json Viewer::report() const {
                                    {"beyond", list.beyond.size()},
                                    {"without", list.without.size()},
                                    {"refused", list.refused}};
-  json["outdated"] = outdated();
+  json["outdated"] = outdated_;
   json["list_row_in_sight"] = list_scroll_.in_sight;
   if (shown_.first.legend.overlay != Overlay::none) {
     json["legend"] = report_of(shown_.first.legend);

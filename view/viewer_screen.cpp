@@ -167,7 +167,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                            .wishes = wishes_,
                            .scroll = list_scroll_,
                            .others = others_,
-                           .outdated = outdated(),
+                           .outdated = outdated_,
                            .asking = asking_};
   inspector_window(inspector, area_, scale_);
   if (!state_.panels) return;

@@ -29,7 +29,6 @@ void add_statistics(nlohmann::json& json, const PassTime& pass) {
   }
 }
 
-constexpr const char* UNTOLD = "this driver does not tell";
 constexpr const char* NOT_COUNTED =
     "not counted: lists are wrong, walks were ended, or pixels of a cell walk different lists";
 
@@ -187,8 +186,8 @@ nlohmann::json to_json(const Stats& s) {
   if (s.image_max_abs_diff)
     add_number(json, "image_max_abs_diff", *s.image_max_abs_diff, "a pixel of one of the pictures is not a number");
   if (s.clock) {
-    add_number(json, "clock_mhz", s.clock->now_mhz, UNTOLD);
-    add_number(json, "clock_most_mhz", s.clock->most_mhz, UNTOLD);
+    add_number(json, "clock_mhz", s.clock->now_mhz, CLOCK_UNTOLD);
+    add_number(json, "clock_most_mhz", s.clock->most_mhz, CLOCK_UNTOLD);
   }
   if (s.image_tolerance) json["image_tolerance"] = *s.image_tolerance;
   return json;

@@ -62,14 +62,7 @@ vulkan::Instance make_instance(ContextInfo::Validation validation, std::span<con
 }
 
 bool can_describe_pipelines(VkPhysicalDevice physical) {
-  std::uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-  const auto is_it = [](const VkExtensionProperties& extension) {
-    return std::string_view(extension.extensionName) == VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
-  };
-  if (std::ranges::none_of(extensions, is_it)) return false;
+  if (!has_extension(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME)) return false;
   VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR has{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
   VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &has};
@@ -132,6 +125,14 @@ std::uint32_t graphics_queue_family(VkPhysicalDevice physical) {
 }
 
 }  // namespace
+
+bool has_extension(VkPhysicalDevice physical, std::string_view name) {
+  std::uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName; });
+}
 
 struct Context::Messages {
   std::mutex mutex;

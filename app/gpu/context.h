@@ -9,6 +9,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lamplight/vulkan.h"
@@ -21,6 +22,8 @@ struct DeviceRow {
   std::string driver;   ///< name and version
   std::string problem;  ///< why it cannot be used, or empty
 };
+
+[[nodiscard]] bool has_extension(VkPhysicalDevice physical, std::string_view name);
 
 /// What `--device` may name: a row's number, or a part of its name.
 [[nodiscard]] std::vector<DeviceRow> list_devices();

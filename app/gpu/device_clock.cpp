@@ -22,14 +22,6 @@ constexpr std::uint32_t NVIDIA = 0x10de;  // vendors by their PCI numbers
 constexpr auto BETWEEN = std::chrono::milliseconds(250);
 constexpr const char* DEVICES = "/sys/bus/pci/devices";
 
-bool has_extension(VkPhysicalDevice physical, std::string_view name) {
-  std::uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-  return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName; });
-}
-
 std::string address_of(VkPhysicalDevice physical) {
   if (!has_extension(physical, VK_EXT_PCI_BUS_INFO_EXTENSION_NAME)) return "";
   VkPhysicalDevicePCIBusInfoPropertiesEXT pci{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PCI_BUS_INFO_PROPERTIES_EXT};
@@ -108,7 +100,7 @@ std::optional<Clock> clock_of_intel(const fs::path& folder) {
 }  // namespace
 
 std::string words_of(const Clock& clock) {
-  if (!clock.now_mhz) return "this driver does not tell";
+  if (!clock.now_mhz) return CLOCK_UNTOLD;
   const std::string most = clock.most_mhz ? fmt::format(" of at most {:.0f}", *clock.most_mhz) : "";
   return fmt::format("{:.0f}{} MHz ({})", *clock.now_mhz, most, clock.told_by);
 }

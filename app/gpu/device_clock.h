@@ -18,7 +18,8 @@ struct Clock {
   std::optional<double> most_mhz;  ///< that the device can run at, as far as it is told
   std::string told_by;             ///< "NVML", "amdgpu", "i915", "xe"
 };
-/// "1980 of at most 1980 MHz (NVML)", "this driver does not tell".
+inline constexpr const char* CLOCK_UNTOLD = "this driver does not tell";
+/// "1980 of at most 1980 MHz (NVML)", or CLOCK_UNTOLD.
 [[nodiscard]] std::string words_of(const Clock& clock);
 
 /// What a driver says in the folder that Linux has for a device, /sys/bus/pci/devices/0000:03:00.0; nothing where it

@@ -76,10 +76,6 @@ void Renderer::cast_shadows(const ShadowSettings& settings) {
   shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : boxes));
 }
 
-void Renderer::restart_shadows() {
-  if (shadows_) shadows_->restart();
-}
-
 void Renderer::light_probes(const ProbeSet* set) {
   assert(!shadows_ && !mirror_ && "before cast_shadows and mirror");
   probes_ = set;

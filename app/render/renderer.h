@@ -72,7 +72,9 @@ class Renderer {
   /// Lights of all frames cast shadows. Once, before the first `set_frame`. Throws Error for what the device cannot do.
   void cast_shadows(const ShadowSettings& settings);
   /// The next `set_frame` draws them as if it were the first. Nothing where no light casts one.
-  void restart_shadows();
+  void restart_shadows() {
+    if (shadows_) shadows_->restart();
+  }
   /// Null: no light casts a shadow.
   [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
   /// Surfaces below a roughness mirror what is around them, in all frames. Once, behind `cast_shadows`. Where there are

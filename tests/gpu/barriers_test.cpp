@@ -139,13 +139,10 @@ TEST_F(Barriers, OfThePageAreEnoughForEveryMethod) {
 std::vector<Masks> culled_between(const CullerCandidate& candidate, std::span<const EngineFrame> frames,
                                   std::span<const vulkan::Buffer> depths, CopiedInputs& inputs, bool gpu_counts,
                                   bool has_behind = true) {
-  vulkan::Culler culler = take(vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
-                                                                                .height = ENGINE_HEIGHT,
-                                                                                .light_capacity = ENGINE_LIGHTS,
-                                                                                .method = std::string(candidate.method),
-                                                                                .options = candidate.options,
-                                                                                .brings_spheres = true,
-                                                                                .host_barriers = true}));
+  vulkan::CullerInfo info = engine_culler_info(candidate.method, candidate.options);
+  info.brings_spheres = true;
+  info.host_barriers = true;
+  vulkan::Culler culler = take(vulkan::Culler::create(test_context().device(), info));
   const VkMemoryBarrier2 before = culler.barrier_before();
   std::vector<MaskPass> passes;
   for (const EngineFrame& frame : frames) passes.emplace_back(culler.lookup(), frame);
@@ -185,11 +182,9 @@ TEST_F(Barriers, OfTheHostMayStandForTheCullers) {
 
 /// Messages about a look-up that is copied without a barrier, by an engine that says who reads it.
 std::string copied_by(VkPipelineStageFlags2 readers, const EngineFrame& frame) {
-  vulkan::Culler culler = take(vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
-                                                                                .height = ENGINE_HEIGHT,
-                                                                                .light_capacity = ENGINE_LIGHTS,
-                                                                                .method = "tiled-bits",
-                                                                                .readers = readers}));
+  vulkan::CullerInfo info = engine_culler_info("tiled-bits");
+  info.readers = readers;
+  vulkan::Culler culler = take(vulkan::Culler::create(test_context().device(), info));
   const VkBuffer bits = culler.lookup().resources[1].resource.buffer;
   const vulkan::Buffer copy = host_buffer("copy", 64);
   const vulkan::Buffer other = host_buffer("another copy", 64);

@@ -32,14 +32,6 @@ vulkan::Device device_with_sets(std::size_t most_pools = ~std::size_t{0}) {
   return device;
 }
 
-vulkan::CullerInfo culler_info(std::string_view method, std::vector<std::string> options = {}) {
-  return {.width = ENGINE_WIDTH,
-          .height = ENGINE_HEIGHT,
-          .light_capacity = ENGINE_LIGHTS,
-          .method = std::string(method),
-          .options = std::move(options)};
-}
-
 vulkan::Pipeline add_pipeline(const vulkan::Device& device) {
   return take(vulkan::Pipeline::compute(device, {.name = "add", .bindings = {{0}, {1}}}, test_shader("plan_add")));
 }
@@ -52,7 +44,7 @@ TEST_F(DescriptorSetsTest, GiveWhatPushedDescriptorsGive) {
   for (const Method& method : methods()) {
     SCOPED_TRACE(method.name);
     vulkan::Culler pushed = take(engine_culler(method.name));
-    vulkan::Culler in_sets = take(vulkan::Culler::create(device, culler_info(method.name)));
+    vulkan::Culler in_sets = take(vulkan::Culler::create(device, engine_culler_info(method.name)));
     EXPECT_EQ(cull_and_walk(in_sets, frame), cull_and_walk(pushed, frame));
   }
 }
@@ -60,7 +52,7 @@ TEST_F(DescriptorSetsTest, GiveWhatPushedDescriptorsGive) {
 TEST_F(DescriptorSetsTest, AreMadeWithTheCullerAndNeverAgain) {
   const EngineFrame frame = engine_frame();
   const vulkan::Device device = device_with_sets();
-  vulkan::Culler culler = take(vulkan::Culler::create(device, culler_info("lamplight")));
+  vulkan::Culler culler = take(vulkan::Culler::create(device, engine_culler_info("lamplight")));
   const std::size_t pools = std::exchange(pools_made, 0);
   const std::size_t sets = std::exchange(sets_made, 0);
   EXPECT_GT(pools, 0);
@@ -79,7 +71,7 @@ TEST_F(DescriptorSetsTest, AreMadeWithTheCullerAndNeverAgain) {
 TEST_F(DescriptorSetsTest, OfFramesUnderWayAreKeptWhenTheCullerGrows) {
   const EngineFrame frame = engine_frame();
   const vulkan::Device device = device_with_sets();
-  vulkan::Culler culler = take(vulkan::Culler::create(device, culler_info("clustered", {"mean_capacity=1"})));
+  vulkan::Culler culler = take(vulkan::Culler::create(device, engine_culler_info("clustered", {"mean_capacity=1"})));
   expect_no_miss(frame, cull_and_walk(culler, frame));
   expect_no_miss(frame, cull_and_walk(culler, frame));
   sets_made = 0;
@@ -134,7 +126,7 @@ TEST_F(DescriptorSetsTest, KeepWhatIsNotPushedAnew) {
 }
 
 TEST_F(DescriptorSetsTest, WithoutMemoryAreAnErrorThatNamesThePass) {
-  const auto culler = vulkan::Culler::create(device_with_sets(0), culler_info("tiled"));
+  const auto culler = vulkan::Culler::create(device_with_sets(0), engine_culler_info("tiled"));
   ASSERT_FALSE(culler.ok());
   EXPECT_NE(culler.error().text().find("descriptor pool for "), std::string::npos) << culler.error().text();
   EXPECT_NE(culler.error().text().find("VK_ERROR_OUT_OF_DEVICE_MEMORY"), std::string::npos) << culler.error().text();

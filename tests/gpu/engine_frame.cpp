@@ -65,13 +65,18 @@ vulkan::CullerFrame culler_frame(const EngineFrame& frame) {
           .depth_layout = frame.depth_image.sampled().layout};
 }
 
+vulkan::CullerInfo engine_culler_info(std::string_view method, std::vector<std::string> options) {
+  return {.width = ENGINE_WIDTH,
+          .height = ENGINE_HEIGHT,
+          .light_capacity = ENGINE_LIGHTS,
+          .method = std::string(method),
+          .options = std::move(options)};
+}
+
 Result<vulkan::Culler> engine_culler(std::string_view method, std::vector<std::string> options, bool brings_spheres) {
-  return vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
-                                                          .height = ENGINE_HEIGHT,
-                                                          .light_capacity = ENGINE_LIGHTS,
-                                                          .method = std::string(method),
-                                                          .options = std::move(options),
-                                                          .brings_spheres = brings_spheres});
+  vulkan::CullerInfo info = engine_culler_info(method, std::move(options));
+  info.brings_spheres = brings_spheres;
+  return vulkan::Culler::create(test_context().device(), info);
 }
 
 MaskPass::MaskPass(const vulkan::BoundLookUp& lookup, const EngineFrame& frame, glm::uvec2 group_px, std::uint32_t view)

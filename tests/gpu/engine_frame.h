@@ -39,6 +39,9 @@ struct EngineFrameInfo {
 /// All that a Culler may be told of it; which of it is read depends on the method.
 [[nodiscard]] vulkan::CullerFrame culler_frame(const EngineFrame& frame);
 
+/// For these frames.
+[[nodiscard]] vulkan::CullerInfo engine_culler_info(std::string_view method, std::vector<std::string> options = {});
+
 /// A Culler for these frames.
 [[nodiscard]] Result<vulkan::Culler> engine_culler(std::string_view method, std::vector<std::string> options = {},
                                                    bool brings_spheres = false);

@@ -13,12 +13,9 @@ std::vector<CullerCandidate> culler_candidates() {
 }
 
 vulkan::Culler culler_of(const CullerCandidate& candidate, std::uint32_t frames_in_flight) {
-  return take(vulkan::Culler::create(test_context().device(), {.width = ENGINE_WIDTH,
-                                                               .height = ENGINE_HEIGHT,
-                                                               .light_capacity = ENGINE_LIGHTS,
-                                                               .method = std::string(candidate.method),
-                                                               .options = candidate.options,
-                                                               .frames_in_flight = frames_in_flight}));
+  vulkan::CullerInfo info = engine_culler_info(candidate.method, candidate.options);
+  info.frames_in_flight = frames_in_flight;
+  return take(vulkan::Culler::create(test_context().device(), info));
 }
 
 Masks masks_alone(const CullerCandidate& candidate, const EngineFrame& frame) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "view/view_test.h"
@@ -9,10 +10,12 @@
 namespace lamp::app {
 namespace {
 
-/// Of a device on which every picture takes too long: they become as small as can be, and full when they rest.
+/// Every picture takes too long, on any device: they become as small as can be; and full when they rest, however long
+/// it takes.
 HeadlessInfo slow_viewer() {
   HeadlessInfo info = small_viewer();
   info.target_ms = 1e-6;
+  info.rest_ms = std::numeric_limits<double>::infinity();
   info.state.paused = false;
   info.state.picked.reset();
   return info;

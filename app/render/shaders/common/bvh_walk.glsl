@@ -1,49 +1,18 @@
 // The first triangle that a ray meets. Each thread has a stack in shared memory: no array lies in slow private memory, and
 // nothing depends on the size of subgroups.
 // Based on: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2:1 (2013), which meets every edge from one
-// side at least; Ize, Robust BVH Ray Traversal, JCGT 2:2 (2013): boxes are met although rounding says that they are not.
+// side at least.
 // Needs: common/bvh_alpha.glsl; BVH_THREADS.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_BVH_WALK
 #define LAMP_BVH_WALK
+#include "common/bvh_ray.glsl"
+#include "common/exact_cross.glsl"
 
 layout(constant_id = 30) const uint BVH_STACK = 54u;  // codes that may wait at once
 shared uint s_codes[BVH_STACK * BVH_THREADS];         // each thread's are BVH_THREADS apart
 
 const uint OUTSIDE_INSTANCES = 0xffffffffu;
-
-// A ray as it is in the space of a level.
-struct BvhRay {
-  vec3 origin;
-  vec3 direction;
-  vec3 inverse;  // of the direction, without infinities
-  vec3 low;      // the origin and more, from which lower faces of boxes are seen
-  vec3 high;     // and less, for upper faces
-};
-
-BvhRay bvh_ray(vec3 origin, vec3 direction) {
-  BvhRay ray;
-  ray.origin = origin;
-  ray.direction = direction;
-  const vec3 least = vec3(1e-12) * max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
-  const vec3 signs = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
-  ray.inverse = signs / max(abs(direction), max(least, vec3(1e-30)));
-  const float room = 1e-6 * (abs(origin.x) + abs(origin.y) + abs(origin.z));
-  ray.low = origin + room;
-  ray.high = origin - room;
-  return ray;
-}
-
-// Where the ray enters a box; infinite if it passes by, or only further on than `end`.
-float enters(BvhRay ray, vec3 box_min, vec3 box_max, float end) {
-  const vec3 a = (box_min - ray.low) * ray.inverse;
-  const vec3 b = (box_max - ray.high) * ray.inverse;
-  const vec3 near = min(a, b);
-  const vec3 far = max(a, b);
-  const float first = max(max(near.x, near.y), max(near.z, 0.0));
-  const float last = min(min(far.x, far.y), min(far.z, end)) * 1.000001;
-  return first <= last ? first : INFINITE_RADIUS;
-}
 
 // x, y and z of a vector so that z is the direction's largest.
 vec3 turned(vec3 v, vec3 direction) {
@@ -58,49 +27,6 @@ struct BvhMet {
   float v;
   bool front;
 };
-
-// In two parts of half the bits, whose products are exact.
-// Based on: Dekker, A Floating-Point Technique for Extending the Available Precision, Numerische Mathematik 18 (1971).
-struct Halves {
-  vec2 high;
-  vec2 low;
-};
-
-Halves halves_of(vec2 v) {
-  precise const vec2 scaled = 4097.0 * v;  // 2^12 + 1
-  precise const vec2 high = scaled - (scaled - v);
-  precise const vec2 low = v - high;
-  return Halves(high, low);
-}
-
-// What rounding took from p * q = `rounded`; the same of q and p.
-float lost_of(float rounded, float p_high, float p_low, float q_high, float q_low) {
-  precise const float lost = (p_high * q_high - rounded) + (p_high * q_low + p_low * q_high) + p_low * q_low;
-  return lost;
-}
-
-// p.x q.y - p.y q.x, about as near as 32 bits can say. Of q and p it is the same number with the other sign, however sums
-// are rounded: so the two triangles at an edge agree on who has a ray.
-float cross_of(vec2 p, vec2 q, Halves p2, Halves q2) {
-  precise const vec2 rounded = p * q.yx;
-  precise const float lost_x = lost_of(rounded.x, p2.high.x, p2.low.x, q2.high.y, q2.low.y);
-  precise const float lost_y = lost_of(rounded.y, p2.high.y, p2.low.y, q2.high.x, q2.low.x);
-  precise const float of_edge = (rounded.x - rounded.y) + (lost_x - lost_y);
-  return of_edge;
-}
-
-float largest_of(vec2 a, vec2 b, vec2 c) {
-  const vec2 most = max(abs(a), max(abs(b), abs(c)));
-  return max(most.x, most.y);
-}
-
-// Whether a ray through 0 passes by a triangle, so far that rounding of plain products cannot matter.
-bool passes_by(vec2 a, vec2 b, vec2 c) {
-  const float size = largest_of(a, b, c);
-  const float room = 1e-6 * size * size;  // two products and their difference are off by half of it, however rounded
-  const vec3 of_edges = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
-  return min(of_edges.x, min(of_edges.y, of_edges.z)) < -room && max(of_edges.x, max(of_edges.y, of_edges.z)) > room;
-}
 
 // Both sides; an edge belongs to both its triangles. With plain products, a hit on a triangle L long and w wide would be off
 // by L / w times as much as its corners are.
