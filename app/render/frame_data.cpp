@@ -89,6 +89,16 @@ void FrameData::set_view(const View& view, std::uint32_t index) {
   view_changed_ = true;
 }
 
+void FrameData::take_cells_of(const Plan& plan) {
+  for (std::size_t i = 0; i < host_frames_.size(); ++i) {
+    shared::Frame& frame = host_frames_[i];
+    const std::uint32_t shift = plan.cell_shift(frame.size_px.x, frame.size_px.y);
+    if (std::exchange(frame.cell_shift, shift) == shift) continue;
+    std::memcpy(staging_.mapped().subspan(i * sizeof(frame)).data(), &frame, sizeof(frame));
+    view_changed_ = true;
+  }
+}
+
 float FrameData::farthest_eye_m() const {
   float farthest = 0.0F;
   for (const shared::Frame& frame : host_frames_)

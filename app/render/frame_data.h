@@ -28,6 +28,8 @@ class FrameData {
            std::span<const gpu::ProbeData> probes = {});
   /// The same entities, seen otherwise: by one view, in a place among a frame's.
   void set_view(const View& view, std::uint32_t index = 0);
+  /// Cells of the views' sizes, where the plan has passes for smaller pictures.
+  void take_cells_of(const Plan& plan);
   /// The entities of the picture: its lights, then the records of decals and probes.
   [[nodiscard]] std::span<const shared::Light> host_lights() const {
     return std::span(host_lights_).first(frame_of(0).light_count);

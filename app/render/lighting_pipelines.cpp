@@ -131,7 +131,8 @@ Problem problem_of(const LightingInfo& info, const DeviceTraits& traits) {
           .light_capacity = info.light_capacity,
           .options = info.options,
           .traits = traits,
-          .depth_samples = info.depth.samples};
+          .depth_samples = info.depth.samples,
+          .smaller_frames = sides > 1};
 }
 
 Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
@@ -148,7 +149,9 @@ std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, c
   const std::vector<std::string> settings =
       with_box_shapes(*any_depth.method, world ? std::vector<std::string>() : of_picture, culls_shapes(info.options));
   any_depth.options = take(resolve_options(*any_depth.method, settings));
-  return plan_or_throw(any_depth, device);
+  Problem problem = problem_of(any_depth, device.traits);
+  problem.smaller_frames = false;  // the frame's record has the cells of the other plan
+  return take(make_plan(*any_depth.method, problem));
 }
 
 vulkan::Constant shown_view_constant(const Plan& plan) { return {CONSTANT_SEVERAL_VIEWS, plan.views > 1 ? 1U : 0U}; }

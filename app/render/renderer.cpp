@@ -203,9 +203,12 @@ LightingFrame Renderer::lighting_frame() const {
 }
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
-  if (lighting != nullptr)
-    still_tree_.bring(context_, all_pictures_ ? all_pictures_->data : data_, lighting->runner().plan(),
-                      lighting->info().options);
+  if (lighting != nullptr) {
+    FrameData& data = all_pictures_ ? all_pictures_->data : data_;
+    const Plan& plan = lighting->runner().plan();
+    still_tree_.bring(context_, data, plan, lighting->info().options);
+    data.take_cells_of(plan);
+  }
   context_.submit(record);
   if (lighting != nullptr) lighting->finish();
   if (mirror_) mirror_->finish();

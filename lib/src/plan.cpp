@@ -61,6 +61,14 @@ std::uint64_t Plan::bytes() const {
   return sum;
 }
 
+std::uint32_t Plan::cell_shift(std::uint32_t frame_width, std::uint32_t frame_height) const {
+  const auto fits = [&](const FinerPasses& one) {
+    return one.cells.count(frame_width, frame_height) <= one.most_cells;
+  };
+  const auto finest = std::ranges::find_if(finer, fits);
+  return finest == finer.end() ? 0 : finest->shift;
+}
+
 bool Plan::binds(ResourceId id) const {
   return binds_any(passes, id) || binds_any(lookup.bindings, id) ||
          (fused && (binds_any(fused->passes, id) || binds_any(fused->lookup.bindings, id)));

@@ -43,7 +43,7 @@ std::optional<Error> check_buffer(const Plan& plan, const BufferDesc& buffer, co
     return Error{source, "an upload buffer cannot be zeroed; its host pass writes all of it"};
   const CellGrid& cells = buffer.zeroed_cells;
   if (cells.px != 0 &&
-      (buffer.cell_bytes % 4 != 0 || cells.count(plan.width, plan.height) * buffer.cell_bytes != buffer.bytes))
+      (buffer.cell_bytes % 4 != 0 || cells.count(plan.width, plan.height) * buffer.cell_bytes < buffer.bytes))
     return Error{source, "the cells that are zeroed must be all of it, in the largest picture"};
   return check_bytes(source, plan.all_bytes(buffer), traits);
 }
@@ -129,6 +129,26 @@ std::optional<Error> check_capacity(const Plan& plan, const Capacity& capacity) 
   if (capacity.needed_offset % 4 != 0 || capacity.needed_offset + 4 > buffer_of(plan, plan.counters).bytes)
     return Error{source, "the count at byte " + std::to_string(capacity.needed_offset) + " is not in the counters"};
   if (capacity.per_option == 0 || capacity.entries_per_count == 0) return Error{source, "must say how it grows"};
+  return std::nullopt;
+}
+
+/// In smaller pictures the same shaders work on the same buffers: what else was checked holds.
+std::optional<Error> check_finer(const Plan& plan, const FinerPasses& finer, const DeviceTraits& traits) {
+  const std::string source = "passes for cells of " + std::to_string(finer.cells.px) + " pixels";
+  if (finer.shift == 0 || finer.cells.px == 0) return Error{source, "must be for smaller cells than the plan's"};
+  if (finer.most_cells > traits.max_groups[0])
+    return Error{source, "are for " + std::to_string(finer.most_cells) + " cells, the device takes " +
+                             std::to_string(traits.max_groups[0]) + " work groups"};
+  const auto same = [](const Pass& a, const Pass& b) {
+    return a.shader == b.shader && a.kind == PassKind::compute && b.kind == PassKind::compute &&
+           a.extent.indirect == b.extent.indirect && a.bindings == b.bindings;
+  };
+  if (!std::ranges::equal(finer.passes, plan.passes, same))
+    return Error{source, "must have the shaders and bindings of the plan's, of compute passes"};
+  for (const Pass& pass : finer.passes) {
+    if (auto error = check_shared("pass " + pass.name, pass.shared_bytes, traits)) return error;
+    if (auto error = check_full_subgroups("pass " + pass.name, pass.full_subgroups, traits)) return error;
+  }
   return std::nullopt;
 }
 
@@ -308,6 +328,8 @@ std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
     if (auto error = check_capacity(plan, capacity)) return error;
   if (plan.cells == 0) return Error{"cells", "a look-up has at least one cell"};
   if (auto error = check_passes(plan, plan.passes, plan.lookup, NO_RESOURCE, traits)) return error;
+  for (const FinerPasses& finer : plan.finer)
+    if (auto error = check_finer(plan, finer, traits)) return error;
   if (!plan.fused) return std::nullopt;
   const FusedLookUp& fused = *plan.fused;
   const std::uint64_t threads = std::uint64_t{fused.group_width} * fused.group_height;

@@ -31,9 +31,8 @@ vulkan::PlanRunner runner_of(const Method& method, const Settings& settings, glm
   return take(vulkan::PlanRunner::create(test_context().device(), std::move(plan), shader_library().source()));
 }
 
-void expect_same_as_own_plans(const Method& method, const Settings& settings, std::span<const glm::uvec2> sizes) {
-  SCOPED_TRACE(fmt::format("{} {}", method.name, fmt::join(settings, " ")));
-  vulkan::PlanRunner runner = runner_of(method, settings, LARGEST);
+void expect_same_as_own_plans(vulkan::PlanRunner& runner, const Method& method, const Settings& settings,
+                              std::span<const glm::uvec2> sizes) {
   for (const glm::uvec2 size : sizes) {
     SCOPED_TRACE(fmt::format("{}x{}", size.x, size.y));
     const View view = made_up_view(size);
@@ -49,6 +48,12 @@ void expect_same_as_own_plans(const Method& method, const Settings& settings, st
 }
 
 class FrameSizes : public GpuTest {};
+
+void expect_same_as_own_plans(const Method& method, const Settings& settings, std::span<const glm::uvec2> sizes) {
+  SCOPED_TRACE(fmt::format("{} {}", method.name, fmt::join(settings, " ")));
+  vulkan::PlanRunner runner = runner_of(method, settings, LARGEST);
+  expect_same_as_own_plans(runner, method, settings, sizes);
+}
 
 TEST_F(FrameSizes, AreWhatAPlanOfThatSizeMakesOfThem) {
   for (const Method& method : methods()) expect_same_as_own_plans(method, {}, SIZES);
@@ -68,6 +73,26 @@ TEST_F(FrameSizes, HoldForEveryWayToKeepWhatWasFound) {
     check("lamplight", {fmt::format("cells={}", cells), "tile=8", "prune=pixel"});
   for (const char* cells : {"bits", "list"})
     check("lamplight", {fmt::format("cells={}", cells), "depth=none", "container=bits"});
+}
+
+/// Cells go by the size of the picture: a plan that is told so takes those that a plan for that size would have.
+TEST_F(FrameSizes, HaveCellsOfTheirOwn) {
+  constexpr glm::uvec2 LARGE(872, 705);
+  constexpr glm::uvec2 MORE_SIZES[] = {LARGE, {405, 298}, {33, 700}, {871, 703}};
+  const Method& method = *take(find_method("lamplight"));
+  for (const char* kept : {"cells=bits", "cells=list"})
+    for (const char* container : {"container=list", "container=bits"})
+      for (const char* depth : {"depth=buffer", "depth=none"}) {
+        const Settings settings{kept, container, depth, "tile=8"};
+        SCOPED_TRACE(fmt::format("{}", fmt::join(settings, " ")));
+        Problem problem = problem_of(method, settings, LARGE);
+        problem.smaller_frames = true;
+        vulkan::PlanRunner runner =
+            take(vulkan::PlanRunner::create(test_context().device(), take(make_plan(method, problem))));
+        EXPECT_EQ(runner.plan().cell_shift(LARGE.x, LARGE.y), 0U);
+        EXPECT_EQ(runner.plan().cell_shift(405, 298), 1U);
+        expect_same_as_own_plans(runner, method, settings, MORE_SIZES);
+      }
 }
 
 TEST_F(FrameSizes, OfACullerMayBeSmaller) {

@@ -25,6 +25,7 @@ std::vector<std::vector<std::uint32_t>> OverDepth::per_pixel(const std::vector<s
                                                              vulkan::PlanRunner& runner, Passes which,
                                                              std::uint32_t words) {
   const vulkan::Resource depth = depth_.sampled();
+  data_.take_cells_of(runner.plan());
   const vulkan::PlanInputs inputs = data_.plan_inputs({&depth, 1});
   const vulkan::BoundLookUp lookup = runner.lookup(inputs, which);
   const bool fused = which == Passes::fused;

@@ -112,6 +112,37 @@ TEST(PlanCheck, APassMayDispatchNoGroupForNoLight) {
   EXPECT_FALSE(lamp::plan_check(plan, {}).has_value());
 }
 
+/// Passes for smaller pictures, of a plan of compute passes alone.
+TEST(PlanCheck, FinerPassesAreThoseOfThePlan) {
+  Plan plan;
+  plan.width = plan.height = 64;
+  plan.light_capacity = 1000;
+  (void)plan.add({.name = "lists", .bytes = 64});
+  plan.passes = {
+      {.name = "fill", .shader = COMPUTE, .bindings = {{PLAN_BUFFER, Access::write}}, .extent = {.cells = {.px = 16}}}};
+  plan.lookup = {.name = "lists", .bindings = {{INPUT_FRAME}, {PLAN_BUFFER}}};
+  const lamp::FinerPasses sound{.shift = 1, .cells = {.px = 8}, .most_cells = 16, .passes = plan.passes};
+  const auto error_of = [&](const auto& breaks) {
+    Plan broken = plan;
+    broken.finer = {sound};
+    breaks(broken.finer.front());
+    const auto error = lamp::plan_check(broken, {});
+    return error ? error->text() : "none";
+  };
+  using lamp::FinerPasses;
+  EXPECT_EQ(error_of([](FinerPasses&) {}), "none");
+  EXPECT_EQ(error_of([](FinerPasses& finer) { finer.shift = 0; }),
+            "passes for cells of 8 pixels: must be for smaller cells than the plan's");
+  EXPECT_EQ(error_of([](FinerPasses& finer) { finer.passes.front().bindings.front().access = Access::read_write; }),
+            "passes for cells of 8 pixels: must have the shaders and bindings of the plan's, of compute passes");
+  EXPECT_EQ(error_of([](FinerPasses& finer) { finer.passes.clear(); }),
+            "passes for cells of 8 pixels: must have the shaders and bindings of the plan's, of compute passes");
+  EXPECT_EQ(error_of([](FinerPasses& finer) { finer.most_cells = 65536; }),
+            "passes for cells of 8 pixels: are for 65536 cells, the device takes 65535 work groups");
+  EXPECT_EQ(error_of([](FinerPasses& finer) { finer.passes.front().shared_bytes = 1U << 20; }),
+            "pass fill: needs 1048576 bytes of shared memory, the device has 16384");
+}
+
 /// A rule: how a sound plan breaks it, and what the error must say.
 struct Rule {
   const char* name;

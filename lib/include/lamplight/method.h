@@ -63,6 +63,9 @@ struct Problem {
   std::uint32_t depth_samples = 1;
   /// Frames that may be recorded and not done yet, 1 .. MAX_FRAMES_IN_FLIGHT: what the host writes has as many slots.
   std::uint32_t frames_in_flight = 1;
+  /// Frames may be smaller than width x height, and are to take no longer than with a plan for their size: where the
+  /// size of a method's cells goes by that of the picture, the plan has passes for finer cells, too (Plan::finer).
+  bool smaller_frames = false;
 };
 
 struct Method {

@@ -46,6 +46,8 @@ enum class Access : std::uint8_t { read, write, read_write };
 struct Binding {
   ResourceId resource = NO_RESOURCE;
   Access access = Access::read;
+
+  friend bool operator==(const Binding&, const Binding&) = default;
 };
 
 enum class BufferMemory : std::uint8_t {
@@ -70,7 +72,7 @@ struct BufferDesc {
   std::uint64_t bytes = 0;  ///< of a view; > 0, a multiple of 4
   BufferMemory memory = BufferMemory::device;
   bool zeroed = false;           ///< filled with zeros at the start of every frame; not upload memory
-  CellGrid zeroed_cells;         ///< px not 0: only as far as the cells of the frame's picture reach,
+  CellGrid zeroed_cells;         ///< px not 0: at most as far as the cells of the frame's picture reach,
   std::uint64_t cell_bytes = 0;  ///< of as many bytes each, a multiple of 4
   bool zeroed_by_pass = false;   ///< likewise, but by the first pass that binds it, which only writes it
   bool indirect = false;         ///< holds group or draw counts
@@ -164,6 +166,15 @@ struct FusedLookUp {
   std::uint32_t shared_bytes = 0;  ///< shared memory of a work group, for plan_check
 };
 
+/// What runs instead of Plan::passes in smaller pictures, whose cells are finer: the same shaders over the same
+/// buffers, with other constants and extents.
+struct FinerPasses {
+  std::uint32_t shift = 0;       ///< > 0: sides of the cells are halved as often; of a frame, Frame::cell_shift
+  CellGrid cells;                ///< of this size
+  std::uint64_t most_cells = 0;  ///< for pictures of at most as many
+  std::vector<Pass> passes;      ///< one for each of Plan::passes
+};
+
 /// Entries that a plan has room for, and where a frame counts how many it needed. What does not fit is walked the long
 /// way in that frame; a host can make room for the next one (`grow_plan`).
 struct Capacity {
@@ -179,6 +190,7 @@ struct Capacity {
 struct LAMPLIGHT_API Plan {
   std::vector<BufferDesc> buffers;
   std::vector<Pass> passes;
+  std::vector<FinerPasses> finer;  ///< the finest first; none where cells of any picture have one size
   LookUp lookup;
   std::optional<FusedLookUp> fused;
   std::uint64_t cells = 1;             ///< cells of the look-up
@@ -206,6 +218,9 @@ struct LAMPLIGHT_API Plan {
   /// Bytes that a buffer takes, with what it is filled from; of all buffers together.
   [[nodiscard]] std::uint64_t bytes_of(const BufferDesc& buffer) const;
   [[nodiscard]] std::uint64_t bytes() const;
+  /// What the record of a frame of that size, in pixels, says (Frame::cell_shift), so that it takes no longer than with
+  /// a plan for its size. 0 is right for every size.
+  [[nodiscard]] std::uint32_t cell_shift(std::uint32_t frame_width, std::uint32_t frame_height) const;
   /// Whether a pass or a look-up, fused ones too, binds it.
   [[nodiscard]] bool binds(ResourceId id) const;
 };

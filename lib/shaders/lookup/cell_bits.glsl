@@ -32,7 +32,7 @@ Walk walk_begin(uint view, uvec2 pixel, float z_view) {
   walk.base = 0u;
   walk.word = 0u;
   walk.words = ((walk.all ? lookup_light_count() : cell.entries) + 31u) / 32u;
-  walk.row = lookup_row(pixel, z_view);
+  walk.row = lookup_row(view, pixel, z_view);
   walk.first = at_cell ? index : cell.first_piece;
   walk.second = at_cell ? cell.first_piece - 1u : cell.first_piece;
   return walk;
@@ -50,7 +50,7 @@ void lookup_next_word(inout Walk walk) {
   }
   const uint piece = word / PIECE_WORDS;
   const uint place = piece == 0u ? walk.first : walk.second + piece;
-  const uint row_word = (place * LOOKUP_CELL_ROWS + walk.row) * PIECE_WORDS + word % PIECE_WORDS;
+  const uint row_word = (place * lookup_cell_rows(walk.view) + walk.row) * PIECE_WORDS + word % PIECE_WORDS;
   walk.bits = lookup_bits[walk.view * LOOKUP_BITS_VIEW + row_word];
   walk.base += (place - piece) * PIECE;
 }

@@ -3,7 +3,7 @@
 #include "lookup/cell_bits.glsl"
 #undef LOOKUP_TOGETHER
 
-LOOKUP_CONSTANT(8, uint, LOOKUP_STEPS, 1);
+LOOKUP_CONSTANT(9, uint, LOOKUP_STEPS, 1);
 
 bool walk_left(Walk walk) { return walk.bits != 0u || walk.word < walk.words; }
 

@@ -37,7 +37,7 @@ Walk walk_spans(uint view, uint first, uint count, uint span, uint pieces) {
   walk.at = first;
   walk.end = first + count;
   walk.span = span;
-  walk.spans = span + pieces * LOOKUP_CELL_ROWS;
+  walk.spans = span + pieces * lookup_cell_rows(view);
   walk.all = false;
   walk.view = view;
   return walk;
@@ -49,17 +49,17 @@ Walk walk_begin(uint view, uvec2 pixel, float z_view) {
   const uint index = lookup_light_cell(view, pixel, z_view);
   const LightCell cell = lookup_cell_at(view, index);
   if (cell.pieces == ALL_LIGHTS) return walk_of_all();
-  const uint row = lookup_row(pixel, z_view);
-  const uint next = cell.first_piece * LOOKUP_CELL_ROWS + row;
+  const uint row = lookup_row(view, pixel, z_view);
+  const uint next = cell.first_piece * lookup_cell_rows(view) + row;
   if (LOOKUP_FIRST_AT_CELL == 0u) return walk_spans(view, 0u, 0u, next, cell.pieces);
-  const LightSpan span = lookup_span_at(view, index * LOOKUP_CELL_ROWS + row);  // of a cell without lights anything
+  const LightSpan span = lookup_span_at(view, index * lookup_cell_rows(view) + row);  // of a cell without lights anything
   return walk_spans(view, span.first, cell.pieces == 0u ? 0u : span.count, next, max(cell.pieces, 1u) - 1u);
 }
 #include "lookup/parts/of_view.glsl"
 
 void lookup_next_span(inout Walk walk) {
   const LightSpan span = lookup_span_at(walk.view, walk.span);
-  walk.span += LOOKUP_CELL_ROWS;
+  walk.span += lookup_cell_rows(walk.view);
   walk.at = span.first;
   walk.end = span.first + span.count;
 }

@@ -3,7 +3,7 @@
 #include "lookup/cell_lists.glsl"
 #undef LOOKUP_TOGETHER
 
-LOOKUP_CONSTANT(8, uint, LOOKUP_STEPS, 1);
+LOOKUP_CONSTANT(9, uint, LOOKUP_STEPS, 1);
 
 bool walk_left(Walk walk) { return walk.at < walk.end || walk.span < walk.spans; }
 

@@ -5,12 +5,13 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
-layout(constant_id = 3) const uint HELD = 2;         // 1 or MOST_HELD
+layout(constant_id = 3) const uint HELD = 2;         // up to MOST_HELD
 layout(constant_id = 4) const uint LIST_ROOM = 128;  // lights of a list, PIECE at most
 layout(constant_id = 5) const uint PAIRS = 1024;     // of light and row that wait in shared memory
 layout(constant_id = 6) const uint ROWS = 16;        // tiles of the cell
 layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
+layout(constant_id = 9) const uint SAMPLES = 1;      // a pixel
 const uint FURTHER = 0u;                             // no FURTHER_* tests: can_gather
 const bool LIGHTS_MISS = false;                      // a work group has all rows of its cell
 #include "methods/lamplight_exact.glsl"

@@ -4,8 +4,9 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint TILE_PX = 16;
 layout(constant_id = 2) const uint CELL_TILES = 4;
-layout(constant_id = 3) const uint HELD = 2;     // 1 or MOST_HELD
+layout(constant_id = 3) const uint HELD = 2;     // up to MOST_HELD
 layout(constant_id = 4) const uint BLOCK = 256;  // lights
+layout(constant_id = 5) const uint SAMPLES = 1;  // a pixel
 #define BOUNDS BOUNDS_MASK
 #include "common/tile_ranges.glsl"
 #include "lamplight/shared/lamplight.h"

@@ -1,83 +1,116 @@
 // Depths of the tiles of a cell, which is a work group's: nearest, farthest and the mask of occupied parts of each;
 // nearest and farthest of all. A subgroup takes whole tiles, so that tiles need no barrier.
 // Based on: Harada, A 2.5D Culling for Forward+, SIGGRAPH Asia (2012), for the mask.
-// Needs: TILE_PX, CELL_TILES, HELD: 1 or MOST_HELD; BOUNDS_MASK; `frame`, `depth_squares` (DepthSquares).
+// Needs: TILE_PX, CELL_TILES, SAMPLES, HELD: up to MOST_HELD; BOUNDS_MASK; `frame`, `depth_squares` (DepthSquares).
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_TILE_DEPTHS
 #define LAMP_METHODS_LAMPLIGHT_TILE_DEPTHS
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "common/half_range.glsl"
 #include "common/tile_ranges.glsl"
 
 shared uint s_nearest;   // keys: the nearest depth's is the greatest
 shared uint s_farthest;
 
 // HELD squares of 2 x 2 pixels, or as many samples, are loaded at once by a thread and held in registers: with two, 32
-// threads read a tile of 16 pixels once.
-const uint MOST_HELD = 2u;
-
-uvec4 keys_of(vec4 depths) { return uvec4(abs(ivec4(floatBitsToUint(depths)) - int(frame.sky_bits))); }
+// threads read a tile of 16 pixels once, with eight one of four samples.
+const uint MOST_HELD = 8u;
 
 #ifdef MULTISAMPLED
-uint squares_of_tile() { return tile_samples(depth_squares) / 4u; }
+uint squares_of_tile() { return TILE_PX * TILE_PX * SAMPLES / 4u; }
 
-uvec4 square_keys(uvec2 tile, uint square) {
-  uvec4 keys;
-  for (uint i = 0u; i < 4u; ++i) keys[i] = tile_sample_key(frame, depth_squares, tile, 4u * square + i);
-  return keys;
+// Device depths. Beyond the picture those of its last pixels, which the tile has as well.
+vec4 square_depths(uvec2 tile, uint square, bool inside) {
+  vec4 depths;
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    const uint pixel = (4u * square + i) / SAMPLES;
+    uvec2 at = tile * TILE_PX + uvec2(pixel % TILE_PX, pixel / TILE_PX);
+    if (!inside) at = min(at, frame.size_px - 1u);
+    depths[i] = texelFetch(depth_squares, ivec2(at + frame.depth_offset_px), int((4u * square + i) % SAMPLES)).x;
+  }
+  return depths;
 }
 #else
 const uint SQUARES_ACROSS = TILE_PX / 2u;
 uint squares_of_tile() { return SQUARES_ACROSS * SQUARES_ACROSS; }
 
-// The sky's beyond the picture, whatever a larger image holds there. Gathered are the four around the corner that they
-// share, in the order of Vulkan: (0, 1), (1, 1), (1, 0), (0, 0).
-uvec4 square_keys(uvec2 tile, uint square) {
+// Device depths; the sky's beyond the picture, whatever a larger image holds there. Gathered are the four around the
+// corner that they share, in the order of Vulkan: (0, 1), (1, 1), (1, 0), (0, 0).
+vec4 square_depths(uvec2 tile, uint square, bool inside) {
   const uvec2 pixel = tile * TILE_PX + 2u * uvec2(square % SQUARES_ACROSS, square / SQUARES_ACROSS);
   const vec2 corner = vec2(pixel + frame.depth_offset_px + 1u);
-  const uvec4 keys = keys_of(textureGather(depth_squares, corner / vec2(textureSize(depth_squares, 0))));
+  const vec4 depths = textureGather(depth_squares, corner / vec2(textureSize(depth_squares, 0)));
+  if (inside) return depths;
+  const vec4 sky = vec4(uintBitsToFloat(frame.sky_bits));
   const uvec4 x = pixel.x + uvec4(0u, 1u, 1u, 0u);
   const uvec4 y = pixel.y + uvec4(1u, 1u, 0u, 0u);
-  const uvec4 in_rows = mix(uvec4(SKY_KEY), keys, lessThan(y, uvec4(frame.size_px.y)));
-  return mix(uvec4(SKY_KEY), in_rows, lessThan(x, uvec4(frame.size_px.x)));
+  return mix(sky, mix(sky, depths, lessThan(y, uvec4(frame.size_px.y))), lessThan(x, uvec4(frame.size_px.x)));
 }
 #endif
 
-void load_keys(uvec2 tile, uint first, out uvec4 keys[MOST_HELD]) {
+void load_depths(uvec2 tile, uint first, bool inside, out vec4 depths[MOST_HELD]) {
   const uint squares = squares_of_tile();
   [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
     const uint square = first + k * gl_SubgroupSize + gl_SubgroupInvocationID;
     const bool there = k < HELD && (squares % (HELD * gl_SubgroupSize) == 0u || square < squares);
-    keys[k] = there ? square_keys(tile, square) : uvec4(SKY_KEY);
+    depths[k] = there ? square_depths(tile, square, inside) : vec4(uintBitsToFloat(frame.sky_bits));
   }
 }
 
-// The mask's parts of keys. A faster division than that of z_view_of: off by a few units in the last place, which the
-// slack of light bounds covers.
-uvec4 parts_of_keys(mat4 clip, uvec4 keys, float z_near, float scale) {
-  const vec4 depths = uintBitsToFloat(uvec4(abs(ivec4(keys) - int(frame.sky_bits))));
-  const vec4 z = (clip[3][2] - clip[3][3] * depths) / (clip[2][2] - clip[2][3] * depths);
-  return uvec4(clamp((z - z_near) * scale, 0.0, float(MASK_BITS - 1u)));
+struct NearFar {
+  uint nearest;   // the greatest key
+  uint farthest;  // the least key of a surface, less 1, so that the sky's is the greatest
+};
+
+// Depths are between 0 and 1: depth_key takes one multiplication of whole numbers.
+void take_depths(vec4 depths, inout NearFar range) {
+  const uint sign = frame.sky_bits == 0u ? 1u : ~0u;
+  const uvec4 keys = floatBitsToUint(depths) * sign + frame.sky_bits;
+  const uvec4 less = keys - 1u;
+  range.nearest = max(range.nearest, max(max(keys.x, keys.y), max(keys.z, keys.w)));
+  range.farthest = min(range.farthest, min(min(less.x, less.y), min(less.z, less.w)));
+}
+
+// Where between the nearest surface, 0, and the farthest, 1, a device depth lies, as a quotient of two linear functions:
+// off by a few units in the last place of z, which the slack of light bounds covers.
+struct Along {
+  vec2 above;  // above.x + above.y * depth
+  vec2 below;
+};
+
+Along along_tile(float z_near, float scale) {
+  const mat4 m = frame.clip_from_view;
+  const vec2 above = vec2(m[3][2] - z_near * m[2][2], z_near * m[2][3] - m[3][3]);
+  return Along(above * (scale / float(MASK_BITS)), vec2(m[2][2], -m[2][3]));
+}
+
+// A bit for each part of the mask with a depth. Sums with ROUNDS have no bits behind the point. The sky is where the
+// farthest surface is, or the nearest.
+uint parts_of_depths(Along along, vec4 depths) {
+  const vec4 PARTS = vec4(31.999998);  // one unit in the last place less than there are, so that 1 is in the last one
+  const vec4 ROUNDS = vec4(12582912.0);
+  const vec4 at = clamp((along.above.x + along.above.y * depths) / (along.below.x + along.below.y * depths), 0.0, 1.0);
+  precise const vec4 rounded = LAMP_FMA(at, PARTS, vec4(-0.5)) + ROUNDS;
+  const uvec4 parts = floatBitsToUint(rounded) & 31u;
+  return 1u << parts.x | 1u << parts.y | 1u << parts.z | 1u << parts.w;
 }
 
 // For all threads of a subgroup together; every one of them returns the tile's ranges.
 TileDepths depths_of_tile(uvec2 tile) {
+  const bool inside = all(lessThanEqual((tile + 1u) * TILE_PX, frame.size_px));
   const uint stride = HELD * gl_SubgroupSize;
   const uint squares = squares_of_tile();
-  uvec4 keys[MOST_HELD];
-  uint nearest = SKY_KEY;
-  uint farthest = ~0u;
+  vec4 depths[MOST_HELD];
+  NearFar range = NearFar(SKY_KEY, ~0u);
   for (uint first = 0u; first < squares; first += stride) {
-    load_keys(tile, first, keys);
-    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
-      const uvec4 surfaces = mix(keys[k], uvec4(~0u), equal(keys[k], uvec4(SKY_KEY)));
-      nearest = max(nearest, max(max(keys[k].x, keys[k].y), max(keys[k].z, keys[k].w)));
-      farthest = min(farthest, min(min(surfaces.x, surfaces.y), min(surfaces.z, surfaces.w)));
-    }
+    load_depths(tile, first, inside, depths);
+    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k)
+      if (k < HELD) take_depths(depths[k], range);
   }
-  nearest = subgroupMax(nearest);
-  farthest = subgroupMin(farthest);
+  const uint nearest = subgroupMax(range.nearest);
+  const uint farthest = subgroupMin(range.farthest) + 1u;
   if (nearest == SKY_KEY) return TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
   if (subgroupElect()) {
     atomicMax(s_nearest, nearest);
@@ -86,27 +119,15 @@ TileDepths depths_of_tile(uvec2 tile) {
   const float z_near = z_view_of_key(frame, nearest);
   const float z_far = z_view_of_key(frame, farthest);
   const float scale = mask_scale(z_near, z_far);
-  const mat4 clip = frame.clip_from_view;
-  uint mask = 0u;
+  const Along along = along_tile(z_near, scale);
+  uint mask = 1u;  // the nearest surface's
   for (uint first = 0u; first < squares; first += stride) {
-    if (squares > stride) load_keys(tile, first, keys);
-    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k) {
-      const uvec4 parts = parts_of_keys(clip, keys[k], z_near, scale);
-      [[unroll]] for (int i = 0; i < 4; ++i) mask |= keys[k][i] != SKY_KEY ? 1u << parts[i] : 0u;
-    }
+    if (squares > stride) load_depths(tile, first, inside, depths);
+    [[unroll]] for (uint k = 0u; k < MOST_HELD; ++k)
+      if (k < HELD) mask |= parts_of_depths(along, depths[k]);
   }
   return TileDepths(z_near, z_far, scale, subgroupOr(mask));
 }
-
-// Depths that a half float holds no nearer, and no farther, however it is rounded: it has eleven bits, and a device may
-// make zero of what is nearer to it than HALF_ZERO. Depths of an orthographic view may be negative, behind the eye.
-float infinity() { return uintBitsToFloat(0x7f800000u); }
-const float LARGEST_HALF = 65504.0;
-const float HALF_ZERO = 6.2e-5;
-float half_below(float z) {
-  return z < -0.99 * LARGEST_HALF ? -infinity() : min((z > 0.0 ? 0.999 : 1.001) * z, LARGEST_HALF) - HALF_ZERO;
-}
-float half_above(float z) { return -half_below(-z); }
 
 // Of the cell, once all of its tiles are known.
 vec2 depths_of_cell() {

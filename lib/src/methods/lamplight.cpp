@@ -20,12 +20,12 @@
 namespace lamp {
 namespace {
 
+using lamplight::find_threads;
 using lamplight::group_threads;
 using lamplight::has_small_subgroups;
 using lamplight::light_threads;
 using lamplight::Sizes;
 using lamplight::THREAD_PAIRS;
-using lamplight::THREADS;
 using lamplight::WORD_LIGHTS;
 
 // Tuned on an H100, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was tried.
@@ -45,16 +45,6 @@ constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread;
 constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
 constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
 constexpr std::uint64_t MOST_STEPS = 16;  // of a walk in each round of its loop: shading is in the code as often
-
-/// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
-/// 65535 groups, all that some have, are one short of 16 million lights.
-std::uint32_t find_threads(const Problem& problem) {
-  const auto fits = [&](std::uint32_t threads) {
-    return parts::divide_up(parts::capacity(problem), threads) <= problem.traits.max_groups[0];
-  };
-  if (const std::uint32_t threads = light_threads(problem); fits(threads)) return threads;
-  return lamplight::full_threads(problem, fits(THREADS) ? THREADS : 2 * THREADS);
-}
 
 /// Lights in view of a work group that finds cells, while there are few.
 std::uint32_t few_lights(const Problem& problem, std::uint32_t threads) {
@@ -90,9 +80,12 @@ Buffers add_buffers(Plan& plan, const Problem& problem, const Sizes& s) {
   }
   if (!s.cell_bits) b.seen = plan.add({.name = "lights in view", .bytes = std::uint64_t{parts::capacity(problem)} * 4});
   const auto of_cells = [&](const char* name, std::uint64_t cell_bytes) {
-    BufferDesc desc = parts::zeroed_cells(name, problem, s.cell_grid(), cell_bytes);
-    desc.zeroed = s.sliced();  // else the pass that looks at depths does it
-    return plan.add(std::move(desc));
+    // With a depth buffer the pass that looks at depths zeroes them.
+    return plan.add({.name = name,
+                     .bytes = s.cell_count * cell_bytes,
+                     .zeroed = s.sliced(),
+                     .zeroed_cells = lamplight::finest_cells(problem, s),
+                     .cell_bytes = cell_bytes});
   };
   b.matrix = of_cells(s.cell_bits ? "cell bits" : "cell counts", std::uint64_t{s.blocks} * 4);
   b.cells = of_cells("cells", sizeof(shared::LightCell));
@@ -126,18 +119,19 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t busy = s.cell_tiles * s.cell_tiles * problem.traits.subgroup_size;  // a tile is a subgroup's
   const std::uint32_t threads =
       lamplight::full_threads(problem, std::clamp(std::min(cell_px * cell_px / 8, busy), 64U, 512U));
-  Pass pass{.name = "tile depth",
-            .shader = shader_of("depth", s),
-            .constants = {threads, s.tile_px, s.cell_tiles, lamplight::squares_held(problem), s.block},
-            .bindings = {{INPUT_FRAME},
-                         {INPUT_DEPTH},
-                         {b.tile_depths, Access::write},
-                         {b.cells, Access::write},
-                         {b.matrix, Access::write},
-                         {b.cell_depths, Access::write}},
-            .extent = {.cells = {.px = cell_px}},
-            .shared_bytes = 32,
-            .full_subgroups = threads};
+  Pass pass{
+      .name = "tile depth",
+      .shader = shader_of("depth", s),
+      .constants = {threads, s.tile_px, s.cell_tiles, lamplight::squares_held(problem), s.block, problem.depth_samples},
+      .bindings = {{INPUT_FRAME},
+                   {INPUT_DEPTH},
+                   {b.tile_depths, Access::write},
+                   {b.cells, Access::write},
+                   {b.matrix, Access::write},
+                   {b.cell_depths, Access::write}},
+      .extent = {.cells = {.px = cell_px}},
+      .shared_bytes = 32,
+      .full_subgroups = threads};
   if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
   return pass;
 }
@@ -276,6 +270,19 @@ std::vector<Pass> passes_of(const Problem& problem, const Sizes& s, const Buffer
   return passes;
 }
 
+/// For pictures with finer cells than the largest.
+std::vector<FinerPasses> finer_passes(const Problem& problem, const Sizes& s, const Buffers& b) {
+  std::vector<FinerPasses> finer;
+  for (std::uint32_t tiles = lamplight::LEAST_CELL_TILES; problem.smaller_frames && tiles < s.cell_tiles; tiles *= 2) {
+    const Sizes fine = lamplight::with_cell_tiles(s, tiles);
+    finer.push_back({.shift = lamplight::log2_of(s.cell_tiles / tiles),
+                     .cells = {.px = fine.cell_px()},
+                     .most_cells = lamplight::most_cells(tiles, parts::capacity(problem)),
+                     .passes = passes_of(problem, fine, b)});
+  }
+  return finer;
+}
+
 bool gathers(const Problem& problem) {
   const std::string_view wanted = problem.options.word("cells");
   return wanted == "gather" || (wanted == "auto" && lamplight::can_gather(problem));
@@ -312,10 +319,11 @@ Plan plan_lamplight(const Problem& problem) {
                                .per_option = plan.cells,
                                .needed_offset = offsetof(shared::LightTotals, list_entries)});
   plan.passes = passes_of(problem, sizes, buffers);
+  plan.finer = finer_passes(problem, sizes, buffers);
   plan.lookup = {.name = sizes.bits ? "cell_bits" : "cell_lists",
-                 .constants = with_slices({sizes.tile_px, sizes.cell_tiles}, problem, sizes),
+                 .constants = with_slices({sizes.tile_px, lamplight::log2_of(sizes.cell_tiles)}, problem, sizes),
                  .bindings = {{INPUT_FRAME}, {buffers.cells}, {buffers.rows}, {buffers.piece_lists}}};
-  plan.lookup.constants.push_back(sizes.cell_bits ? 1U : 0U);
+  plan.lookup.constants.insert(plan.lookup.constants.end(), {sizes.cell_bits ? 1U : 0U, plan.finer.empty() ? 0U : 1U});
   if (!sizes.bits) plan.lookup.bindings.push_back({buffers.lists});
   walk_in_steps(plan.lookup, problem);
   return plan;

@@ -19,26 +19,56 @@ constexpr std::uint64_t MOST_LIST_BYTES = 32U << 20;
 struct Grid {
   std::uint64_t tiles, cells;
   std::uint32_t tile_px, cell_tiles, threads;
+  bool has_finer;  ///< smaller pictures have a cell for each of at most FEW_TILES
 
   [[nodiscard]] std::uint32_t cell_px() const { return tile_px * cell_tiles; }
   [[nodiscard]] std::uint32_t cell_rows() const { return cell_tiles * cell_tiles; }
   [[nodiscard]] std::uint64_t rows() const { return cells * cell_rows(); }
+  /// Of a picture of any size.
+  [[nodiscard]] std::uint64_t most_cells() const {
+    return has_finer ? std::max<std::uint64_t>(cells, FEW_TILES) : cells;
+  }
 };
+
+/// A cell for each tile.
+Grid of_tiles(const Problem& problem, Grid grid) {
+  grid.cell_tiles = 1;
+  grid.cells = grid.tiles;
+  grid.threads = full_threads(problem, FEW_TILES_THREADS);
+  grid.has_finer = false;
+  return grid;
+}
 
 Grid grid_of(const Problem& problem) {
   Grid grid{.tile_px = problem.options.integer("tile"), .cell_tiles = CELL_TILES, .threads = light_threads(problem)};
   grid.tiles = parts::tile_count(problem, grid.tile_px);
   // A software device takes longer for more groups.
-  if (grid.tiles <= FEW_TILES && !has_small_subgroups(problem)) {
-    grid.cell_tiles = 1;
-    grid.threads = full_threads(problem, FEW_TILES_THREADS);
-  }
+  const bool may_be_finer = !has_small_subgroups(problem);
+  if (grid.tiles <= FEW_TILES && may_be_finer) return of_tiles(problem, grid);
   grid.cells = parts::tile_count(problem, grid.cell_px());
+  grid.has_finer = may_be_finer && problem.smaller_frames;
   return grid;
 }
 
 std::uint64_t list_bytes(const Problem& problem, const Grid& grid) {
   return grid.rows() * std::max(1U, parts::capacity(problem)) * 4;
+}
+
+Pass pass_of(const Problem& problem, const Grid& grid, std::vector<Binding> bindings) {
+  const bool bits = problem.options.word("container") == "bits";
+  const bool pruned = problem.options.word("prune") == "pixel";
+  const std::uint32_t lights = std::max(1U, parts::capacity(problem));
+  const std::uint32_t pairs = THREAD_PAIRS * grid.threads;
+  const std::uint32_t mark_words = grid.cell_rows() * shared::PIECE_WORDS;
+  if (pruned) bindings.push_back({INPUT_DEPTH});
+  return {.name = bits ? "tile bits" : "tile lists",
+          .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
+          .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
+                        grid.cell_rows(), mark_words, bits ? 1U : 0U, problem.depth_samples},
+          .bindings = std::move(bindings),
+          .extent = {.cells = {.px = grid.cell_px()}},
+          .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
+          .full_subgroups = grid.threads};
 }
 
 }  // namespace
@@ -57,37 +87,28 @@ bool can_gather(const Problem& problem) {
 Plan plan_at_once(const Problem& problem) {
   const Grid grid = grid_of(problem);
   const bool bits = problem.options.word("container") == "bits";
-  const bool pruned = problem.options.word("prune") == "pixel";
-  const std::uint32_t lights = std::max(1U, parts::capacity(problem));
-  const std::uint32_t pairs = THREAD_PAIRS * grid.threads;
-  const std::uint32_t mark_words = grid.cell_rows() * shared::PIECE_WORDS;
   Plan plan;
   plan.cells = grid.tiles;
-  const ResourceId cells = plan.add({.name = "cells", .bytes = grid.cells * sizeof(shared::LightCell)});
+  const ResourceId cells = plan.add({.name = "cells", .bytes = grid.most_cells() * sizeof(shared::LightCell)});
   const ResourceId rows = plan.add({.name = bits ? "tile bits" : "tile spans", .bytes = grid.rows() * row_bytes(bits)});
-  const ResourceId lists = plan.add(
-      {.name = bits ? "cell lists" : "tile lists", .bytes = bits ? grid.cells * PIECE * 4 : list_bytes(problem, grid)});
-  plan.passes = {
-      {.name = bits ? "tile bits" : "tile lists",
-       .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
-       .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
-                     grid.cell_rows(), mark_words, bits ? 1U : 0U},
-       .bindings = {{INPUT_FRAME},
-                    {INPUT_LIGHTS},
-                    {INPUT_SPHERES},
-                    {INPUT_DEPTH},
-                    {cells, Access::write},
-                    {rows, Access::write},
-                    {lists, Access::write},
-                    {INPUT_SPHERES}},
-       .extent = {.cells = {.px = grid.cell_px()}},
-       .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
-       .full_subgroups = grid.threads}};
-  if (pruned) plan.passes.front().bindings.push_back({INPUT_DEPTH});
+  const ResourceId lists = plan.add({.name = bits ? "cell lists" : "tile lists",
+                                     .bytes = bits ? grid.most_cells() * PIECE * 4 : list_bytes(problem, grid)});
+  const std::vector<Binding> bindings{{INPUT_FRAME},          {INPUT_LIGHTS},         {INPUT_SPHERES},
+                                      {INPUT_DEPTH},          {cells, Access::write}, {rows, Access::write},
+                                      {lists, Access::write}, {INPUT_SPHERES}};
+  plan.passes = {pass_of(problem, grid, bindings)};
+  if (grid.has_finer) {
+    const Grid finer = of_tiles(problem, grid);
+    plan.finer = {{.shift = log2_of(grid.cell_tiles),
+                   .cells = {.px = finer.cell_px()},
+                   .most_cells = FEW_TILES,
+                   .passes = {pass_of(problem, finer, bindings)}}};
+  }
   plan.lookup = {.name = bits ? "cell_bits" : "cell_lists",
-                 .constants = with_slices({grid.tile_px, grid.cell_tiles}, problem, 1, 1),
+                 .constants = with_slices({grid.tile_px, log2_of(grid.cell_tiles)}, problem, 1, 1),
                  .bindings = {{INPUT_FRAME}, {cells}, {rows}, {lists}}};
-  plan.lookup.constants.push_back(1U);  // a cell has one piece, at its own place
+  // A cell has one piece, at its own place.
+  plan.lookup.constants.insert(plan.lookup.constants.end(), {1U, grid.has_finer ? 1U : 0U});
   if (!bits) plan.lookup.bindings.push_back({lists});
   return plan;
 }

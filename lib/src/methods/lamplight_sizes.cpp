@@ -12,6 +12,8 @@ using shared::PIECE;
 // Tuned on an H100 and an H200, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was
 // tried.
 constexpr std::uint32_t GROUP_SUBGROUPS = 8;     // more of them than of their lights cost a software device its time
+constexpr std::uint32_t FEW_HELD = 2;            // squares, of one sample a pixel
+constexpr std::uint32_t MOST_HELD = 8;           // of several, as the shader has room for
 constexpr std::uint32_t CELL_SLICES = 4;         // without depth buffer
 constexpr std::uint32_t WANTED_BLOCKS = 256;     // rows of the matrix
 constexpr std::uint32_t LARGEST_BLOCK = 8192;    // lights
@@ -83,10 +85,11 @@ Sizes grid_of(const Problem& problem) {
   s.tiles = parts::tile_count(problem, s.tile_px);
   s.cell_tiles = cell_tiles(problem.width, problem.height, s.tile_px, parts::capacity(problem));
   s.cells = parts::tile_count(problem, s.cell_px());
+  // Smaller pictures may have more cells, of fewer tiles.
+  for (std::uint32_t tiles = LEAST_CELL_TILES; problem.smaller_frames && tiles < s.cell_tiles; tiles *= 2)
+    s.cells = std::max<std::uint64_t>(s.cells, most_cells(tiles, parts::capacity(problem)));
   s.cell_count = static_cast<std::uint32_t>(s.cells) * s.cell_grid().layers;
-  s.cell_rows = s.cell_tiles * s.cell_tiles * s.cell_slices;
-  // Of one slice, in whole lines of tiles.
-  s.group_rows = std::max(std::min(GROUP_ROWS, s.cell_tiles * s.cell_tiles), s.cell_tiles);
+  s = with_cell_tiles(s, s.cell_tiles);
   s.bits = o.word("container") == "bits";
   return s;
 }
@@ -113,9 +116,22 @@ std::uint32_t light_threads(const Problem& problem) {
   return full_threads(problem, std::clamp(GROUP_SUBGROUPS * problem.traits.subgroup_size, GROUP_ROWS, THREADS));
 }
 
+std::uint32_t find_threads(const Problem& problem) {
+  const auto fits = [&](std::uint32_t threads) {
+    return parts::divide_up(parts::capacity(problem), threads) <= problem.traits.max_groups[0];
+  };
+  if (const std::uint32_t threads = light_threads(problem); fits(threads)) return threads;
+  return full_threads(problem, fits(THREADS) ? THREADS : 2 * THREADS);
+}
+
 bool has_small_subgroups(const Problem& problem) { return problem.traits.subgroup_size < 32; }
 
-std::uint32_t squares_held(const Problem& problem) { return has_small_subgroups(problem) ? 1 : 2; }
+std::uint32_t squares_held(const Problem& problem) {
+  if (has_small_subgroups(problem)) return 1;
+  const std::uint32_t tile_px = problem.options.integer("tile");
+  const std::uint32_t squares = tile_px * tile_px * problem.depth_samples / 4;
+  return std::clamp(squares / problem.traits.subgroup_size, 1U, problem.depth_samples == 1 ? FEW_HELD : MOST_HELD);
+}
 
 std::vector<std::uint32_t> with_slices(std::vector<std::uint32_t> constants, const Problem& problem,
                                        std::uint32_t cell_slices, std::uint32_t slices) {
@@ -123,6 +139,21 @@ std::vector<std::uint32_t> with_slices(std::vector<std::uint32_t> constants, con
   constants.insert(constants.end(), {cell_slices, slices, parts::slice_scale(o.word("scale")), o.integer("near_mm"),
                                      o.integer("far_m")});
   return constants;
+}
+
+std::uint32_t log2_of(std::uint32_t power) { return static_cast<std::uint32_t>(std::countr_zero(power)); }
+
+Sizes with_cell_tiles(Sizes s, std::uint32_t cell_tiles) {
+  s.cell_tiles = cell_tiles;
+  s.cell_rows = cell_tiles * cell_tiles * s.cell_slices;
+  // Of one slice, in whole lines of tiles.
+  s.group_rows = std::max(std::min(GROUP_ROWS, cell_tiles * cell_tiles), cell_tiles);
+  return s;
+}
+
+CellGrid finest_cells(const Problem& problem, const Sizes& sizes) {
+  const std::uint32_t tiles = problem.smaller_frames ? std::min(LEAST_CELL_TILES, sizes.cell_tiles) : sizes.cell_tiles;
+  return with_cell_tiles(sizes, tiles).cell_grid();
 }
 
 Sizes sizes_of(const Problem& problem) {

@@ -29,7 +29,7 @@ constexpr std::uint32_t THREAD_PAIRS = 4;  ///< of light and row for each thread
 struct Sizes {
   std::uint32_t tile_px, cell_tiles;
   std::uint32_t slices, cell_slices;  ///< of depth; 1 with a depth buffer
-  std::uint64_t tiles, cells;         ///< of a slice, of a layer
+  std::uint64_t tiles, cells;         ///< of a slice, of a layer; of any picture, the most
   std::uint32_t cell_count;           ///< of all layers
   std::uint32_t cell_rows;            ///< tiles times slices
   std::uint32_t group_rows;           ///< of them, for a work group of the last pass
@@ -60,11 +60,15 @@ struct Sizes {
 /// thread for each row of a group.
 [[nodiscard]] std::uint32_t light_threads(const Problem& problem);
 
+/// Of the passes with a thread a light: larger where there would be more groups than the device has. With THREADS,
+/// 65535 groups, all that some have, are one short of 16 million lights.
+[[nodiscard]] std::uint32_t find_threads(const Problem& problem);
+
 /// As software devices have, whose groups run few at once: more of them are only more work.
 [[nodiscard]] bool has_small_subgroups(const Problem& problem);
 
-/// What a thread that reads depths loads at once. Subgroups of fewer than 32 read a tile twice either way, and a
-/// software device takes a third less time for that one by one.
+/// What a thread that reads depths loads at once: if it can be, its share of a tile, which is then read once. Subgroups
+/// of fewer than 32 read a tile twice either way, and a software device takes a third less time for that one by one.
 [[nodiscard]] std::uint32_t squares_held(const Problem& problem);
 
 /// How depth is sliced, after the other constants of a pass or look-up.
@@ -72,5 +76,14 @@ struct Sizes {
                                                      std::uint32_t cell_slices, std::uint32_t slices);
 
 [[nodiscard]] Sizes sizes_of(const Problem& problem);
+
+/// The same buffers with cells of fewer tiles a side, for smaller pictures.
+[[nodiscard]] Sizes with_cell_tiles(Sizes sizes, std::uint32_t cell_tiles);
+
+/// Of any picture: there are no more in one whose cells are larger.
+[[nodiscard]] CellGrid finest_cells(const Problem& problem, const Sizes& sizes);
+
+/// log2 of a power of two, as look-ups are told how many tiles a side of a cell has.
+[[nodiscard]] std::uint32_t log2_of(std::uint32_t power);
 
 }  // namespace lamp::lamplight

@@ -58,7 +58,8 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
                      .light_layout = info.light_layout,
                      .own_spheres = !info.brings_spheres,
                      .depth_samples = info.depth_samples,
-                     .frames_in_flight = info.frames_in_flight};
+                     .frames_in_flight = info.frames_in_flight,
+                     .smaller_frames = true};
   Result<Plan> plan = make_plan(*method.value(), culler.problem_);
   if (!plan) return plan.error();
   Result<PlanRunner> runner = PlanRunner::create(device, std::move(plan.value()));
@@ -113,6 +114,7 @@ Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
                                        std::to_string(view.depth_offset.x) + ", " +
                                        std::to_string(view.depth_offset.y)};
     seen.records[i].view_index = static_cast<std::uint32_t>(i);
+    seen.records[i].cell_shift = runner_.plan().cell_shift(view.view->width(), view.view->height());
     seen.records[i].depth_offset_px = {static_cast<std::uint32_t>(view.depth_offset.x),
                                        static_cast<std::uint32_t>(view.depth_offset.y)};
     seen.depths[i] = {.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,

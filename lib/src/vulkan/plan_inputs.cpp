@@ -32,6 +32,11 @@ std::optional<Error> check_record(const Plan& plan, const shared::Frame& frame) 
     return error;
   if (auto error = check_count("light count", frame.light_count, frame.light_capacity, "the capacity of the frame"))
     return error;
+  const std::uint32_t shift = plan.cell_shift(frame.size_px.x, frame.size_px.y);
+  if (!plan.finer.empty() && frame.cell_shift != 0 && frame.cell_shift != shift)
+    return Error{"cell shift", "expected " + std::string(shift == 0 ? "0" : "0 or " + std::to_string(shift)) +
+                                   ", which the plan's cell_shift gives for the size, got " +
+                                   std::to_string(frame.cell_shift)};
   if (auto error = check_count("box count", frame.box_count, frame.light_count, "the light count")) return error;
   return check_count("probe count", frame.probe_count, frame.box_count, "the box count");
 }

@@ -19,7 +19,7 @@ std::array<std::uint32_t, 3> counts_of(const Extent& extent, const shared::Frame
 /// Of a view's part of a buffer that is zeroed, what its picture takes.
 std::uint64_t zeroed_bytes(const BufferDesc& desc, const shared::Frame& frame) {
   if (desc.zeroed_cells.px == 0) return desc.bytes;
-  return desc.zeroed_cells.count(frame.size_px.x, frame.size_px.y) * desc.cell_bytes;
+  return std::min(desc.bytes, desc.zeroed_cells.count(frame.size_px.x, frame.size_px.y) * desc.cell_bytes);
 }
 
 bool writes(const Use& use) { return (use.access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) != 0; }
@@ -168,20 +168,20 @@ void PlanRunner::record_together(Recorder& recorder, const Sequence& sequence, c
     if (built.pass.on_projection_change) ++projection_rebuilds_;
     recorder.begin_pass(built.pass.name, uses_);
     uses_.clear();
-    recorder.bind(built.pipeline, bound.resources, set(built, inputs.slot, bound.view));
+    const BuiltPass::Sized& sized = built.of_shift(inputs.host_frame[bound.view].cell_shift);
+    recorder.bind(sized.pipeline, bound.resources, set(built, inputs.slot, bound.view));
     if (built.pass.kind == PassKind::raster)
       draw(recorder, built.pass, inputs, bound.view);
     else
-      dispatch(recorder, built.pass, inputs, bound.view);
+      dispatch(recorder, sized.extent, inputs, bound.view);
     recorder.end_pass();
   }
 }
 
-void PlanRunner::dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs,
+void PlanRunner::dispatch(const Recorder& recorder, const Extent& extent, const PlanInputs& inputs,
                           std::uint32_t view) const {
   const DeviceFunctions& vk = recorder.device().vk;
   const VkCommandBuffer commands = recorder.commands();
-  const Extent& extent = pass.extent;
   if (extent.indirect != NO_RESOURCE) {
     const BufferPart counts = part(extent.indirect, view, inputs.slot);
     return vk.vkCmdDispatchIndirect(commands, counts.buffer, counts.offset + extent.indirect_offset);

@@ -64,19 +64,39 @@ Result<PlanRunner::Sequence> PlanRunner::build(const Device& device, const std::
                                                const ShaderSource& shaders) {
   Sequence sequence;
   for (const Pass& pass : passes) {
-    Result<Pipeline> pipeline = make_pipeline(device, pass, shaders);
-    if (!pipeline) return pipeline.error();
-    sequence.passes.push_back({.pass = pass, .pipeline = std::move(pipeline.value())});
-    if (auto error = make_sets(device, sequence.passes.back())) return *error;
+    BuiltPass& built = sequence.passes.emplace_back(BuiltPass{.pass = pass});
+    if (auto error = add_size(device, built, pass, 0, shaders)) return *error;
+    if (auto error = make_sets(device, built)) return *error;
   }
   bind_all(sequence);
   return sequence;
 }
 
+std::optional<Error> PlanRunner::add_size(const Device& device, BuiltPass& built, const Pass& pass, std::uint32_t shift,
+                                          const ShaderSource& shaders) {
+  Result<Pipeline> pipeline = make_pipeline(device, pass, shaders);
+  if (!pipeline) return pipeline.error();
+  built.sizes.push_back({.shift = shift, .extent = pass.extent, .pipeline = std::move(pipeline.value())});
+  return std::nullopt;
+}
+
+/// Descriptor sets go with the pipelines of any size: their layouts are the same.
+std::optional<Error> PlanRunner::build_finer(const Device& device, const ShaderSource& shaders) {
+  for (const FinerPasses& finer : plan_.finer)
+    for (std::size_t i = 0; i < finer.passes.size(); ++i)
+      if (auto error = add_size(device, separate_.passes[i], finer.passes[i], finer.shift, shaders)) return error;
+  return std::nullopt;
+}
+
+const PlanRunner::BuiltPass::Sized& PlanRunner::BuiltPass::of_shift(std::uint32_t shift) const {
+  const auto found = std::ranges::find(sizes, shift, &Sized::shift);
+  return found == sizes.end() ? sizes.front() : *found;
+}
+
 std::optional<Error> PlanRunner::make_sets(const Device& device, BuiltPass& built) {
   if (device.pushes_descriptors() || built.pass.kind == PassKind::host) return std::nullopt;
   for (std::uint32_t i = 0; i < plan_.frames_in_flight * plan_.views; ++i) {
-    const Result<VkDescriptorSet> set = sets_.allocate(built.pipeline);
+    const Result<VkDescriptorSet> set = sets_.allocate(built.sizes.front().pipeline);
     if (!set) return set.error();
     built.sets.push_back(set.value());
   }
@@ -114,6 +134,7 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   auto separate = runner.build(device, runner.plan_.passes, shaders);
   if (!separate) return separate.error();
   runner.separate_ = std::move(separate.value());
+  if (auto error = runner.build_finer(device, shaders)) return *error;
   if (runner.plan_.fused) {
     auto fused = runner.build(device, runner.plan_.fused->passes, shaders);
     if (!fused) return fused.error();
@@ -145,7 +166,7 @@ void PlanRunner::reserve() {
 std::span<const PipelineStatistic> PlanRunner::statistics(std::string_view pass) const {
   for (const Sequence* sequence : {&separate_, &fused_})
     for (const BuiltPass& built : sequence->passes)
-      if (built.pass.name == pass) return built.pipeline.statistics();
+      if (built.pass.name == pass) return built.sizes.front().pipeline.statistics();
   return {};
 }
 

@@ -24,8 +24,8 @@ struct Frame {
   uvec2 depth_offset_px;  // where the picture begins in the depth image
   uint view_index;        // its place among the frame's views, for shaders that draw one of several
   uint probe_count;       // how many of the boxes, the last ones, are probes
-  uint reserved1;
-  uint reserved2;
+  uint cell_shift;        // Plan::cell_shift of its size: how often sides of the cells are halved; 0: as in the largest
+  uint reserved;
 };
 
 #ifdef __cplusplus

@@ -99,9 +99,17 @@ class LAMPLIGHT_API PlanRunner {
 
  private:
   struct BuiltPass {
+    /// With cells of a size.
+    struct Sized {
+      std::uint32_t shift = 0;  ///< Frame::cell_shift
+      Extent extent;
+      Pipeline pipeline;
+    };
     Pass pass;
-    Pipeline pipeline;
-    std::vector<VkDescriptorSet> sets;  ///< one a slot and view; none where descriptors are pushed
+    std::vector<Sized> sizes;           ///< the plan's own first, then its finer ones
+    std::vector<VkDescriptorSet> sets;  ///< one a slot and view, of any size; none where descriptors are pushed
+
+    [[nodiscard]] const Sized& of_shift(std::uint32_t shift) const;
   };
   /// A pass for one of the views, with what it touches.
   struct BoundPass {
@@ -127,6 +135,9 @@ class LAMPLIGHT_API PlanRunner {
   [[nodiscard]] std::span<std::byte> count_bytes(std::uint32_t slot) const;
   [[nodiscard]] Result<Sequence> build(const Device& device, const std::vector<Pass>& passes,
                                        const ShaderSource& shaders);
+  [[nodiscard]] static std::optional<Error> add_size(const Device& device, BuiltPass& built, const Pass& pass,
+                                                     std::uint32_t shift, const ShaderSource& shaders);
+  [[nodiscard]] std::optional<Error> build_finer(const Device& device, const ShaderSource& shaders);
   [[nodiscard]] std::optional<Error> make_sets(const Device& device, BuiltPass& built);
   void bind_all(Sequence& sequence) const;
   void reserve();
@@ -136,7 +147,7 @@ class LAMPLIGHT_API PlanRunner {
   void run_on_host(const Pass& pass, const PlanInputs& inputs, std::uint32_t view);
   void upload(Recorder& recorder, std::uint32_t slot);
   void record_together(Recorder& recorder, const Sequence& sequence, const Range& range, const PlanInputs& inputs);
-  void dispatch(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs, std::uint32_t view) const;
+  void dispatch(const Recorder& recorder, const Extent& extent, const PlanInputs& inputs, std::uint32_t view) const;
   void draw(const Recorder& recorder, const Pass& pass, const PlanInputs& inputs, std::uint32_t view) const;
   [[nodiscard]] bool is_kept(std::uint32_t view, const shared::Frame& frame, std::uint64_t record);
   void zero_buffers(Recorder& recorder, const PlanInputs& inputs);

@@ -4,11 +4,12 @@
 #include "lamplight/shared/lamplight.h"
 
 LOOKUP_CONSTANT(0, uint, LOOKUP_TILE_PX, 16);
-LOOKUP_CONSTANT(1, uint, LOOKUP_CELL_TILES, 4);
+LOOKUP_CONSTANT(1, uint, LOOKUP_CELL_LOG2, 2);  // of the tiles along a side of a cell, in the largest picture
 LOOKUP_CONSTANT(2, uint, LOOKUP_CELL_SLICES, 1);
 // 1: a cell's first piece is kept at the cell's own place, so that it can be read before the cell is, and first_piece
 // is the next one.
 LOOKUP_CONSTANT(7, uint, LOOKUP_FIRST_AT_CELL, 0);
+LOOKUP_CONSTANT(8, uint, LOOKUP_FINER, 0);  // 1: cells of smaller pictures may have fewer tiles
 LOOKUP_BUFFER(1, LookupCells, LightCell, lookup_cells);
 LOOKUP_VIEW_WORDS(1, LOOKUP_CELLS_VIEW);
 LAMP_CONST LOOKUP_CELL_WORDS = 3u;  // of a LightCell
@@ -16,9 +17,11 @@ LAMP_CONST LOOKUP_CELL_WORDS = 3u;  // of a LightCell
 #define LOOKUP_SLICE_CONSTANT 3
 #include "lookup/parts/slice_constants.glsl"
 
-#define LOOKUP_TILES (LOOKUP_CELL_TILES * LOOKUP_CELL_TILES)
-#define LOOKUP_CELL_PX (LOOKUP_TILE_PX * LOOKUP_CELL_TILES)
-#define LOOKUP_CELL_ROWS (LOOKUP_TILES * LOOKUP_CELL_SLICES)
+// log2 of the tiles along a side of a cell of the view's picture; its rows.
+uint lookup_cell_log2(uint view) {
+  return LOOKUP_FINER == 0u ? LOOKUP_CELL_LOG2 : LOOKUP_CELL_LOG2 - lookup_frames[view].cell_shift;
+}
+uint lookup_cell_rows(uint view) { return LOOKUP_CELL_SLICES << 2u * lookup_cell_log2(view); }
 
 void lookup_prepare() {}
 
@@ -32,15 +35,18 @@ uint lookup_cell(uint view, uvec2 pixel, float z_view) {
 
 // Of the view's own cells.
 uint lookup_light_cell(uint view, uvec2 pixel, float z_view) {
-  const uvec2 at = pixel / LOOKUP_CELL_PX;
-  const uvec2 across = squares_across(lookup_frames[view], LOOKUP_CELL_PX);
+  const uint log2_tiles = lookup_cell_log2(view);
+  const uvec2 at = pixel / LOOKUP_TILE_PX >> log2_tiles;
+  const uvec2 tiles = squares_across(lookup_frames[view], LOOKUP_TILE_PX);
+  const uvec2 across = tiles + ((1u << log2_tiles) - 1u) >> log2_tiles;
   return at.x + across.x * (at.y + across.y * (lookup_slice(z_view) / LOOKUP_CELL_SLICES));
 }
 
 // Among the rows of the cell.
-uint lookup_row(uvec2 pixel, float z_view) {
-  const uvec2 tile = pixel / LOOKUP_TILE_PX % LOOKUP_CELL_TILES;
-  return tile.x + LOOKUP_CELL_TILES * tile.y + LOOKUP_TILES * (lookup_slice(z_view) % LOOKUP_CELL_SLICES);
+uint lookup_row(uint view, uvec2 pixel, float z_view) {
+  const uint log2_tiles = lookup_cell_log2(view);
+  const uvec2 tile = pixel / LOOKUP_TILE_PX & (1u << log2_tiles) - 1u;
+  return tile.x + (tile.y << log2_tiles) + (lookup_slice(z_view) % LOOKUP_CELL_SLICES << 2u * log2_tiles);
 }
 
 LightCell lookup_cell_at(uint view, uint index) {
