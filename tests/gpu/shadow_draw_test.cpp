@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gpu/dispatch.h"
+#include "gpu/hall.h"
 #include "gpu/test_scenes.h"
 #include "lamplight/light.h"
 #include "render/scene_occluders.h"
@@ -227,6 +228,47 @@ TEST_F(GpuTest, ShadowRasterizerWithoutRoomDrawsTheSame) {
   const std::vector<float> with_room = atlas_with(1U << 20);
   EXPECT_GT(std::ranges::count_if(with_room, [](float depth) { return depth > 0.0F; }), 10000);
   EXPECT_EQ(atlas_with(100), with_room);
+}
+
+/// A sheet of laths below the light, in no axis's direction.
+Scene lath_sheet() {
+  constexpr float LENGTH_M = 1000.0F;
+  constexpr float WIDTH_M = 0.001F;
+  Scene scene = hall(0.01F);
+  const glm::vec3 along = glm::normalize(glm::vec3(0.6F, 0.05F, -0.8F));
+  const glm::vec3 across = glm::normalize(glm::cross(along, glm::vec3(0.1F, 1.0F, 0.0F)));
+  const auto on_edge = [&](int edge, float at) {
+    return glm::vec3(0.0F, 0.8F, 0.0F) + WIDTH_M * static_cast<float>(edge) * across + LENGTH_M * at * along;
+  };
+  for (int i = -300; i < 300; ++i)
+    add_quad(scene, {on_edge(i, -0.4F), on_edge(i, 0.6F), on_edge(i + 1, 0.6F), on_edge(i + 1, -0.4F)}, 1);
+  return scene;
+}
+
+// What rounding makes of a depth does not grow with a triangle's length over its width.
+TEST_F(GpuTest, ShadowRasterizerDrawsLongThinTriangles) {
+  const TestScene scene(lath_sheet());
+  const Occluders occluders = scene_occluders(scene.scene);
+  const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
+  const Light light{.position = {0.05F, 1.6F, 0.1F}, .range = 2000.0F};
+  for (const PointShadows points : {PointShadows::faces, PointShadows::octahedron}) {
+    Shadows shadows(test_context(), shader_library(), scene.gpu,
+                    {.points = points, .raster = ShadowRaster::compute, .atlas_size = 2 * ATLAS}, 1);
+    vulkan::AccessTracker tracker;
+    shadows.schedule({&view, 1}, pack(std::vector{light}));
+    draw(shadows, tracker);
+    std::uint32_t checked = 0;
+    std::uint32_t wrong = 0;
+    for_some_texels(shadows, read_atlas(shadows, tracker),
+                    [&](const auto& map, std::uint32_t square, const glm::uvec2& texel, double stored) {
+                      const Spread expected = stored_by_rays(occluders, map, square, texel, 2 * ATLAS);
+                      if (expected.least <= expected.at_range) return;
+                      ++checked;
+                      wrong += expected.has(stored) ? 0 : 1;
+                    });
+    EXPECT_GT(checked, 500U);
+    EXPECT_EQ(wrong, 0U) << "of " << checked;
+  }
 }
 
 TEST_F(GpuTest, ShadowAtlasBeyondTheDeviceIsAnError) {

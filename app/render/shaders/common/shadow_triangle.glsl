@@ -76,6 +76,17 @@ vec3 edge_of(vec3 a, vec3 b) {
   return edge;
 }
 
+// At right angles to the triangle, twice its area long. Of its two shorter edges: rounding takes from a product as much as
+// the edges are long, and of a long thin triangle's two long edges that is more than the product.
+vec3 normal_of(vec3 a, vec3 b, vec3 c) {
+  const vec3 ab = b - a;
+  const vec3 bc = c - b;
+  const vec3 ca = a - c;
+  const vec3 squares = vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca));
+  if (squares.x >= squares.y && squares.x >= squares.z) return cross(bc, ca);
+  return squares.y >= squares.z ? cross(ca, ab) : cross(ab, bc);
+}
+
 // All of the square if a corner is beside or behind the light.
 void bound_texels(vec3 a, vec3 b, vec3 c, int side, inout ShadowTriangle t) {
   t.low = ivec2(0);
@@ -97,7 +108,7 @@ ShadowTriangle shadow_triangle(SquareView square, uint caster, uint number) {
   const vec3 a = vertex_in(square, instance, t.vertices.x);
   const vec3 b = vertex_in(square, instance, t.vertices.y);
   const vec3 c = vertex_in(square, instance, t.vertices.z);
-  t.plane = cross(b - a, c - a);
+  t.plane = normal_of(a, b, c);
   t.scale = dot(t.plane, a);
   // Both sides cast: what is closed casts the same, what is a sheet is seen from both.
   const float side = t.scale < 0.0 ? -1.0 : 1.0;
