@@ -81,19 +81,17 @@ struct Along {
 };
 
 Along along_tile(float z_near, float scale) {
+  const float MOST_SCALE = 1e25;  // 1/m: of a tile that has one depth, without leaving the range of numbers
   const mat4 m = frame.clip_from_view;
   const vec2 above = vec2(m[3][2] - z_near * m[2][2], z_near * m[2][3] - m[3][3]);
-  return Along(above * (scale / float(MASK_BITS)), vec2(m[2][2], -m[2][3]));
+  return Along(above * min(scale / float(MASK_BITS), MOST_SCALE), vec2(m[2][2], -m[2][3]));
 }
 
-// A bit for each part of the mask with a depth. Sums with ROUNDS have no bits behind the point. The sky is where the
-// farthest surface is, or the nearest.
+// A bit for each part of the mask with a depth. The sky is where the farthest surface is, or the nearest.
 uint parts_of_depths(Along along, vec4 depths) {
-  const vec4 PARTS = vec4(31.999998);  // one unit in the last place less than there are, so that 1 is in the last one
-  const vec4 ROUNDS = vec4(12582912.0);
+  const float PARTS = 31.999998;  // one unit in the last place less than there are, so that 1 is in the last one
   const vec4 at = clamp((along.above.x + along.above.y * depths) / (along.below.x + along.below.y * depths), 0.0, 1.0);
-  precise const vec4 rounded = LAMP_FMA(at, PARTS, vec4(-0.5)) + ROUNDS;
-  const uvec4 parts = floatBitsToUint(rounded) & 31u;
+  const uvec4 parts = uvec4(at * PARTS);
   return 1u << parts.x | 1u << parts.y | 1u << parts.z | 1u << parts.w;
 }
 
