@@ -62,6 +62,16 @@ TEST_F(WorldCells, WalkEveryLightWhereRoomIsLacking) {
   EXPECT_EQ(answered.findings.list_max, LIGHTS);
 }
 
+// There is room for all entries, but not for a rank of each of the 27 bricks around a light.
+TEST_F(WorldCells, LookForBricksAgainWhereRanksHaveNoRoom) {
+  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
+                    .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
+                    .settings = {"mean_bricks=13"}};
+  const Answered answered = ask(asked);
+  EXPECT_EQ(answered.counters.overflowed_cells, 0);
+  EXPECT_LT(answered.findings.waste(), 2.3);
+}
+
 TEST_F(WorldCells, TakeBricksOfEverySize) {
   for (const char* brick : {"brick=50", "brick=63", "brick=250", "brick=1600"}) {
     SCOPED_TRACE(brick);

@@ -1,4 +1,5 @@
-// Writes each light into the buckets of its bricks, in any order; and how many groups the pieces that were counted take.
+// Writes each light into the buckets of its bricks, where the count's ranks say; and how many groups the pieces take that
+// were counted. Where there was no room for all ranks, bricks are tested again, and their lights take places as they come.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -6,27 +7,51 @@
 #include "lamplight/shared/world.h"
 
 layout(constant_id = 4) const uint ENTRIES = 1;  // capacity
-layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // how many are written
+layout(constant_id = 5) const uint KEPT = 1;     // ranks of a light
+layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // places left, of bricks tested again
 layout(set = 0, binding = 4, scalar) readonly buffer BucketBuffer { WorldBucket buckets[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 6, scalar) buffer TotalBuffer { WorldTotals totals; };
 
-void write_entry(uint light, uint code, uint bucket) {
+layout(set = 0, binding = 7, scalar) readonly buffer RankBuffer { uint ranks[]; };
+
+uint entry_of(uint light, uint code) { return light << ENTRY_BRICK_BITS | code; }
+
+void take_place(uint light, uint code, uint bucket) {
   const WorldBucket own = buckets[bucket];
-  if (own.count == WORLD_ALL) return;
-  entries[own.first + atomicAdd(counts[bucket], 1u)] = light << ENTRY_BRICK_BITS | code;
+  if (own.count != WORLD_ALL) entries[own.first + atomicAdd(counts[bucket], ~0u) - 1u] = entry_of(light, code);
 }
 
 #define SAW(level)
-#define FOUND(light, code, bucket) write_entry(light, code, bucket)
+#define FOUND(light, i, code, bucket) take_place(light, code, bucket)
+#define MISSED(light, i)
 #include "methods/world_find.glsl"
+
+void place_by_rank(uint light, uint first) {
+  const LightBricks b = bricks_of(frame, spheres[light]);
+  for (uint i = first; i < bricks_in(b); i += LIGHT_THREADS) {
+    const uint rank = ranks[light * KEPT + i];
+    if (rank == WORLD_NO_RANK) continue;
+    const uvec3 offset = brick_offset(i, b.size);
+    const WorldBucket own = buckets[bucket_of(b.level, b.first + vec3(offset), BUCKETS)];
+    if (own.count != WORLD_ALL) entries[own.first + rank] = entry_of(light, brick_code(offset));
+  }
+}
 
 uvec3 groups_of(uint pieces) {
   return uvec3(min(pieces, WORLD_GROUPS_ACROSS), (pieces + WORLD_GROUPS_ACROSS - 1u) / WORLD_GROUPS_ACROSS, 1u);
 }
 
+void place_light(uint light, uint first) {
+  if (light >= light_count_of(frame)) return;
+  if (totals.is_unkept == 0u)
+    place_by_rank(light, first);
+  else
+    find_bricks(light, first);
+}
+
 void main() {
-  find_bricks();
+  place_light(light_of_thread(), first_of_thread());
   if (gl_GlobalInvocationID.x != 0u) return;
   const uvec3 groups = groups_of(totals.pieces);
   totals.pieces_x = groups.x;

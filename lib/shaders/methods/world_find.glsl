@@ -1,5 +1,6 @@
 // Lights look for the bricks that they reach: a few threads for each light, which share its box of bricks out.
-// Needs: FOUND(light, code, bucket), run for each brick; SAW(level), run once for each light.
+// Needs: FOUND(light, i, code, bucket), run for each brick that the light reaches, the i-th of its box; MISSED(light, i),
+// run for the others; SAW(level), run once for each light.
 // SPDX-License-Identifier: Apache-2.0
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint LIGHT_THREADS = 8;
@@ -11,7 +12,16 @@ layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
 
-uvec3 brick_offset(uint i, uvec3 size) { return uvec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)); }
+// Of so few bricks floats give the quotients of whole numbers: no half of a brick lies near the next.
+uvec3 brick_offset(uint i, uvec3 size) {
+  const uint layer = size.x * size.y;
+  const uint z = uint((float(i) + 0.5) * (1.0 / float(layer)));
+  const uint of_layer = i - z * layer;
+  const uint y = uint((float(of_layer) + 0.5) * (1.0 / float(size.x)));
+  return uvec3(of_layer - y * size.x, y, z);
+}
+
+uint bricks_in(LightBricks b) { return b.size.x * b.size.y * b.size.z; }
 
 bool meets_brick(LightBricks b, bool is_spot, WorldCone cone, vec3 brick) {
   if (b.level == WORLD_EVERYTHING) return true;
@@ -21,19 +31,20 @@ bool meets_brick(LightBricks b, bool is_spot, WorldCone cone, vec3 brick) {
 
 void find_bricks(uint light, uint first) {
   const LightBricks b = bricks_of(frame, spheres[light]);
-  const uint bricks = b.size.x * b.size.y * b.size.z;
+  const uint bricks = bricks_in(b);
   if (first == 0u && bricks != 0u) SAW(b.level);
   const bool is_spot = lights[light].type == LIGHT_SPOT;
   const WorldCone cone = world_cone(frame, lights[light]);
   for (uint i = first; i < bricks; i += LIGHT_THREADS) {
     const uvec3 offset = brick_offset(i, b.size);
     const vec3 brick = b.first + vec3(offset);
-    if (meets_brick(b, is_spot, cone, brick)) FOUND(light, brick_code(offset), bucket_of(b.level, brick, BUCKETS));
+    if (meets_brick(b, is_spot, cone, brick))
+      FOUND(light, i, brick_code(offset), bucket_of(b.level, brick, BUCKETS));
+    else
+      MISSED(light, i);
   }
 }
 
-// By all threads: each for its share of a light's bricks.
-void find_bricks() {
-  const uint light = gl_GlobalInvocationID.x / LIGHT_THREADS;
-  if (light < light_count_of(frame)) find_bricks(light, gl_GlobalInvocationID.x % LIGHT_THREADS);
-}
+// Each thread has its share of a light's bricks.
+uint light_of_thread() { return gl_GlobalInvocationID.x / LIGHT_THREADS; }
+uint first_of_thread() { return gl_GlobalInvocationID.x % LIGHT_THREADS; }

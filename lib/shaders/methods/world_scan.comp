@@ -9,7 +9,7 @@
 layout(local_size_x_id = 0) in;
 #include "common/group_scan.glsl"
 layout(constant_id = 1) const uint ENTRIES = 1;      // capacity
-layout(set = 0, binding = 0, scalar) buffer CountBuffer { uint counts[]; };  // becomes 0
+layout(set = 0, binding = 0, scalar) readonly buffer CountBuffer { uint counts[]; };
 layout(set = 0, binding = 1, scalar) buffer TotalBuffer { WorldTotals totals; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BucketBuffer { WorldBucket buckets[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
@@ -62,7 +62,6 @@ void main() {
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
     const bool fits = held[k] <= ENTRIES && first <= ENTRIES - held[k];
     buckets[bucket + k * threads] = WorldBucket(fits ? first : 0u, fits ? held[k] : WORLD_ALL);
-    counts[bucket + k * threads] = 0u;
     write_windows(first, held[k]);
     first += held[k];
     if (!fits) {

@@ -33,6 +33,8 @@ constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes ea
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // the place of a word of bits has 32 bits
 constexpr std::uint64_t ENTRY_BYTES = 12;         // with the bits of the brick's cells
 constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
+constexpr std::uint64_t RANKS_OF_ENTRY = 2;       // that fit into the room of its bits
+constexpr std::uint64_t RANK_ALIGNMENT = 8;       // a light's ranks begin where 32 bytes do
 constexpr std::uint32_t MOST_PERCENT = 1600;
 constexpr std::uint64_t BUDGET = (64U << 20) / ENTRY_BYTES;  // entries, for brick=0
 constexpr std::uint32_t FINEST_PERCENT = 100;                // for brick=0,
@@ -55,12 +57,18 @@ std::uint64_t most_bricks(double ratio) {
   return across * across * across;
 }
 
+/// Of one light, where there is room.
+std::uint64_t kept_ranks(double ratio) {
+  return (most_bricks(ratio) + RANK_ALIGNMENT - 1) / RANK_ALIGNMENT * RANK_ALIGNMENT;
+}
+
 struct Sizes {
   float ratio;  ///< a brick's side is this share of a light's range, to twice that
   std::uint32_t buckets;
   std::uint32_t entries;
   std::uint32_t pieces;
   std::uint32_t long_pieces;
+  std::uint32_t kept;  ///< ranks of a light that fit into the room of the bits, until these are made
 };
 
 /// Percent of a light's range: as the option says, or the least for which the entries of lights anywhere take no more
@@ -100,6 +108,8 @@ Sizes sizes_of(const Problem& problem) {
   s.entries = static_cast<std::uint32_t>(
       std::min({wanted_entries(problem, s.ratio), MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 8}));
   s.long_pieces = parts::divide_up(s.entries, WORLD_PIECE / 2);  // each bucket of more than one is over half full
+  s.kept =
+      static_cast<std::uint32_t>(std::min(kept_ranks(s.ratio), s.entries * RANKS_OF_ENTRY / parts::capacity(problem)));
   s.pieces = std::min(s.buckets, parts::divide_up(s.entries, WORLD_SHORT + 1)) + s.long_pieces;
   return s;
 }
@@ -146,7 +156,9 @@ Pass count_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   Pass pass = find_pass(problem, s, b);
   pass.name = "count bricks";
   pass.shader = "methods/world_count";
-  pass.bindings.push_back({b.levels, Access::read_write});
+  pass.constants.push_back(s.kept);
+  pass.bindings.insert(pass.bindings.end(),
+                       {{b.levels, Access::read_write}, {b.bits, Access::write}, {b.totals, Access::read_write}});
   return pass;
 }
 
@@ -154,8 +166,9 @@ Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   Pass pass = find_pass(problem, s, b);
   pass.name = "fill buckets";
   pass.shader = "methods/world_fill";
-  pass.constants.push_back(s.entries);
-  pass.bindings.insert(pass.bindings.end(), {{b.buckets}, {b.entries, Access::write}, {b.totals, Access::read_write}});
+  pass.constants.insert(pass.constants.end(), {s.entries, s.kept});
+  pass.bindings.insert(pass.bindings.end(),
+                       {{b.buckets}, {b.entries, Access::write}, {b.totals, Access::read_write}, {b.bits}});
   return pass;
 }
 
@@ -164,7 +177,7 @@ Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   return {.name = "scan buckets",
           .shader = "methods/world_scan",
           .constants = {threads, s.entries},
-          .bindings = {{b.counts, Access::read_write},
+          .bindings = {{b.counts},
                        {b.totals, Access::read_write},
                        {b.buckets, Access::write},
                        {b.pieces, Access::write},

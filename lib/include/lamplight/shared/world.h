@@ -62,10 +62,14 @@ struct WorldTotals {
   uint windows_x;  // group counts of the entries' windows
   uint windows_y;
   uint windows_z;
+  uint is_unkept;  // not 0: there was no room for all ranks
 };
 
+// In place of an entry's rank in its bucket, for a brick of a light's box that the light does not reach.
+LAMP_CONST WORLD_NO_RANK = 0xffffffffu;
+
 #ifdef __cplusplus
-static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 60);
+static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 64);
 static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_BRICK_BITS);
 }  // namespace lamp::shared
 #endif
