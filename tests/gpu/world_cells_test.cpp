@@ -72,6 +72,17 @@ TEST_F(WorldCells, LookForBricksAgainWhereRanksHaveNoRoom) {
   EXPECT_LT(answered.findings.waste(), 2.3);
 }
 
+// Octets, words, pieces and what a work group takes, each a little less than full, full, and a little more.
+TEST_F(WorldCells, TakeListsOfEveryLength) {
+  for (const std::uint32_t length : {1, 7, 8, 9, 31, 32, 33, 63, 64, 65, 127, 128, 129, 255, 256, 257, 400}) {
+    SCOPED_TRACE(length);
+    std::vector<shared::Light> lights = lights_around({}, 0.1F, 1.0F, 1.1F, length);
+    for (shared::Light& light : lights) light.type = shared::LIGHT_POINT;
+    const Answered answered = ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.2F), glm::vec3(1.2F))});
+    EXPECT_EQ(answered.findings.list_max, length);
+  }
+}
+
 TEST_F(WorldCells, TakeBricksOfEverySize) {
   for (const char* brick : {"brick=50", "brick=63", "brick=250", "brick=1600"}) {
     SCOPED_TRACE(brick);

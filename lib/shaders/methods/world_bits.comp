@@ -1,18 +1,56 @@
-// The cells' bits of a piece of a long bucket, whose entries are in order.
+// The cells' bits of a piece of a long bucket, whose entries are in order: a work group for each piece.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#include "methods/world_piece.glsl"
+#include "lamplight/shared/world.h"
+
+const uint GROUP_THREADS = 64u;
+layout(local_size_x = 64) in;
+#include "methods/world_entry.glsl"
+
+layout(set = 0, binding = 3, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
+layout(set = 0, binding = 4, scalar) readonly buffer BucketBuffer { WorldBucket buckets[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer EntryBuffer { uint entries[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer BitBuffer { uint bits[]; };
+
+shared uint s_cells[2u * WORLD_PIECE + 16u];
+shared uint s_bits[2u * WORLD_PIECE];
+#include "methods/world_octet.glsl"
+
+// A light may have several bricks in one bucket. Its first entry has the cells of all of them, the others have none, so
+// that no walk meets it twice.
+uvec2 cells_of_light(WorldBucket bucket, uint at) {
+  const uint light = light_of(entries[bucket.first + at]);
+  if (at != 0u && light_of(entries[bucket.first + at - 1u]) == light) return uvec2(0u);
+  const LightBricks b = bricks_of(frame, spheres[light]);
+  uvec2 cells = uvec2(0u);
+  for (uint i = at; i < bucket.count && light_of(entries[bucket.first + i]) == light; ++i)
+    cells |= cells_of(b, light, code_of(entries[bucket.first + i]));
+  return cells;
+}
 
 void main() {
-  if (group_number() >= totals.long_pieces) return;
+  if (group_number() >= totals.pieces) return;
+  const uint thread = gl_LocalInvocationIndex;
   const WorldPiece piece = bucket_pieces[group_number()];
   const WorldBucket bucket = buckets[piece.bucket];
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
-  for (uint i = gl_LocalInvocationIndex; i < count; i += GROUP_THREADS)
-    s_entries[i] = entries[bucket.first + piece.begin + i];
-  barrier();  // all entries before masks are made of them
-  write_bits(bucket, piece.begin, count);
+  for (uint i = thread; i < count; i += GROUP_THREADS) {
+    const uvec2 cells = cells_of_light(bucket, piece.begin + i);
+    [[unroll]] for (uint word = 0u; word < 2u; ++word) {
+      s_cells[2u * i + word] = cells[word];
+      s_bits[2u * i + word] = 0u;
+    }
+  }
+  barrier();  // all cells before bits are made of them
+  const uint blocks = (count + BLOCK - 1u) / BLOCK;
+  for (uint i = thread; i < OCTETS * blocks; i += GROUP_THREADS) {
+    const uint begin = i / OCTETS * BLOCK;
+    write_octet(begin, min(count - begin, BLOCK), i % OCTETS);
+  }
+  barrier();  // all bits before they are written
+  for (uint i = thread; i < 2u * count; i += GROUP_THREADS) bits[2u * (bucket.first + piece.begin) + i] = s_bits[i];
 }

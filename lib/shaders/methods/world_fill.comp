@@ -8,6 +8,7 @@
 
 layout(constant_id = 4) const uint ENTRIES = 1;  // capacity
 layout(constant_id = 5) const uint KEPT = 1;     // ranks of a light
+layout(constant_id = 6) const uint WINDOW = 1;   // entries
 layout(set = 0, binding = 3, scalar) buffer CountBuffer { uint counts[]; };  // places left, of bricks tested again
 layout(set = 0, binding = 4, scalar) readonly buffer BucketBuffer { WorldBucket buckets[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer EntryBuffer { uint entries[]; };
@@ -57,12 +58,8 @@ void main() {
   totals.pieces_x = groups.x;
   totals.pieces_y = groups.y;
   totals.pieces_z = groups.z;
-  const uvec3 long_groups = groups_of(totals.long_pieces);
-  totals.long_x = long_groups.x;
-  totals.long_y = long_groups.y;
-  totals.long_z = long_groups.z;
   const uint held = min(totals.counters.entries_needed, ENTRIES);
-  const uvec3 windows = groups_of((held + WORLD_WINDOW - 1u) / WORLD_WINDOW);
+  const uvec3 windows = groups_of((held + WINDOW - 1u) / WINDOW);
   totals.windows_x = windows.x;
   totals.windows_y = windows.y;
   totals.windows_z = windows.z;

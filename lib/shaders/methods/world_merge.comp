@@ -10,7 +10,7 @@ const uint GROUP_THREADS = 64u;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
 layout(set = 0, binding = 1, scalar) readonly buffer BucketBuffer { WorldBucket buckets[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer PieceBuffer { WorldPiece long_pieces[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer RunBuffer { uint runs[]; };  // in the room of the bits
 layout(set = 0, binding = 4, scalar) writeonly buffer EntryBuffer { uint entries[]; };
 
@@ -30,8 +30,8 @@ uint smaller_in(uint first, uint count, uint entry) {
 
 void main() {
   const uint number = gl_WorkGroupID.x + WORLD_GROUPS_ACROSS * gl_WorkGroupID.y;
-  if (number >= totals.long_pieces) return;
-  const WorldPiece piece = long_pieces[number];
+  if (number >= totals.pieces) return;
+  const WorldPiece piece = bucket_pieces[number];
   const WorldBucket bucket = buckets[piece.bucket];
   const uint first = 2u * bucket.first;
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);

@@ -7,10 +7,11 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lamplight/shared/world.h"
 
-const uint GROUP_THREADS = WORLD_WINDOW + WORLD_SHORT;
-layout(local_size_x = 128) in;
+const uint MOST_THREADS = 256u;
+layout(local_size_x_id = 4) in;
 layout(constant_id = 1) const uint BUCKETS = 1;
 layout(constant_id = 2) const uint ENTRIES = 1;  // capacity
+layout(constant_id = 3) const uint SHORT = 1;    // entries of a bucket, at most; a window has the other threads
 #include "methods/world_entry.glsl"
 
 layout(set = 0, binding = 3, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
@@ -19,41 +20,36 @@ layout(set = 0, binding = 5, scalar) readonly buffer WindowBuffer { uint windows
 layout(set = 0, binding = 6, scalar) buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer BitBuffer { uint bits[]; };
 
-shared uint s_entries[GROUP_THREADS];  // in any order
-shared uint s_cells[2u * GROUP_THREADS];  // in order
+shared uint s_entries[MOST_THREADS];  // in any order
+shared uint s_ordered[MOST_THREADS];
+shared uint s_cells[2u * MOST_THREADS + 16u];  // in order
+shared uint s_bits[2u * MOST_THREADS];
+shared uvec2 s_blocks[MOST_THREADS];  // where each begins, and how many entries it has
+shared uint s_block_count;
+#include "methods/world_octet.glsl"
 
 // Where the first bucket begins whose entries begin in the window, or behind it.
 uint window_begin(uint window, uint end) {
+  const uint size = gl_WorkGroupSize.x - SHORT;
   if (window == 0u) return 0u;
-  return window * WORLD_WINDOW < end ? windows[window] : end;
+  return window * size < end ? windows[window] : end;
 }
 
-// How many entries of the bucket come before the entry, and how many of them are other lights'.
-uvec2 before(uint bucket_begin, uint count, uint entry) {
-  uvec2 smaller = uvec2(0u);
-  for (uint k = bucket_begin; k < bucket_begin + count; ++k) {
-    const uint other = s_entries[k];
-    smaller += uvec2(other < entry, light_of(other) < light_of(entry));
-  }
+uint smaller_in(uint bucket_begin, uint count, uint entry) {
+  uint smaller = 0u;
+  for (uint k = bucket_begin; k < bucket_begin + count; ++k) smaller += uint(s_entries[k] < entry);
   return smaller;
 }
 
-// Two words of a bucket's bits: of each cell in turn a bit for each of `count` entries.
-void write_words(uint first, uint bucket_begin, uint count, uint pair) {
-  uint cell = 64u * pair / count;
-  uint i = 64u * pair - cell * count;
-  for (uint word = 2u * pair; word < 2u * pair + 2u; ++word) {
-    uint made = 0u;
-    for (uint bit = 0u; bit < 32u; ++bit) {
-      made |= (s_cells[2u * (bucket_begin + i) + cell / 32u] >> cell % 32u & 1u) << bit;
-      ++i;
-      if (i == count) {
-        i = 0u;
-        ++cell;
-      }
-    }
-    bits[2u * first + word] = made;
-  }
+// A light may have several bricks in one bucket. Its first entry has the cells of all of them, the others have none, so
+// that no walk meets it twice.
+void add_cells(LightBricks b, uint entry, uint place, uint bucket_begin) {
+  const uint light = light_of(entry);
+  uint first = place;
+  while (first > bucket_begin && light_of(s_ordered[first - 1u]) == light) --first;
+  const uvec2 cells = cells_of(b, light, code_of(entry));
+  atomicOr(s_cells[2u * first], cells.x);
+  atomicOr(s_cells[2u * first + 1u], cells.y);
 }
 
 void main() {
@@ -64,7 +60,12 @@ void main() {
   const bool is_read = at < window_begin(group_number() + 1u, end);
   const uint entry = is_read ? entries[at] : 0u;
   s_entries[thread] = entry;
-  barrier();  // entries before they are compared
+  [[unroll]] for (uint i = 0u; i < 2u; ++i) {
+    s_cells[2u * thread + i] = 0u;
+    s_bits[2u * thread + i] = 0u;
+  }
+  if (thread == 0u) s_block_count = 0u;
+  barrier();  // entries before they are compared, zeros before bits are set
 
   // What did not fit left anything in its room: no bucket that did holds the place.
   bool is_own = is_read && light_of(entry) < light_count_of(frame);
@@ -73,27 +74,25 @@ void main() {
   if (is_own) {
     b = bricks_of(frame, spheres[light_of(entry)]);
     own = buckets[bucket_of(b.level, brick_of_code(b, code_of(entry)), BUCKETS)];
-    is_own = own.count <= WORLD_SHORT && at >= own.first && at - own.first < own.count;
+    is_own = own.count <= SHORT && at >= own.first && at - own.first < own.count;
   }
   const uint bucket_begin = own.first - begin;  // in the group's entries
-  uvec2 smaller = uvec2(0u);
-  uvec2 cells = uvec2(0u);
+  uint rank = 0u;
   if (is_own) {
-    smaller = before(bucket_begin, own.count, entry);
-    cells = cells_of(b, light_of(entry), code_of(entry));
-    // A light may have several bricks in one bucket. Its first entry has the cells of all of them, the others have none,
-    // so that no walk meets it twice.
-    const bool is_first = smaller.x == smaller.y;
-    s_cells[2u * (bucket_begin + smaller.x)] = is_first ? cells.x : 0u;
-    s_cells[2u * (bucket_begin + smaller.x) + 1u] = is_first ? cells.y : 0u;
+    rank = smaller_in(bucket_begin, own.count, entry);
+    s_ordered[bucket_begin + rank] = entry;
+    if (rank % BLOCK == 0u)
+      s_blocks[atomicAdd(s_block_count, 1u)] = uvec2(bucket_begin + rank, min(own.count - rank, BLOCK));
   }
-  barrier();  // the first entries' cells before those of others
-  if (is_own && smaller.x != smaller.y) {
-    atomicOr(s_cells[2u * (bucket_begin + smaller.y)], cells.x);
-    atomicOr(s_cells[2u * (bucket_begin + smaller.y) + 1u], cells.y);
-  }
-  barrier();  // all cells before words are made of them
+  const uint place = bucket_begin + rank;
+  barrier();  // the order before it is read
+  if (is_own) add_cells(b, entry, place, bucket_begin);
+  barrier();  // all cells before bits are made of them
+  for (uint i = thread; i < OCTETS * s_block_count; i += gl_WorkGroupSize.x)
+    write_octet(s_blocks[i / OCTETS].x, s_blocks[i / OCTETS].y, i % OCTETS);
+  barrier();  // all bits before they are written
   if (!is_own) return;
-  entries[own.first + smaller.x] = entry;
-  write_words(own.first, bucket_begin, own.count, smaller.x);
+  entries[begin + place] = entry;
+  bits[2u * (begin + place)] = s_bits[2u * place];
+  bits[2u * (begin + place) + 1u] = s_bits[2u * place + 1u];
 }

@@ -20,13 +20,10 @@ namespace {
 
 using shared::BRICK_CELLS;
 using shared::WORLD_PIECE;
-using shared::WORLD_SHORT;
-using shared::WORLD_WINDOW;
 
 constexpr std::uint32_t THREADS = 256;
 constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, where there are groups for it
 constexpr std::uint32_t SCAN_BUCKETS = 4;         // of a thread
-constexpr std::uint32_t PIECE_THREADS = 64;       // one for each cell of a brick
 constexpr std::uint32_t LIGHT_BUCKETS = 16;       // for each light,
 constexpr std::uint32_t LEAST_BUCKETS = 1024;     // but no fewer
 constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes each
@@ -35,6 +32,7 @@ constexpr std::uint64_t ENTRY_BYTES = 12;         // with the bits of the brick'
 constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
 constexpr std::uint64_t RANKS_OF_ENTRY = 2;       // that fit into the room of its bits
 constexpr std::uint64_t RANK_ALIGNMENT = 8;       // a light's ranks begin where 32 bytes do
+constexpr std::uint32_t OCTET_SPARE = 64;         // bytes, behind the entries' cells
 constexpr std::uint32_t MOST_PERCENT = 1600;
 constexpr std::uint64_t BUDGET = (64U << 20) / ENTRY_BYTES;  // entries, for brick=0
 constexpr std::uint32_t FINEST_PERCENT = 100;                // for brick=0,
@@ -42,7 +40,6 @@ constexpr std::uint32_t COARSEST_PERCENT = 400;  // and where lights are so many
 constexpr std::uint64_t MEAN_BRICKS = 24;        // default of the option
 constexpr std::uint32_t LEAST_PERCENT = 50;      // of the range: a code tells 6 bricks across apart
 static_assert(2 * 100 / LEAST_PERCENT + 2 <= shared::MOST_BRICKS_ACROSS);
-static_assert(BRICK_CELLS == PIECE_THREADS);
 
 /// Bricks that a sphere anywhere reaches, on average, whose side is `ratio` of its radius: the volume of points within
 /// a radius of a cube, over the cube's (Steiner's formula).
@@ -67,8 +64,10 @@ struct Sizes {
   std::uint32_t buckets;
   std::uint32_t entries;
   std::uint32_t pieces;
-  std::uint32_t long_pieces;
-  std::uint32_t kept;  ///< ranks of a light that fit into the room of the bits, until these are made
+  std::uint32_t threads;
+  std::uint32_t most_short;  ///< entries of a bucket that one work group puts in order
+  std::uint32_t window;      ///< entries; the short buckets that begin in it have a work group
+  std::uint32_t kept;        ///< ranks of a light that fit into the room of the bits, until these are made
 };
 
 /// Percent of a light's range: as the option says, or the least for which the entries of lights anywhere take no more
@@ -103,19 +102,22 @@ std::uint64_t wanted_entries(const Problem& problem, double ratio) {
 
 Sizes sizes_of(const Problem& problem) {
   Sizes s{.ratio = static_cast<float>(brick_percent(problem)) / 100.0F};
+  s.threads = std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
+  s.most_short = std::min(s.threads / 2, WORLD_PIECE);
+  s.window = s.threads - s.most_short;
   const std::uint64_t wanted_buckets = std::bit_ceil(std::uint64_t{parts::capacity(problem)} * LIGHT_BUCKETS);
   s.buckets = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted_buckets, LEAST_BUCKETS, MOST_BUCKETS));
   s.entries = static_cast<std::uint32_t>(
       std::min({wanted_entries(problem, s.ratio), MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 8}));
-  s.long_pieces = parts::divide_up(s.entries, WORLD_PIECE / 2);  // each bucket of more than one is over half full
   s.kept =
       static_cast<std::uint32_t>(std::min(kept_ranks(s.ratio), s.entries * RANKS_OF_ENTRY / parts::capacity(problem)));
-  s.pieces = std::min(s.buckets, parts::divide_up(s.entries, WORLD_SHORT + 1)) + s.long_pieces;
+  s.pieces =
+      parts::divide_up(s.entries, std::min(s.most_short, WORLD_PIECE / 2));  // but a bucket's last are over half full
   return s;
 }
 
 struct Buffers {
-  ResourceId totals, levels, counts, buckets, windows, pieces, long_pieces, entries, bits;
+  ResourceId totals, levels, counts, buckets, windows, pieces, entries, bits;
 };
 
 Buffers add_buffers(Plan& plan, const Sizes& s) {
@@ -129,27 +131,22 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   plan.counters = b.totals;
   b.counts = plan.add({.name = "bucket counts", .bytes = std::uint64_t{s.buckets} * 4, .zeroed = true});
   b.buckets = plan.add({.name = "buckets", .bytes = std::uint64_t{s.buckets} * sizeof(shared::WorldBucket)});
-  b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / WORLD_WINDOW + 1) * 4});
+  b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / s.window + 1) * 4});
   b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::WorldPiece)});
-  b.long_pieces = plan.add({.name = "long pieces", .bytes = std::uint64_t{s.long_pieces} * sizeof(shared::WorldPiece)});
   b.entries = plan.add({.name = "bucket entries", .bytes = std::uint64_t{s.entries} * 4});
   b.bits = plan.add({.name = "cell bits", .bytes = std::uint64_t{s.entries} * 8});
   return b;
 }
 
-std::uint32_t threads_of(const Problem& problem) {
-  return std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
-}
-
 /// A pass with some threads for each light.
 Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  const std::uint32_t threads = threads_of(problem);
   std::uint32_t of_light = LIGHT_THREADS;
-  while (of_light > 1 && parts::divide_up(parts::capacity(problem), threads / of_light) > problem.traits.max_groups[0])
+  while (of_light > 1 &&
+         parts::divide_up(parts::capacity(problem), s.threads / of_light) > problem.traits.max_groups[0])
     of_light /= 2;
-  return {.constants = {threads, of_light, std::bit_cast<std::uint32_t>(s.ratio), s.buckets},
+  return {.constants = {s.threads, of_light, std::bit_cast<std::uint32_t>(s.ratio), s.buckets},
           .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.counts, Access::read_write}},
-          .extent = {.lights_per_group = threads / of_light}};
+          .extent = {.lights_per_group = s.threads / of_light}};
 }
 
 Pass count_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
@@ -166,51 +163,29 @@ Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   Pass pass = find_pass(problem, s, b);
   pass.name = "fill buckets";
   pass.shader = "methods/world_fill";
-  pass.constants.insert(pass.constants.end(), {s.entries, s.kept});
+  pass.constants.insert(pass.constants.end(), {s.entries, s.kept, s.window});
   pass.bindings.insert(pass.bindings.end(),
                        {{b.buckets}, {b.entries, Access::write}, {b.totals, Access::read_write}, {b.bits}});
   return pass;
 }
 
-Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  const std::uint32_t threads = threads_of(problem);
+Pass scan_pass(const Sizes& s, const Buffers& b) {
   return {.name = "scan buckets",
           .shader = "methods/world_scan",
-          .constants = {threads, s.entries},
+          .constants = {s.threads, s.entries, s.most_short, s.window},
           .bindings = {{b.counts},
                        {b.totals, Access::read_write},
                        {b.buckets, Access::write},
                        {b.pieces, Access::write},
-                       {b.long_pieces, Access::write},
                        {b.windows, Access::write}},
-          .extent = {.x = s.buckets / (threads * SCAN_BUCKETS)},
-          .shared_bytes = 256 * 4 + 12};
-}
-
-/// Of buckets that are not short: of all pieces, or of long ones'.
-Pass piece_pass(const Sizes& s, const Buffers& b, ResourceId pieces) {
-  const bool is_long = pieces == b.long_pieces;
-  return {.name = is_long ? "bits of long buckets" : "order and bits",
-          .shader = is_long ? "methods/world_bits" : "methods/world_order",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio)},
-          .bindings = {{INPUT_FRAME},
-                       {INPUT_LIGHTS},
-                       {INPUT_SPHERES},
-                       {b.totals},
-                       {b.buckets},
-                       {pieces},
-                       {b.entries, Access::read_write},
-                       {b.bits, Access::write}},
-          .extent = {.indirect = b.totals,
-                     .indirect_offset =
-                         is_long ? offsetof(shared::WorldTotals, long_x) : offsetof(shared::WorldTotals, pieces_x)},
-          .shared_bytes = WORLD_PIECE * 16 + BRICK_CELLS * 4};
+          .extent = {.x = s.buckets / (s.threads * SCAN_BUCKETS)},
+          .shared_bytes = 256 * 4 + 8};
 }
 
 Pass short_pass(const Sizes& s, const Buffers& b) {
   return {.name = "short buckets",
           .shader = "methods/world_short",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries},
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},
@@ -220,14 +195,42 @@ Pass short_pass(const Sizes& s, const Buffers& b) {
                        {b.entries, Access::read_write},
                        {b.bits, Access::write}},
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, windows_x)},
-          .shared_bytes = (WORLD_WINDOW + WORLD_SHORT) * 12};
+          .shared_bytes = THREADS * 32 + OCTET_SPARE + 4};
+}
+
+Extent of_pieces(const Buffers& b) {
+  return {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, pieces_x)};
+}
+
+Pass order_pass(const Buffers& b) {
+  return {.name = "order long buckets",
+          .shader = "methods/world_order",
+          .bindings = {{b.totals}, {b.buckets}, {b.pieces}, {b.entries}, {b.bits, Access::write}},
+          .extent = of_pieces(b),
+          .shared_bytes = WORLD_PIECE * 4};
 }
 
 Pass merge_pass(const Buffers& b) {
   return {.name = "merge long buckets",
           .shader = "methods/world_merge",
-          .bindings = {{b.totals}, {b.buckets}, {b.long_pieces}, {b.bits}, {b.entries, Access::write}},
-          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, long_x)}};
+          .bindings = {{b.totals}, {b.buckets}, {b.pieces}, {b.bits}, {b.entries, Access::write}},
+          .extent = of_pieces(b)};
+}
+
+Pass bits_pass(const Sizes& s, const Buffers& b) {
+  return {.name = "bits of long buckets",
+          .shader = "methods/world_bits",
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio)},
+          .bindings = {{INPUT_FRAME},
+                       {INPUT_LIGHTS},
+                       {INPUT_SPHERES},
+                       {b.totals},
+                       {b.buckets},
+                       {b.pieces},
+                       {b.entries},
+                       {b.bits, Access::write}},
+          .extent = of_pieces(b),
+          .shared_bytes = WORLD_PIECE * 16 + OCTET_SPARE};
 }
 
 Plan plan_world_cells(const Problem& problem) {
@@ -237,10 +240,13 @@ Plan plan_world_cells(const Problem& problem) {
   plan.any_depth = true;
   const Buffers b = add_buffers(plan, sizes);
   plan.capacities = {parts::shared_list("mean_bricks", sizes.entries, parts::capacity(problem))};
-  plan.passes = {count_pass(problem, sizes, b),      scan_pass(problem, sizes, b),
-                 fill_pass(problem, sizes, b),       short_pass(sizes, b),
-                 piece_pass(sizes, b, b.pieces),     merge_pass(b),
-                 piece_pass(sizes, b, b.long_pieces)};
+  plan.passes = {count_pass(problem, sizes, b),
+                 scan_pass(sizes, b),
+                 fill_pass(problem, sizes, b),
+                 short_pass(sizes, b),
+                 order_pass(b),
+                 merge_pass(b),
+                 bits_pass(sizes, b)};
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};

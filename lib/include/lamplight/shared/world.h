@@ -34,11 +34,8 @@ struct WorldBucket {
 };
 LAMP_CONST WORLD_ALL = 0xffffffffu;
 
-// Buckets of up to WORLD_SHORT entries are put in order by the work group in whose window of entries they begin.
-LAMP_CONST WORLD_SHORT = 32u;
-LAMP_CONST WORLD_WINDOW = 96u;
-
-// Entries of a longer bucket that one work group puts in order.
+// Short buckets are put in order by the work group in whose window of entries they begin. Entries of a longer one that
+// one work group puts in order:
 LAMP_CONST WORLD_PIECE = 128u;
 struct WorldPiece {
   uint bucket;
@@ -51,14 +48,10 @@ LAMP_CONST WORLD_GROUPS_ACROSS = 32768u;
 // Zeroed at the start of every frame.
 struct WorldTotals {
   Counters counters;
-  uint pieces;    // of all buckets that are not short
+  uint pieces;    // of buckets that are not short
   uint pieces_x;  // their group counts
   uint pieces_y;
   uint pieces_z;
-  uint long_pieces;  // of buckets with more than one
-  uint long_x;
-  uint long_y;
-  uint long_z;
   uint windows_x;  // group counts of the entries' windows
   uint windows_y;
   uint windows_z;
@@ -69,7 +62,7 @@ struct WorldTotals {
 LAMP_CONST WORLD_NO_RANK = 0xffffffffu;
 
 #ifdef __cplusplus
-static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 64);
+static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 48);
 static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_BRICK_BITS);
 }  // namespace lamp::shared
 #endif
