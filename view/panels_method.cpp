@@ -128,7 +128,8 @@ void method_panel(PanelFrame& p) {
   p.widgets.check("make room", p.state.request.grow, "Enlarges lists until every light fits.");
   for (const std::string& note : stats.notes) Widgets::note(note);
   Widgets::steady(3, [&] {
-    if (stats.rendered.counters.overflowed_cells != 0) return Widgets::text(overflow_words(stats));
+    const std::vector<std::string> words = all_overflow_words(stats);
+    if (!words.empty()) return Widgets::text(fmt::format("{}", fmt::join(words, "; ")));
     Widgets::note("Every list fits.");
   });
 }

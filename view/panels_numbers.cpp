@@ -84,10 +84,10 @@ void times_panel(PanelFrame& p) {
                                        : "not counted: pick a pixel, or an overlay");
   p.widgets.check("list lengths", p.state.list_lengths, "Counts with every picture how long the cells' lists are.");
   if (p.state.list_lengths && !p.shown.first.lengths.empty()) draw_lengths(p.shown.first.lengths);
-  Widgets::row("overflowed", fmt::format("{} cells", stats.rendered.counters.overflowed_cells));
-  const std::string reason = stats.rendered.counters.overflowed_cells == 0 ? "every list fits"
-                             : p.state.request.grow ? "lists are as long as options and device allow"
-                                                    : "";
+  Widgets::row("overflowed", fmt::format("{} cells", overflowed_cells(stats)));
+  const std::string reason = overflowed_cells(stats) == 0 ? "every list fits"
+                             : p.state.request.grow       ? "lists are as long as options and device allow"
+                                                          : "";
   if (p.widgets.button("make room for them", "Enlarges lists until every light fits.", reason))
     p.state.request.grow = true;
   for (const auto& [name, bytes] : stats.bytes)

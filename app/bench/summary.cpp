@@ -189,7 +189,9 @@ void add_losses(const json& results, std::vector<std::string>& sentences) {
   std::uint64_t overflowed = 0;
   for (const json& result : results.at("results")) {
     const json& stats = result.at("stats");
-    if (stats.value("overflowed_cells", 0U) != 0) ++overflowed;
+    if (stats.value("overflowed_cells", 0U) != 0 ||
+        stats.value(json::json_pointer("/transparent/overflowed_cells"), 0U) != 0)
+      ++overflowed;
     if (result.at("verdict") != "approximate" || !stats.contains("missed") || stats.at("useful") == 0) continue;
     double& share = worst[result.at("label")];
     share = std::max(share, stats.at("missed").get<double>() / stats.at("useful").get<double>());

@@ -77,6 +77,7 @@ void print_side(const Side& side) {
             f.list_max, side.stats.rendered.counters.overflowed_cells, side.stats.rendered.cull_ms,
             side.stats.rendered.shade_ms);
   for (const std::string& note : side.stats.notes) print_out("  note: {}\n", note);
+  for (const std::string& words : all_overflow_words(side.stats)) print_out("  {}\n", words);
 }
 
 Exit compare_panels(const CompareOptions& o) {

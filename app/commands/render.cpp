@@ -99,7 +99,7 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   if (stats.findings)
     line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",
                                stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
-  if (stats.rendered.counters.overflowed_cells != 0) line("overflow", overflow_words(stats));
+  for (const std::string& words : all_overflow_words(stats)) line("overflow", words);
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
     passes += fmt::format("{}{}{} {:.3f}", passes.empty() ? "" : ", ", pass.host ? "on the CPU: " : "", pass.name,
@@ -118,7 +118,7 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
 
 /// The same in one line, for a frame of the flight.
 void print_frame(const Stats& stats, std::uint32_t frame, const std::string& file) {
-  const std::uint32_t overflowed = stats.rendered.counters.overflowed_cells;
+  const std::uint32_t overflowed = overflowed_cells(stats);
   line(fmt::format("frame {}", frame),
        fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms{}: {}", stats.rendered.cull_ms,
                    stats.rendered.shade_ms, stats.rendered.frame_ms,

@@ -318,8 +318,10 @@ Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, Lightin
   // More than once: where one list is too short, it can hide what the next one needs.
   while (grow) {
     std::optional<Options> more = lighting.grown(renderer.cull(lighting).needed);
-    if (!more) break;
-    info.options = std::move(*more);
+    std::optional<Options> any_depth = lighting.any_depth_grown(lighting.any_depth_counts().needed);
+    if (!more && !any_depth) break;
+    if (more) info.options = std::move(*more);
+    if (any_depth) info.any_depth_options = std::move(any_depth);
     info.grown = changed_options(asked, info.options);
     lighting = Lighting(renderer.device(), shaders, info);
   }

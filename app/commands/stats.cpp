@@ -8,6 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "gpu/check.h"
+
 namespace lamp::app {
 namespace {
 
@@ -29,6 +31,24 @@ void add_statistics(nlohmann::json& json, const PassTime& pass) {
   }
 }
 
+std::optional<TransparentStats> transparent_stats(const Lighting& lighting, const vulkan::FrameCounts& counted) {
+  if (lighting.any_depth_method() == nullptr) return std::nullopt;
+  return TransparentStats{.method = std::string(lighting.any_depth_method()->name),
+                          .options = lighting.any_depth_options(),
+                          .bytes = lighting.any_depth_plan().bytes(),
+                          .overflowed_cells = counted.counters.overflowed_cells,
+                          .can_grow = lighting.any_depth_grown(counted.needed).has_value()};
+}
+
+nlohmann::json to_json(const TransparentStats& stats) {
+  nlohmann::json json{{"method", stats.method},
+                      {"options", nlohmann::json::object()},
+                      {"bytes", stats.bytes},
+                      {"overflowed_cells", stats.overflowed_cells}};
+  for (const auto& [key, value] : stats.options.all()) json["options"][key] = value;
+  return json;
+}
+
 constexpr const char* NOT_COUNTED =
     "not counted: lists are wrong, walks were ended, or pixels of a cell walk different lists";
 
@@ -43,6 +63,23 @@ std::string words_of(std::span<const std::pair<std::string, std::string>> settin
 std::string overflow_words(const Stats& stats) {
   return fmt::format("{} cells did not fit and walked more lights{}{}", stats.rendered.counters.overflowed_cells,
                      stats.fits_with.empty() ? "" : "; there is room with ", words_of(stats.fits_with));
+}
+
+std::string overflow_words(const TransparentStats& stats) {
+  return fmt::format("of transparent surfaces' own lists {} cells did not fit and walked more lights{}",
+                     stats.overflowed_cells, stats.can_grow ? "; --grow makes room" : "");
+}
+
+std::uint32_t overflowed_cells(const Stats& stats) {
+  return stats.rendered.counters.overflowed_cells + (stats.transparent ? stats.transparent->overflowed_cells : 0);
+}
+
+std::vector<std::string> all_overflow_words(const Stats& stats) {
+  std::vector<std::string> words;
+  if (stats.rendered.counters.overflowed_cells != 0) words.push_back(overflow_words(stats));
+  if (stats.transparent && stats.transparent->overflowed_cells != 0)
+    words.push_back(overflow_words(*stats.transparent));
+  return words;
 }
 
 Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
@@ -66,7 +103,11 @@ Stats make_stats(const StatsInfo& info, Lighting& lighting, Rendered rendered) {
               .approximate = plan.approximate};
   if (const auto& grown = lighting.info().grown; !grown.empty())
     stats.notes.push_back("room was made with " + words_of(grown));
+  if (const auto& options = lighting.info().any_depth_options)
+    stats.notes.push_back("room was made for transparent surfaces with " +
+                          words_of(changed_options(take(resolve_options(*lighting.any_depth_method(), {})), *options)));
   stats.rendered.image.pixels = {};
+  stats.transparent = transparent_stats(lighting, stats.rendered.any_depth);
   stats.fits_with = lighting.fits_with(stats.rendered.needed);
   for (const BufferDesc& buffer : plan.buffers) stats.bytes.emplace_back(buffer.name, plan.bytes_of(buffer));
   stats.bytes.emplace_back("total", plan.bytes());
@@ -165,6 +206,7 @@ nlohmann::json to_json(const Stats& s) {
     if (f.missed_fused) json["missed_fused"] = *f.missed_fused;
   }
   if (s.shadows) json["shadows"] = to_json(*s.shadows);
+  if (s.transparent) json["transparent"] = to_json(*s.transparent);
   if (s.mirror) json["mirror"] = to_json(*s.mirror);
   if (s.still) json["still"] = to_json(*s.still);
   if (s.captures)

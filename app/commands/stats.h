@@ -25,6 +25,15 @@ struct ShadowStats {
   std::optional<ShadowFindings> truth;  ///< where they were held against rays
 };
 
+/// Of the lists that transparent surfaces have of their own, where the method's hold at one depth alone.
+struct TransparentStats {
+  std::string method;
+  Options options;
+  std::uint64_t bytes = 0;
+  std::uint32_t overflowed_cells = 0;  ///< of the last frame
+  bool can_grow = false;               ///< with --grow
+};
+
 struct Stats {
   std::string device, driver, scene, method;
   Options options;
@@ -39,7 +48,8 @@ struct Stats {
   std::optional<ShadowStats> shadows;  ///< where lights cast them
   std::optional<MirrorStats> mirror;   ///< where surfaces mirror
   std::optional<StillStats> still;     ///< where lights that stand still have lists of their own
-  Rendered rendered;                   ///< its picture is not kept
+  std::optional<TransparentStats> transparent;
+  Rendered rendered;  ///< its picture is not kept
   std::vector<std::pair<std::string, std::uint64_t>> bytes;
   std::uint64_t cells = 0;
   std::vector<std::pair<std::string, std::string>> fits_with;  ///< options with which all lists of the frame fit
@@ -81,6 +91,12 @@ void set_walked(Stats& stats, std::span<const Visit> visits);
 
 /// "3 cells did not fit and walked more lights; there is room with mean_capacity=40". Of a frame with overflow.
 [[nodiscard]] std::string overflow_words(const Stats& stats);
+/// "of transparent surfaces' own lists 3 cells did not fit and walked more lights; --grow makes room". Likewise.
+[[nodiscard]] std::string overflow_words(const TransparentStats& stats);
+/// Of all lists.
+[[nodiscard]] std::uint32_t overflowed_cells(const Stats& stats);
+/// What did not fit, in words of the list it is of; empty where all did.
+[[nodiscard]] std::vector<std::string> all_overflow_words(const Stats& stats);
 
 /// "pcf: 60 of 64 lights in view have one, 4 wait; 1.2 million texels of 4096 x 4096"
 [[nodiscard]] std::string shadow_words(const ShadowStats& shadows);

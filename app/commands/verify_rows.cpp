@@ -39,7 +39,7 @@ void print_numbers(const Stats& s) {
 void print_more(const Stats& s) {
   const Findings& f = *s.findings;
   for (const std::string& note : s.notes) print_out("  note: {}\n", note);
-  if (s.rendered.counters.overflowed_cells != 0) print_out("  {}\n", overflow_words(s));
+  for (const std::string& words : all_overflow_words(s)) print_out("  {}\n", words);
   if (!s.judgement->reason.empty()) print_out("  {}\n", s.judgement->reason);
   if (s.approximate && !f.first_miss.empty()) print_out("  first miss: {}\n", f.first_miss);
   if (s.decal_findings) print_boxes("decal", *s.decal_findings);

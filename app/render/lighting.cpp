@@ -73,10 +73,11 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
   shade_ = shading_pipeline(device, shaders, info, runner_.plan());
   if (info.path == ShadingPath::standard_deferred) volumes_ = volumes_pipeline(device, shaders, info);
   if (info.transparency) {
-    if (std::optional<Plan> any_depth = any_depth_plan(info, runner_.plan(), device))
-      any_depth_runner_ = take(vulkan::PlanRunner::create(device, std::move(*any_depth), shaders.source()));
-    transparent_ =
-        transparent_pipeline(device, shaders, info, any_depth_runner_ ? any_depth_runner_->plan() : runner_.plan());
+    if (std::optional<AnyDepthPlan> made = app::any_depth_plan(info, runner_.plan(), device))
+      any_depth_ = {.method = made->method,
+                    .problem = std::move(made->problem),
+                    .runner = take(vulkan::PlanRunner::create(device, std::move(made->plan), shaders.source()))};
+    transparent_ = transparent_pipeline(device, shaders, info, any_depth_ ? any_depth_->runner.plan() : runner_.plan());
   }
   if (info.decals && info.path != ShadingPath::forward)
     decals_.emplace(device, shaders, runner_.plan(), glm::uvec2(info.width, info.height));
@@ -86,6 +87,13 @@ std::optional<Options> Lighting::grown(std::span<const std::uint32_t> needed) co
   const Plan& plan = runner_.plan();
   if (needed.size() != plan.capacities.size()) return std::nullopt;
   std::optional<GrownPlan> grown = grow_plan(*info_.method, problem_of(info_, traits_), plan, needed);
+  if (!grown) return std::nullopt;
+  return std::move(grown->options);
+}
+
+std::optional<Options> Lighting::any_depth_grown(std::span<const std::uint32_t> needed) const {
+  if (!any_depth_ || needed.size() != any_depth_plan().capacities.size()) return std::nullopt;
+  std::optional<GrownPlan> grown = grow_plan(*any_depth_->method, any_depth_->problem, any_depth_plan(), needed);
   if (!grown) return std::nullopt;
   return std::move(grown->options);
 }
@@ -119,6 +127,10 @@ void Lighting::record_cull(vulkan::Recorder& recorder, const LightingFrame& fram
   static_cast<void>(take(runner_.record(recorder, frame.inputs)));
 }
 
+void Lighting::record_any_depth_cull(vulkan::Recorder& recorder, const LightingFrame& frame) {
+  if (any_depth_) static_cast<void>(take(any_depth_->runner.record(recorder, frame.inputs)));
+}
+
 vulkan::BoundLookUp Lighting::lookup(const LightingFrame& frame) const {
   if (culler_) return culler_->lookup();
   return runner_.lookup(frame.inputs, fused() ? Passes::fused : Passes::separate, frame.view);
@@ -126,6 +138,7 @@ vulkan::BoundLookUp Lighting::lookup(const LightingFrame& frame) const {
 
 void Lighting::record_counts(vulkan::Recorder& recorder) {
   if (!culler_) runner_.record_counts(recorder);
+  if (any_depth_) any_depth_->runner.record_counts(recorder);
 }
 
 vulkan::FrameCounts Lighting::counts() const {
@@ -133,8 +146,12 @@ vulkan::FrameCounts Lighting::counts() const {
   return runner_.counts();
 }
 
+vulkan::FrameCounts Lighting::any_depth_counts() const {
+  return any_depth_ ? any_depth_->runner.counts() : vulkan::FrameCounts{};
+}
+
 void Lighting::finish() {
-  for (vulkan::PlanRunner* runner : {&runner_, any_depth_runner_ ? &*any_depth_runner_ : nullptr})
+  for (vulkan::PlanRunner* runner : {&runner_, any_depth_ ? &any_depth_->runner : nullptr})
     if (runner != nullptr && runner->records() != 0) runner->finish(runner->records());
   if (culler_) culler_->finish();
 }
@@ -265,8 +282,8 @@ void Lighting::add_volumes(vulkan::Recorder& recorder, const LightingFrame& fram
 }
 
 void Lighting::add_transparent(vulkan::Recorder& recorder, const LightingFrame& frame) {
-  vulkan::PlanRunner& runner = any_depth_runner_ ? *any_depth_runner_ : runner_;
-  const bool culled = !any_depth_runner_ && walks() && !fused();
+  vulkan::PlanRunner& runner = any_depth_ ? any_depth_->runner : runner_;
+  const bool culled = !any_depth_ && walks() && !fused();
   recorder.name_group("transparent");
   if (!culled) static_cast<void>(take(runner.record(recorder, frame.inputs)));
   recorder.name_group("");

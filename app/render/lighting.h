@@ -47,22 +47,32 @@ class Lighting {
   void record(vulkan::Recorder& recorder, const LightingFrame& frame);
   /// Geometry, and the decals on it: what a deferred path lights.
   void record_surfaces(vulkan::Recorder& recorder, const LightingFrame& frame);
-  /// Only the cull, over the depth that is there.
+  /// Only the cull, over the depth that is there: of the method's lists.
   void record_cull(vulkan::Recorder& recorder, const LightingFrame& frame);
   /// Says that all that was recorded has run: what is kept need not be made again.
   void finish();
+  /// Only the cull of the lists that transparent surfaces have of their own, where these have some.
+  void record_any_depth_cull(vulkan::Recorder& recorder, const LightingFrame& frame);
 
   [[nodiscard]] const LightingInfo& info() const { return info_; }
   [[nodiscard]] vulkan::PlanRunner& runner() { return runner_; }
   [[nodiscard]] const vulkan::PlanRunner& runner() const { return runner_; }
+  /// Whose lists transparent surfaces have for themselves, since the method's hold at one depth alone; null: none.
+  [[nodiscard]] const Method* any_depth_method() const { return any_depth_ ? any_depth_->method : nullptr; }
+  [[nodiscard]] const Options& any_depth_options() const { return any_depth_->problem.options; }
+  [[nodiscard]] const Plan& any_depth_plan() const { return any_depth_->runner.plan(); }
   [[nodiscard]] bool fused() const;
   /// Makes what the frame counted visible to the host, for `counts`.
   void record_counts(vulkan::Recorder& recorder);
   [[nodiscard]] vulkan::FrameCounts counts() const;
+  /// Of the lists that transparent surfaces have of their own, likewise.
+  [[nodiscard]] vulkan::FrameCounts any_depth_counts() const;
   /// The options that `vulkan::Culler` would grow to after a frame that needed so much (of the plan's capacities).
   /// Nothing if everything fitted, or nothing can grow.
   [[nodiscard]] std::optional<Options> grown(std::span<const std::uint32_t> needed) const;
-  /// Of them, those that change, and their values.
+  /// The same of the lists that transparent surfaces have of their own.
+  [[nodiscard]] std::optional<Options> any_depth_grown(std::span<const std::uint32_t> needed) const;
+  /// Of the method's, those that change, and their values.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> fits_with(std::span<const std::uint32_t> needed) const;
   /// What the driver says of the pipeline of a pass of this name (of the times); empty where it says nothing.
   [[nodiscard]] std::span<const vulkan::PipelineStatistic> statistics(std::string_view pass) const;
@@ -83,8 +93,13 @@ class Lighting {
   LightingInfo info_;
   DeviceTraits traits_;
   vulkan::PlanRunner runner_;
-  std::optional<CullerPass> culler_;                    ///< records instead, for such a host
-  std::optional<vulkan::PlanRunner> any_depth_runner_;  ///< for transparent surfaces, if the method needs another
+  std::optional<CullerPass> culler_;  ///< records instead, for such a host
+  struct AnyDepth {
+    const Method* method = nullptr;
+    Problem problem;
+    vulkan::PlanRunner runner;
+  };
+  std::optional<AnyDepth> any_depth_;  ///< for transparent surfaces, if the method's plan does not hold for them
   vulkan::Pipeline shade_;
   vulkan::Pipeline volumes_;
   vulkan::Pipeline transparent_;

@@ -139,7 +139,7 @@ Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device) {
   return take(make_plan(*info.method, problem_of(info, device.traits)));
 }
 
-std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, const vulkan::Device& device) {
+std::optional<AnyDepthPlan> any_depth_plan(const LightingInfo& info, const Plan& plan, const vulkan::Device& device) {
   if (plan.any_depth) return std::nullopt;
   LightingInfo any_depth = info;
   // Cells of the world are asked at a pixel's centre: surfaces that cover single samples want cells of the picture.
@@ -148,10 +148,12 @@ std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan, c
   const std::vector<std::string> of_picture{"depth=none", "tile=32", "mean_cells=2"};
   const std::vector<std::string> settings =
       with_box_shapes(*any_depth.method, world ? std::vector<std::string>() : of_picture, culls_shapes(info.options));
-  any_depth.options = take(resolve_options(*any_depth.method, settings));
+  any_depth.options =
+      info.any_depth_options ? *info.any_depth_options : take(resolve_options(*any_depth.method, settings));
   Problem problem = problem_of(any_depth, device.traits);
   problem.smaller_frames = false;  // the frame's record has the cells of the other plan
-  return take(make_plan(*any_depth.method, problem));
+  Plan made = take(make_plan(*any_depth.method, problem));
+  return AnyDepthPlan{.method = any_depth.method, .problem = std::move(problem), .plan = std::move(made)};
 }
 
 vulkan::Constant shown_view_constant(const Plan& plan) { return {CONSTANT_SEVERAL_VIEWS, plan.views > 1 ? 1U : 0U}; }

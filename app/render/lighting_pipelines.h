@@ -67,6 +67,8 @@ struct LightingInfo {
       0;  ///< how lights that stand still are looked up (still_data.h); triangles on the forward path alone
   /// Of the options, those that room was made with, for what did not fit with the ones asked for.
   std::vector<std::pair<std::string, std::string>> grown;
+  /// Of the lists that transparent surfaces have of their own (AnyDepthPlan), where room was made for what did not fit.
+  std::optional<Options> any_depth_options;
   /// What is shaded: a reference picture may need a part alone. `first` is a multiple of 8; not with a fused look-up.
   Rows shaded;
 };
@@ -74,9 +76,15 @@ struct LightingInfo {
 [[nodiscard]] Problem problem_of(const LightingInfo& info, const DeviceTraits& traits);
 /// A method's plan for these traits, or its error thrown.
 [[nodiscard]] Plan plan_or_throw(const LightingInfo& info, const vulkan::Device& device);
+/// A plan whose look-up holds at any depth of a pixel, and what it was made of.
+struct AnyDepthPlan {
+  const Method* method = nullptr;
+  Problem problem;
+  Plan plan;
+};
 /// The plan whose look-up transparent surfaces walk, if that of `plan` does not hold at any depth.
-[[nodiscard]] std::optional<Plan> any_depth_plan(const LightingInfo& info, const Plan& plan,
-                                                 const vulkan::Device& device);
+[[nodiscard]] std::optional<AnyDepthPlan> any_depth_plan(const LightingInfo& info, const Plan& plan,
+                                                         const vulkan::Device& device);
 
 /// Whether shaders ask which of several views they draw (common/shown_view.glsl).
 [[nodiscard]] vulkan::Constant shown_view_constant(const Plan& plan);

@@ -149,10 +149,10 @@ class PipelineLister {
   void add_paths(LightingInfo info, const Plan& plan) {
     for (const ShadingPath path : {ShadingPath::deferred, ShadingPath::tiled_deferred, ShadingPath::forward})
       add_path(info, path, plan);
-    const std::optional<Plan> any_depth = any_depth_plan(info, plan, device_);
-    if (any_depth) add_passes(*any_depth);
+    const std::optional<AnyDepthPlan> any_depth = any_depth_plan(info, plan, device_);
+    if (any_depth) add_passes(any_depth->plan);
     info.path = ShadingPath::forward;
-    add(use_of(info), transparent_pipeline(device_, shaders_, info, any_depth ? *any_depth : plan));
+    add(use_of(info), transparent_pipeline(device_, shaders_, info, any_depth ? any_depth->plan : plan));
   }
 
   vulkan::PipelineStore store_;

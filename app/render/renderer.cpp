@@ -35,6 +35,7 @@ void add_counts(Rendered& rendered, const Lighting& lighting) {
   vulkan::FrameCounts counted = lighting.counts();
   rendered.counters = counted.counters;
   rendered.needed = std::move(counted.needed);
+  rendered.any_depth = lighting.any_depth_counts();
 }
 
 }  // namespace
@@ -284,13 +285,14 @@ void Renderer::also(const std::function<void(vulkan::Recorder&)>& record) {
 }
 
 vulkan::FrameCounts Renderer::cull(Lighting& lighting) {
-  if (lighting.runner().plan().counters == NO_RESOURCE) return {};
+  if (lighting.runner().plan().counters == NO_RESOURCE && lighting.any_depth_method() == nullptr) return {};
   need_surfaces();
   submit(&lighting, [&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_upload(recorder);
     record_reach(recorder, lighting);
     lighting.record_cull(recorder, lighting_frame());
+    lighting.record_any_depth_cull(recorder, lighting_frame());
     lighting.record_counts(recorder);
   });
   return lighting.counts();

@@ -43,6 +43,7 @@ struct Rendered {
   double frame_ms = 0.0;
   shared::Counters counters{};        ///< of the last frame
   std::vector<std::uint32_t> needed;  ///< of the plan's capacities, likewise
+  vulkan::FrameCounts any_depth;      ///< of the lists that transparent surfaces have of their own, likewise
 };
 
 /// A dispatch over the pixels of the last frame, for checks: one thread a pixel.
@@ -144,7 +145,8 @@ class Renderer {
   void also(const std::function<void(vulkan::Recorder&)>& record);
 
   /// Culls the frame and shades nothing; draws its surfaces first where there are none yet. What did not fit, and what
-  /// is needed of the plan's capacities; nothing of a plan that does not count.
+  /// is needed of the plan's capacities; nothing of a plan that does not count. Culls for transparent surfaces too,
+  /// where these have lists of their own: Lighting::any_depth_counts.
   [[nodiscard]] vulkan::FrameCounts cull(Lighting& lighting);
 
   /// Culls the depth that is there as if it were of another view, of one size or smaller, and shades nothing: what the

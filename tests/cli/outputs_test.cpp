@@ -75,6 +75,23 @@ TEST_F(Outputs, GrowMakesRoomAndSaysSo) {
   }
 }
 
+// A depth buffer's lists fit; those at any depth, for the corridor's glass, do not.
+TEST_F(Outputs, RenderCountsWhatDoesNotFitForTransparentSurfaces) {
+  const auto rendered = [this](const char* more) {
+    return output_of({"render", "corridor", "--method", "lamplight", "--lights", "16384", "--range", "200", "--size",
+                      "40x40", "--samples", "1", more});
+  };
+  const nlohmann::json short_lists = nlohmann::json::parse(rendered("--json"));
+  EXPECT_EQ(short_lists.at("overflowed_cells"), 0);
+  EXPECT_GT(short_lists.at("transparent").at("overflowed_cells"), 0);
+  EXPECT_EQ(short_lists.at("transparent").at("method"), "lamplight");
+  EXPECT_GT(short_lists.at("transparent").at("bytes"), 0);
+  EXPECT_NE(rendered("--frames=1").find("overflow  of transparent surfaces' own lists"), std::string::npos);
+  const std::string grown = rendered("--grow");
+  EXPECT_EQ(grown.find("\noverflow"), std::string::npos) << grown;
+  EXPECT_NE(grown.find("room was made for transparent surfaces with depth=none, mean_capacity="), std::string::npos);
+}
+
 TEST_F(Outputs, EitherVerifierFindsTheSame) {
   const nlohmann::json oracle = json_of(small({"verify", "--json", "--verifier", "oracle"}));
   const nlohmann::json gpu = json_of(small({"verify", "--json", "--verifier", "gpu"}));
