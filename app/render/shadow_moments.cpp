@@ -13,7 +13,10 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::uint32_t BLOCK_TEXELS = 256;
+// Texels that a work group blurs (blur_main.glsl).
+constexpr std::uint32_t BLOCK_LINES = shared::LEAST_SQUARE;
+constexpr std::uint32_t MOST_BLOCK_WIDTH = 64;
+constexpr std::uint32_t LEAST_BLOCK_TEXELS = BLOCK_LINES * shared::LEAST_SQUARE;
 constexpr std::uint32_t MOST_GROUPS_X = 32768;
 constexpr std::uint32_t BINDING_BLOCKS = 3;
 constexpr std::uint32_t BINDING_BLURRED = 4;
@@ -47,11 +50,11 @@ ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shader
   };
   first_ = make("shadow moments, blurred along x");
   second_ = make("shadow moments");
-  blocks_ = take(
-      vulkan::Buffer::create(device, {.name = "shadow blocks",
-                                      .bytes = std::max<std::uint64_t>(1, most_texels / BLOCK_TEXELS) * sizeof(Block),
-                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      .memory = vulkan::MemoryUse::upload}));
+  blocks_ = take(vulkan::Buffer::create(
+      device, {.name = "shadow blocks",
+               .bytes = std::max<std::uint64_t>(1, most_texels / LEAST_BLOCK_TEXELS) * sizeof(Block),
+               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+               .memory = vulkan::MemoryUse::records}));
   const auto pipeline = [&](const char* name, std::uint32_t source, const char* shader) {
     return take(vulkan::Pipeline::compute(device,
                                           {.name = name,
@@ -71,8 +74,9 @@ void ShadowMoments::set(std::span<const shared::ShadowMap> maps, std::span<const
   std::vector<Block> blocks;
   for (const ShadowRedraw& redraw : redraws) {
     const shared::ShadowMap& map = maps[redraw.light];
+    const std::uint32_t of_square = map.side * map.side / (BLOCK_LINES * std::min(map.side, MOST_BLOCK_WIDTH));
     for (std::uint32_t square = 0; square < squares_of(map); ++square)
-      for (std::uint32_t i = 0; i < map.side * map.side / BLOCK_TEXELS; ++i)
+      for (std::uint32_t i = 0; i < of_square; ++i)
         blocks.push_back({.light = redraw.light, .square = square, .block = i});
   }
   block_count_ = static_cast<std::uint32_t>(blocks.size());

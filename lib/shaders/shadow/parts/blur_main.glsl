@@ -1,5 +1,5 @@
-// A pass of the separable Gaussian of nine taps over the squares that were drawn, each by itself: 256 threads take 256
-// texels of a square, whole lines of it as far as they go, with what their taps reach beside them in shared memory.
+// A pass of the separable Gaussian of nine taps over the squares that were drawn, each by itself: a work group takes a
+// block of a square, 16 lines of up to 64 texels, with what their taps reach beside them in shared memory.
 // Based on: Adventures in Deferred Rendering: Tiled Deferred Shading and Compute Shaders: weights, taps three texels apart.
 // Promise: no texel of another square is read: taps end at the edge of a square, or fold across that of an octahedron.
 // Needs: BLUR_ALONG_X (bool), vec4 blur_source(uint light, ivec2 texel of the atlas), BLUR_FORMAT.
@@ -9,7 +9,7 @@
 
 layout(local_size_x = 256) in;
 
-// 256 texels of a square, counted line by line of the pass's direction.
+// Of those of a square, which are counted line by line of the pass's direction (app/render/shadow_moments.cpp).
 struct BlurBlock {
   uint light;
   uint square;
@@ -19,40 +19,42 @@ layout(set = 0, binding = 3, scalar) readonly buffer BlockBuffer { BlurBlock blo
 layout(set = 0, binding = 4, BLUR_FORMAT) uniform writeonly image2D blurred;
 layout(push_constant) uniform Push { uint block_count; };
 
-const int THREADS = 256;
+const int LINES = int(LEAST_SQUARE);  // of a block; 16 threads each, in either direction
+const int MOST_WIDTH = 64;
 const int REACH = 12;  // texels, of the farthest tap
-const int MOST_LINES = THREADS / int(LEAST_SQUARE);
+const int MOST_WIDE = MOST_WIDTH + 2 * REACH;
 const float WEIGHTS[9] = float[](0.0162162162, 0.0540540541, 0.1216216216, 0.1945945946, 0.2270270270, 0.1945945946,
                                  0.1216216216, 0.0540540541, 0.0162162162);
-shared vec4 s_texels[MOST_LINES * (int(LEAST_SQUARE) + 2 * REACH)];  // no other side takes more
+shared vec4 s_texels[LINES * MOST_WIDE];
 
 ivec2 texel_at(int along, int across) { return BLUR_ALONG_X ? ivec2(along, across) : ivec2(across, along); }
+
+// Neighbours of the atlas lie side by side.
+int place_of(int along, int across) { return BLUR_ALONG_X ? across * MOST_WIDE + along : along * LINES + across; }
 
 void main() {
   const uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   if (number >= block_count) return;
   const BlurBlock block = blocks[number];
   const int side = int(shadow_maps[block.light].side);
-  const int width = min(side, THREADS);
-  const int lines = THREADS / width;
+  const int width = min(side, MOST_WIDTH);
   const int blocks_a_line = side / width;
   const int first_along = int(block.block) % blocks_a_line * width;
-  const int first_across = int(block.block) / blocks_a_line * lines;
-  const int wide = width + 2 * REACH;
-  const int thread = int(gl_LocalInvocationIndex);
-  for (int i = thread; i < lines * wide; i += THREADS) {
-    const ivec2 texel = texel_at(first_along + i % wide - REACH, first_across + i / wide);
-    s_texels[i] = blur_source(block.light, shadow_texel(block.light, block.square, texel));
+  const int first_across = int(block.block) / blocks_a_line * LINES;
+  const ivec2 thread = texel_at(int(gl_LocalInvocationIndex) % 16, int(gl_LocalInvocationIndex) / 16);
+  for (int along = thread.x; along < width + 2 * REACH; along += 16) {
+    const ivec2 texel = texel_at(first_along + along - REACH, first_across + thread.y);
+    s_texels[place_of(along, thread.y)] = blur_source(block.light, shadow_texel(block.light, block.square, texel));
   }
   barrier();  // all lines are there
   const int step = blur_step(side);
-  const int line = thread / width;
-  const int along = thread % width;
-  vec4 sum = vec4(0.0);
-  for (int tap = 0; tap < 9; ++tap) {
-    precise const vec4 added = s_texels[line * wide + REACH + along + (tap - 4) * step] * WEIGHTS[tap];
-    sum += added;
+  for (int along = thread.x; along < width; along += 16) {
+    vec4 sum = vec4(0.0);
+    for (int tap = 0; tap < 9; ++tap) {
+      precise const vec4 added = s_texels[place_of(REACH + along + (tap - 4) * step, thread.y)] * WEIGHTS[tap];
+      sum += added;
+    }
+    const ivec2 texel = texel_at(first_along + along, first_across + thread.y);
+    imageStore(blurred, shadow_texel(block.light, block.square, texel), sum);
   }
-  const ivec2 to = shadow_texel(block.light, block.square, texel_at(first_along + along, first_across + line));
-  imageStore(blurred, to, sum);
 }
