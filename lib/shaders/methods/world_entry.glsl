@@ -13,63 +13,98 @@ uint code_of(uint entry) { return entry & (1u << ENTRY_BRICK_BITS) - 1u; }
 // The group's number, as groups are counted.
 uint group_number() { return gl_WorkGroupID.x + WORLD_GROUPS_ACROSS * gl_WorkGroupID.y; }
 
+// Cells of a brick are taken by layers of 16 along z, each of four rows along y.
+const vec4 CELLS = vec4(0.0, 1.0, 2.0, 3.0);
+
 // Squared distances of four cells in a row, along one axis.
 vec4 squared_outside(float position, float low, float side) {
-  const vec4 begin = low + side * vec4(0.0, 1.0, 2.0, 3.0);
+  const vec4 begin = low + side * CELLS;
   const vec4 outside = max(max(begin - position, position - (begin + side)), vec4(0.0));
   return outside * outside;
 }
 
-uint bits_of_row(bvec4 cells) {
-  const uvec4 bits = uvec4(cells) << uvec4(0u, 1u, 2u, 3u);
+uint bits_of_row(bvec4 cells, uint row) {
+  const uvec4 bits = mix(uvec4(0u), uvec4(1u, 2u, 4u, 8u) << 4u * row, cells);
   return bits.x | bits.y | bits.z | bits.w;
 }
 
-// A bit for each cell that the light's sphere reaches.
-uvec2 cells_of_sphere(LightBricks b, vec3 low, float side) {
-  const vec4 x = squared_outside(b.center.x, low.x, side);
-  const vec4 y = squared_outside(b.center.y, low.y, side);
-  const vec4 left = b.radius * b.radius - squared_outside(b.center.z, low.z, side);  // for x and y
-  uvec2 cells = uvec2(0u);
-  [[unroll]] for (uint row = 0u; row < 16u; ++row)
-    cells[row / 8u] |= bits_of_row(lessThanEqual(x, vec4(left[row / 4u] - y[row % 4u]))) << 4u * (row % 8u);
+struct SphereCells {
+  vec4 x;  // squared distances of cells along an axis
+  vec4 y;
+  vec4 left;  // of the radius squared, for x and y
+};
+
+SphereCells sphere_cells(LightBricks b, vec3 low, float side) {
+  return SphereCells(squared_outside(b.center.x, low.x, side), squared_outside(b.center.y, low.y, side),
+                     b.radius * b.radius - squared_outside(b.center.z, low.z, side));
+}
+
+// A bit for each cell of a layer that the light's sphere reaches.
+uint layer_of_sphere(SphereCells sphere, float left) {
+  uint cells = 0u;
+  [[unroll]] for (uint row = 0u; row < 4u; ++row)
+    cells |= bits_of_row(lessThanEqual(sphere.x, vec4(left - sphere.y[row])), row);
   return cells;
 }
 
-// What rounding may move a difference of squares, as a share of them: some 16 units of a float's last place.
-const float ROUND_SQUARES = 2e-6;
+// What rounding may move the sum below, as a share of squared distances: some 32 units of a float's last place.
+const float ROUND_SQUARES = 4e-6;
 
-// A bit for each cell that a spot's cone may reach: as cone_touches_cube decides, but for all cells at once. Squares and
-// products are sums of an axis's share each. The squared distance from the axis is then a difference of squares, which is
-// less exact: it moves the cone by less than a hundredth of a cell.
-uvec2 cells_of_cone(WorldCone cone, vec3 low, float side) {
-  const vec4 centers = side * vec4(0.5, 1.5, 2.5, 3.5);
+// A spot's cone against all cells at once: as cone_touches_cube decides, but multiplied out. Where cos2 + sin2 is 1,
+// cos2 aside2 <= (reach + sin along)2 is cos2 distance2 - reach2 <= along (along + 2 sin reach), and what is squared and
+// multiplied are sums of an axis's share each. That is less exact: it moves the cone by a few hundredths of a cell.
+struct ConeCells {
+  float reach;
+  float twice;  // 2 sin reach
+  vec3 step;    // along the axis, from cell to cell
+  float along;  // of the first cell
+  vec4 x;       // cos2 x2, and so on
+  vec4 y;
+  vec4 z;
+};
+
+ConeCells cone_cells(WorldCone cone, vec3 low, float side) {
   const vec3 offset = low - cone.tip;
-  const vec4 x = offset.x + centers;
-  const vec4 y = offset.y + centers;
-  const vec4 z = offset.z + centers;
-  const float cos2 = cone.cos_angle * cone.cos_angle;
-  const float shrunk = cos2 * (1.0 - ROUND_SQUARES);
-  const float reach = HALF_DIAGONAL * side + cone.slack + 2.0 * ROUND_RADIUS * (sum_of(abs(offset)) + 12.0 * side);
-  uvec2 cells = uvec2(0u);
-  [[unroll]] for (uint row = 0u; row < 16u; ++row) {
-    const float y_row = y[row % 4u];
-    const float z_row = z[row / 4u];
-    const vec4 along = x * cone.axis.x + (y_row * cone.axis.y + z_row * cone.axis.z);
-    const vec4 beyond = reach + cone.sin_angle * along;
-    const vec4 aside2 = shrunk * (x * x) + (shrunk * (y_row * y_row + z_row * z_row) - cos2 * (along * along));
-    const bvec4 ahead = greaterThanEqual(along, vec4(-reach));  // of the tip, where `beyond` is not negative
-    const bvec4 inside = lessThanEqual(aside2, beyond * beyond);
-    cells[row / 8u] |= (bits_of_row(ahead) & bits_of_row(inside)) << 4u * (row % 8u);
+  const vec3 first = offset + 0.5 * side;
+  const float cos2 = cone.cos_angle * cone.cos_angle - ROUND_SQUARES;
+  const vec4 x = first.x + side * CELLS;
+  const vec4 y = first.y + side * CELLS;
+  const vec4 z = first.z + side * CELLS;
+  ConeCells c;
+  c.reach = HALF_DIAGONAL * side + cone.slack + 2.0 * ROUND_RADIUS * (sum_of(abs(offset)) + 12.0 * side);
+  c.twice = 2.0 * cone.sin_angle * c.reach;
+  c.step = side * cone.axis;
+  c.along = dot(first, cone.axis);
+  c.x = cos2 * (x * x);
+  c.y = cos2 * (y * y);
+  c.z = cos2 * (z * z) - c.reach * c.reach * (1.0 + ROUND_SQUARES);
+  return c;
+}
+
+// A bit for each cell of a layer that the cone may reach.
+uint layer_of_cone(ConeCells cone, float along_layer, float z) {
+  uint cells = 0u;
+  [[unroll]] for (uint row = 0u; row < 4u; ++row) {
+    const vec4 along = cone.step.x * CELLS + (along_layer + cone.step.y * float(row));
+    const bvec4 ahead = greaterThanEqual(along, vec4(-cone.reach));  // of the tip: behind it is the cone's other half
+    const bvec4 inside = lessThanEqual(cone.x, along * (along + cone.twice) - (cone.y[row] + z));
+    cells |= bits_of_row(mix(bvec4(false), inside, ahead), row);
   }
   return cells;
 }
 
 uvec2 cells_of(LightBricks b, uint light, uint code) {
   if (b.level == WORLD_EVERYTHING) return uvec2(~0u);
-  const float side = brick_side(b.level);
-  const vec3 low = side * brick_of_code(b, code);
-  const uvec2 cells = cells_of_sphere(b, low, 0.25 * side);
-  if (lights[light].type != LIGHT_SPOT) return cells;
-  return cells & cells_of_cone(world_cone(frame, lights[light]), low, 0.25 * side);
+  const float side = 0.25 * brick_side(b.level);
+  const vec3 low = 4.0 * side * brick_of_code(b, code);
+  const bool is_spot = lights[light].type == LIGHT_SPOT;
+  const SphereCells sphere = sphere_cells(b, low, side);
+  const ConeCells cone = cone_cells(world_cone(frame, lights[light]), low, side);
+  uvec2 cells = uvec2(0u);
+  [[dont_unroll]] for (uint layer = 0u; layer < 4u; ++layer) {
+    uint of_layer = layer_of_sphere(sphere, sphere.left[layer]);
+    if (is_spot) of_layer &= layer_of_cone(cone, cone.along + cone.step.z * float(layer), cone.z[layer]);
+    cells |= (layer < 2u ? uvec2(of_layer, 0u) : uvec2(0u, of_layer)) << 16u * (layer % 2u);
+  }
+  return cells;
 }
