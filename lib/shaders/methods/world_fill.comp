@@ -54,13 +54,13 @@ void place_light(uint light, uint first) {
 void main() {
   place_light(light_of_thread(), first_of_thread());
   if (gl_GlobalInvocationID.x != 0u) return;
-  const uvec3 groups = groups_of(totals.pieces);
-  totals.pieces_x = groups.x;
-  totals.pieces_y = groups.y;
-  totals.pieces_z = groups.z;
+  const uvec3 pieces = groups_of(totals.pieces);
+  totals.pieces_x = pieces.x;
+  totals.pieces_y = pieces.y;
+  totals.pieces_z = pieces.z;
   const uint held = min(totals.counters.entries_needed, ENTRIES);
-  const uvec3 windows = groups_of((held + WINDOW - 1u) / WINDOW);
-  totals.windows_x = windows.x;
-  totals.windows_y = windows.y;
-  totals.windows_z = windows.z;
+  const uvec3 order = groups_of(totals.pieces + (held + WINDOW - 1u) / WINDOW);
+  totals.order_x = order.x;
+  totals.order_y = order.y;
+  totals.order_z = order.z;
 }

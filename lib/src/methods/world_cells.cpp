@@ -138,12 +138,17 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   return b;
 }
 
+/// As many as there are groups for.
+std::uint32_t light_threads(const Problem& problem, const Sizes& s) {
+  const std::uint32_t lights = parts::capacity(problem);
+  std::uint32_t of_light = LIGHT_THREADS;
+  while (of_light > 1 && parts::divide_up(lights, s.threads / of_light) > problem.traits.max_groups[0]) of_light /= 2;
+  return of_light;
+}
+
 /// A pass with some threads for each light.
 Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  std::uint32_t of_light = LIGHT_THREADS;
-  while (of_light > 1 &&
-         parts::divide_up(parts::capacity(problem), s.threads / of_light) > problem.traits.max_groups[0])
-    of_light /= 2;
+  const std::uint32_t of_light = light_threads(problem, s);
   return {.constants = {s.threads, of_light, std::bit_cast<std::uint32_t>(s.ratio), s.buckets},
           .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.counts, Access::read_write}},
           .extent = {.lights_per_group = s.threads / of_light}};
@@ -182,9 +187,9 @@ Pass scan_pass(const Sizes& s, const Buffers& b) {
           .shared_bytes = 256 * 4 + 8};
 }
 
-Pass short_pass(const Sizes& s, const Buffers& b) {
-  return {.name = "short buckets",
-          .shader = "methods/world_short",
+Pass order_pass(const Sizes& s, const Buffers& b) {
+  return {.name = "order buckets",
+          .shader = "methods/world_order",
           .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
@@ -193,21 +198,14 @@ Pass short_pass(const Sizes& s, const Buffers& b) {
                        {b.buckets},
                        {b.windows},
                        {b.entries, Access::read_write},
-                       {b.bits, Access::write}},
-          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, windows_x)},
+                       {b.bits, Access::write},
+                       {b.pieces}},
+          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)},
           .shared_bytes = THREADS * 32 + OCTET_SPARE + 4};
 }
 
 Extent of_pieces(const Buffers& b) {
   return {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, pieces_x)};
-}
-
-Pass order_pass(const Buffers& b) {
-  return {.name = "order long buckets",
-          .shader = "methods/world_order",
-          .bindings = {{b.totals}, {b.buckets}, {b.pieces}, {b.entries}, {b.bits, Access::write}},
-          .extent = of_pieces(b),
-          .shared_bytes = WORLD_PIECE * 4};
 }
 
 Pass merge_pass(const Buffers& b) {
@@ -240,13 +238,8 @@ Plan plan_world_cells(const Problem& problem) {
   plan.any_depth = true;
   const Buffers b = add_buffers(plan, sizes);
   plan.capacities = {parts::shared_list("mean_bricks", sizes.entries, parts::capacity(problem))};
-  plan.passes = {count_pass(problem, sizes, b),
-                 scan_pass(sizes, b),
-                 fill_pass(problem, sizes, b),
-                 short_pass(sizes, b),
-                 order_pass(b),
-                 merge_pass(b),
-                 bits_pass(sizes, b)};
+  plan.passes = {count_pass(problem, sizes, b), scan_pass(sizes, b), fill_pass(problem, sizes, b),
+                 order_pass(sizes, b),          merge_pass(b),       bits_pass(sizes, b)};
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};

@@ -52,9 +52,9 @@ struct WorldTotals {
   uint pieces_x;  // their group counts
   uint pieces_y;
   uint pieces_z;
-  uint windows_x;  // group counts of the entries' windows
-  uint windows_y;
-  uint windows_z;
+  uint order_x;  // group counts of pieces and of the entries' windows
+  uint order_y;
+  uint order_z;
   uint is_unkept;  // not 0: there was no room for all ranks
 };
 
