@@ -1,4 +1,5 @@
-// Two dispatches over a part of the points: one counts, one writes the lists.
+// Two dispatches over a part of the points: one counts, one writes the lists. Parts whose lists would be too long are
+// halved.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/point_walks.h"
 
@@ -6,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -97,15 +99,15 @@ void PointWalks::walk_part(std::span<const glm::vec3> points, PointLights& to) {
     dispatch(positions, none, count, /*writes=*/false);
   }
   std::vector<std::uint32_t> firsts = first_values<std::uint32_t>(words_, count);
-  std::uint32_t sum = 0;
-  for (std::uint32_t& first : firsts) {
-    const std::uint32_t length = first;
-    first = sum;
-    sum += length;
-    to.offsets.push_back(to.offsets.back() + length);
+  const std::uint64_t sum = std::accumulate(firsts.begin(), firsts.end(), std::uint64_t{0});
+  if (sum > listed_at_once_ && count > 1) {
+    walk_part(points.first(count / 2), to);
+    return walk_part(points.subspan(count / 2), to);
   }
+  for (const std::uint32_t length : firsts) to.offsets.push_back(to.offsets.back() + length);
+  std::exclusive_scan(firsts.begin(), firsts.end(), firsts.begin(), 0U);
   if (count != 0) std::memcpy(words_.mapped().data(), firsts.data(), count * sizeof(std::uint32_t));
-  const vulkan::Buffer lists = readback_buffer(context_.device(), "lists of points", std::uint64_t{sum} * 4);
+  const vulkan::Buffer lists = readback_buffer(context_.device(), "lists of points", sum * sizeof(std::uint32_t));
   dispatch(positions, lists, count, /*writes=*/true);
   const std::vector<std::uint32_t> lights = first_values<std::uint32_t>(lists, sum);
   to.lights.insert(to.lights.end(), lights.begin(), lights.end());

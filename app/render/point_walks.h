@@ -32,6 +32,8 @@ class PointWalks {
   PointWalks(Context& context, const ShaderLibrary& shaders, Plan plan, const View& view,
              std::span<const shared::Light> lights, std::span<const std::uint32_t> still = {});
 
+  /// So many lights at most come back at once, unless a single point has more: what `walk` gives does not depend on it.
+  void list_at_once(std::uint64_t lights) { listed_at_once_ = lights; }
   [[nodiscard]] PointLights walk(std::span<const glm::vec3> points);
   /// Of the last `walk`, with what the plan counted.
   [[nodiscard]] const vulkan::FrameCounts& counts() const { return counts_; }
@@ -52,6 +54,7 @@ class PointWalks {
   vulkan::AccessTracker tracker_;
   vulkan::Buffer words_;  ///< of a part's points: how many lights, or where their list begins
   vulkan::Buffer ended_;
+  std::uint64_t listed_at_once_ = 1U << 25;  ///< 128 MiB, which storage buffers of every device hold
   vulkan::FrameCounts counts_;
 };
 

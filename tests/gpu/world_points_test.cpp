@@ -98,6 +98,21 @@ TEST_P(WorldPoints, AreTheSameInEveryRun) {
   for (int run = 0; run < 3; ++run) EXPECT_EQ(walks.walk(asked.points).lights, first.lights);
 }
 
+TEST_P(WorldPoints, AreTheSameHoweverManyLightsComeAtOnce) {
+  const Asked asked{.lights = lights_around({}, 5.0F, 1.0F, 4.0F, 100),
+                    .points = points_in(1, 100, glm::vec3(-5.0F), glm::vec3(5.0F))};
+  PointWalks walks(test_context(), shader_library(), plan_of(GetParam(), asked), asked.view, asked.lights);
+  const PointLights together = walks.walk(asked.points);
+  EXPECT_GT(together.lights.size(), asked.points.size());
+  for (const std::uint64_t lights : {1U, 20U}) {
+    walks.list_at_once(lights);
+    const PointLights apart = walks.walk(asked.points);
+    EXPECT_EQ(apart.lights, together.lights);
+    EXPECT_EQ(apart.offsets, together.offsets);
+    EXPECT_EQ(apart.ended, together.ended);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, WorldPoints, ::testing::ValuesIn(moving_world_methods()),
                          [](const auto& test) { return test_name(std::string(test.param.name)); });
 
