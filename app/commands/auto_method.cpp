@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "lamplight/shared/lamplight.h"
 #include "system/print.h"
 
 namespace lamp::app {
@@ -38,9 +37,8 @@ MethodChoice AutoMethod::choose(Renderer& renderer, const AutoFrame& frame) {
   if (!known_) known_ = find_calibration(context_, shaders_, file_);
   const std::vector<float> depth = frame.scene.captured ? frame.scene.captured->depth : renderer.draw_depth();
   Workload workload = estimate_workload(frame.view, depth, frame.lights);
-  workload.capacity = frame.light_capacity + frame.boxes;
-  // Cells that gather are for as many records as a piece has, and cull no boxes by their shape.
-  if (frame.boxes != 0) workload.capacity = std::max(workload.capacity, shared::PIECE + 1);
+  workload.capacity = frame.light_capacity;
+  workload.boxes = frame.boxes;
   const Choice choice = lamp::choose(known_->calibration, workload, context_.device().traits);
   explanation_ = words_of(workload) + words_of(choice, known_->origin);
   return {.method = &parse_method(choice.method), .options = choice.options, .by_auto = true};

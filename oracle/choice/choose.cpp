@@ -40,15 +40,22 @@ double dot(const std::array<double, COUNT>& a, const std::array<double, COUNT>& 
   return sum;
 }
 
-Result<Plan> plan_of(std::string_view name, const std::vector<std::string>& settings, const Workload& workload,
+/// Of lists and bits: lights and boxes.
+std::uint32_t room_of(const Workload& w) { return w.capacity + w.boxes; }
+
+/// As a frame with these lights and boxes makes it: boxes are culled by their shape where the method can.
+Result<Plan> plan_of(std::string_view name, std::vector<std::string> settings, const Workload& workload,
                      const DeviceTraits& traits) {
   const auto method = find_method(name);
   if (!method.ok()) return method.error();
+  const bool has_shapes =
+      std::ranges::find(method.value()->options, "boxes", &OptionSpec::key) != method.value()->options.end();
+  if (workload.boxes != 0 && has_shapes) settings.emplace_back("boxes=shape");
   auto options = resolve_options(*method.value(), settings);
   if (!options.ok()) return options.error();
   return make_plan(*method.value(), {.width = workload.width,
                                      .height = workload.height,
-                                     .light_capacity = workload.capacity,
+                                     .light_capacity = room_of(workload),
                                      .options = std::move(options.value()),
                                      .traits = traits});
 }
@@ -89,7 +96,7 @@ std::string times(double ratio) {
 
 /// With so little room the method is another candidate by itself: the one that is measured with no more.
 bool stands_for(const AutoCandidate& few, const AutoCandidate& many, const Workload& workload) {
-  return workload.capacity < many.least_capacity && few.method == many.method && few.tile_px == many.tile_px &&
+  return room_of(workload) < many.least_capacity && few.method == many.method && few.tile_px == many.tile_px &&
          few.most_capacity < many.least_capacity;
 }
 
@@ -187,7 +194,7 @@ CullTerms cull_terms(const AutoCandidate& candidate, const Workload& w) {
 
 ShadeTerms shade_terms(const AutoCandidate& candidate, const Workload& w) {
   const double walked = candidate.walk == nullptr ? w.lights : load_of(candidate, w).*candidate.walk;
-  const double words = candidate.bits ? std::ceil(w.capacity / 32.0) : 0.0;
+  const double words = candidate.bits ? std::ceil(room_of(w) / 32.0) : 0.0;
   return {1.0, pixels_of(w) / PIXELS, pixels_of(w) * walked / PAIRS, pixels_of(w) * words / PAIRS};
 }
 
@@ -210,7 +217,7 @@ Choice choose(const Calibration& calibration, const Workload& workload, const De
     if (!prediction.refused.empty()) continue;
     if (best == nullptr || prediction.ms() < best->ms()) best = &prediction;
   }
-  const bool nothing = workload.capacity == 0;
+  const bool nothing = room_of(workload) == 0;
   // Brute force has no buffers that a device could refuse; a picture too large for it is too large for everything.
   if (best == nullptr || nothing) best = &choice.predictions.front();
   choice.predicted = *best;

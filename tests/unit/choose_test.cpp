@@ -289,6 +289,36 @@ TEST(Choose, CellsGatherFewLightsAlone) {
   EXPECT_TRUE(small.predictions[plain].refused.empty());
 }
 
+// Cells that gather cull no boxes by their shape.
+TEST(Choose, WithBoxesCellsDoNotGather) {
+  Calibration calibration = even_calibration();
+  const std::size_t gather = candidate("lamplight cells=gather");
+  const std::size_t plain = candidate("lamplight");
+  calibration.costs[gather] = {};
+  calibration.costs[plain] = {.cull = {0.1}};
+  Workload few = some_workload(100);
+  EXPECT_EQ(choose(calibration, few, large_device()).predicted.label, "lamplight cells=gather");
+  few.boxes = 3;
+  const Choice with_boxes = choose(calibration, few, large_device());
+  EXPECT_EQ(with_boxes.predicted.label, "lamplight");
+  EXPECT_FALSE(with_boxes.predictions[gather].refused.empty());
+  EXPECT_TRUE(with_boxes.options.empty()) << "how boxes are culled is the frame's to say";
+}
+
+TEST(Choose, BoxesTakeRoomAsLightsDo) {
+  const AutoCandidate& bits = auto_candidates()[candidate("tiled-bits")];
+  Workload w = some_workload(4096);
+  const double words = shade_terms(bits, w).back();
+  w.boxes = 4096;
+  EXPECT_DOUBLE_EQ(shade_terms(bits, w).back(), 2.0 * words);
+  Workload boxes_alone = some_workload(0);
+  boxes_alone.capacity = 0;
+  boxes_alone.boxes = 10;
+  Calibration calibration = even_calibration();
+  calibration.costs[candidate("tight")] = {};
+  EXPECT_EQ(choose(calibration, boxes_alone, large_device()).method, "tight") << "there are boxes to cull";
+}
+
 TEST(Choose, IsTheSameEveryTime) {
   const Calibration calibration = even_calibration();
   const Choice a = choose(calibration, some_workload(4096), large_device());

@@ -34,7 +34,8 @@ struct Workload {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t lights = 0;
-  std::uint32_t capacity = 0;  ///< lights that there is room for, at least `lights`; bits are as many
+  std::uint32_t capacity = 0;  ///< lights that there is room for, at least `lights`
+  std::uint32_t boxes = 0;     ///< decals and probes that there is room for besides, which cells hold by their shape
   double reached = 0.0;        ///< lights that reach a pixel, mean
   TileLoad tile8, tile16;
 };
