@@ -22,9 +22,7 @@ using shared::BRICK_CELLS;
 using shared::WORLD_PIECE;
 
 constexpr std::uint32_t THREADS = 256;
-constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out,
-constexpr std::uint32_t FEW_LIGHT_THREADS = 2;    // and where there are more lights than fill a GPU: each begins alike
-constexpr std::uint32_t FULL_THREADS = 1U << 18;  // that large GPUs hold at once
+constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, where there are groups for it
 constexpr std::uint32_t SCAN_BUCKETS = 4;         // of a thread
 constexpr std::uint32_t LIGHT_BUCKETS = 16;       // for each light,
 constexpr std::uint32_t LEAST_BUCKETS = 1024;     // but no fewer
@@ -140,11 +138,10 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   return b;
 }
 
-/// As many as there are groups for, and no more than help.
+/// As many as there are groups for.
 std::uint32_t light_threads(const Problem& problem, const Sizes& s) {
   const std::uint32_t lights = parts::capacity(problem);
   std::uint32_t of_light = LIGHT_THREADS;
-  while (of_light > FEW_LIGHT_THREADS && lights > FULL_THREADS / of_light) of_light /= 2;
   while (of_light > 1 && parts::divide_up(lights, s.threads / of_light) > problem.traits.max_groups[0]) of_light /= 2;
   return of_light;
 }
