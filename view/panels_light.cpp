@@ -34,32 +34,20 @@ bool change(Light& light, Widgets& widgets) {
   return changed;
 }
 
-/// Its text, and why there is none.
-struct GltfText {
-  std::string text;
-  std::string refused;
-};
-GltfText gltf_of(const Light& light, std::uint32_t number) {
-  try {
-    return {.text = gltf_text({&light, 1}, fmt::format("light {}", number)), .refused = {}};
-  } catch (const Error& error) {
-    return {.text = {}, .refused = error.what()};
-  }
-}
-
 void draw_gltf(const Light& light, std::uint32_t number, InspectorFrame& p) {
   constexpr int LINES = 12;
-  const GltfText made = gltf_of(light, number);
+  const std::string name = fmt::format("light {}", number);
+  const std::string refused = gltf_refusal(light, name);  // in every frame; the text only where it is shown
   if (p.widgets.button("copy as glTF",
                        "Puts it into the clipboard, as a glTF file that holds this light alone: a node, and a light of "
                        "KHR_lights_punctual.",
-                       made.refused))
+                       refused))
     p.wishes.copy_light = true;
   Widgets::beside();
   if (p.widgets.button("paste glTF", "Makes it the light of the glTF text in the clipboard."))
     p.wishes.paste_light = true;
   if (p.widgets.fold("the light as glTF"))
-    Widgets::excerpt("gltf", made.refused.empty() ? made.text : made.refused, LINES);
+    Widgets::excerpt("gltf", refused.empty() ? gltf_text({&light, 1}, name) : refused, LINES);
 }
 
 }  // namespace

@@ -53,8 +53,7 @@ std::string with_short_arrays(std::string_view text) {
 }
 
 json light_json(const Light& light, const std::string& name) {
-  if (light.range == 0.0F)
-    throw Error(fmt::format("{}: range is 0, which glTF cannot say, expected one above 0 m", name));
+  if (const std::string refused = gltf_refusal(light, name); !refused.empty()) throw Error(refused);
   const float above = std::max({1.0F, light.color.x, light.color.y, light.color.z});
   json made{{"name", name},
             {"type", light.type == LightType::spot ? "spot" : "point"},
@@ -62,8 +61,6 @@ json light_json(const Light& light, const std::string& name) {
             {"intensity", light.intensity * above}};
   if (std::isfinite(light.range)) made["range"] = light.range;
   if (light.type != LightType::spot) return made;
-  if (light.outer_angle == 0.0F)
-    throw Error(fmt::format("{}: its outer angle is 0, which glTF cannot say, expected one above 0", name));
   made["spot"] = {{"innerConeAngle", std::min(light.inner_angle, std::nextafter(light.outer_angle, 0.0F))},
                   {"outerConeAngle", std::min(double{light.outer_angle}, std::numbers::pi / 2.0)}};
   return made;
@@ -81,6 +78,13 @@ json node_json(const Light& light, std::size_t number, const std::string& name) 
 }
 
 }  // namespace
+
+std::string gltf_refusal(const Light& light, const std::string& name) {
+  if (light.range == 0.0F) return fmt::format("{}: range is 0, which glTF cannot say, expected one above 0 m", name);
+  if (light.type == LightType::spot && light.outer_angle == 0.0F)
+    return fmt::format("{}: its outer angle is 0, which glTF cannot say, expected one above 0", name);
+  return "";
+}
 
 std::string gltf_text(std::span<const Light> lights, const std::string& name) {
   json made{{"asset", {{"version", "2.0"}, {"generator", "Lamplight"}}},

@@ -13,9 +13,11 @@
 
 namespace lamp::app {
 
+/// What glTF cannot say of a light, `name` before it: a range of 0, a cone of 0. Empty where it can be written.
+[[nodiscard]] std::string gltf_refusal(const Light& light, const std::string& name);
+
 /// A node and a light of KHR_lights_punctual for each. Colours above 1 become intensity, and an inner angle that is the
-/// outer one the next below, as the extension has it. Throws Error, `name` before it, for what glTF cannot say: a range
-/// of 0, a cone of 0.
+/// outer one the next below, as the extension has it. Throws Error for the first that is refused.
 [[nodiscard]] std::string gltf_text(std::span<const Light> lights, const std::string& name);
 
 /// The point and spot lights that the nodes of a glTF text place, in the order of the nodes. Throws Error: `name`,

@@ -16,6 +16,7 @@ namespace {
 using namespace lamp::test;
 using lamp::Light;
 using lamp::LightType;
+using lamp::app::gltf_refusal;
 using lamp::app::gltf_text;
 using lamp::app::lights_of_gltf;
 
@@ -115,6 +116,8 @@ TEST(GltfLightText, RefusesWhatGltfCannotSay) {
   EXPECT_NE(error_of(write).find("light 7: range is 0"), std::string::npos) << error_of(write);
   light = {.type = LightType::spot, .outer_angle = 0.0F};
   EXPECT_NE(error_of(write).find("light 7: its outer angle is 0"), std::string::npos) << error_of(write);
+  EXPECT_EQ(gltf_refusal(light, "light 7"), error_of(write)) << "a button asks without a text being made";
+  for (const Light& writable : some_lights()) EXPECT_EQ(gltf_refusal(writable, "light"), "");
 }
 
 TEST(GltfLightText, SaysWhatIsWrongWithAText) {
