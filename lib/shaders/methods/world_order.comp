@@ -21,7 +21,7 @@ layout(set = 0, binding = 6, scalar) buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer BitBuffer { uint bits[]; };  // and runs, in the room of theirs
 layout(set = 0, binding = 8, scalar) readonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
 
-shared uvec4 s_entries[MOST_THREADS / 4u];  // in any order; by fours, which take one read
+shared uint s_entries[MOST_THREADS];  // in any order
 shared uint s_ordered[MOST_THREADS];
 shared uint s_cells[2u * MOST_THREADS + 16u];  // in order
 shared uint s_bits[2u * MOST_THREADS];
@@ -36,15 +36,9 @@ uint window_begin(uint window, uint end) {
   return window * size < end ? windows[window] : end;
 }
 
-// How many entries from `begin` to `end` are smaller: of all fours that hold them, less what these hold besides.
-uint smaller_in(uint begin, uint end, uint entry) {
+uint smaller_in(uint bucket_begin, uint count, uint entry) {
   uint smaller = 0u;
-  for (uint four = begin / 4u; 4u * four < end; ++four) {
-    const uvec4 is_smaller = uvec4(lessThan(s_entries[four], uvec4(entry)));
-    smaller += is_smaller.x + is_smaller.y + is_smaller.z + is_smaller.w;
-  }
-  for (uint k = begin & ~3u; k < begin; ++k) smaller -= uint(s_entries[k / 4u][k % 4u] < entry);
-  for (uint k = end; k % 4u != 0u; ++k) smaller -= uint(s_entries[k / 4u][k % 4u] < entry);
+  for (uint k = bucket_begin; k < bucket_begin + count; ++k) smaller += uint(s_entries[k] < entry);
   return smaller;
 }
 
@@ -64,7 +58,7 @@ void order_piece(WorldPiece piece) {
   const WorldBucket bucket = buckets[piece.bucket];
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
   const uint entry = thread < count ? entries[bucket.first + piece.begin + thread] : 0u;
-  s_entries[thread / 4u][thread % 4u] = entry;
+  s_entries[thread] = entry;
   barrier();  // entries before they are compared
   if (thread < count) bits[2u * bucket.first + piece.begin + smaller_in(0u, count, entry)] = entry;
 }
@@ -76,7 +70,7 @@ void order_window(uint window) {
   const uint at = begin + thread;
   const bool is_read = at < window_begin(window + 1u, end);
   const uint entry = is_read ? entries[at] : 0u;
-  s_entries[thread / 4u][thread % 4u] = entry;
+  s_entries[thread] = entry;
   [[unroll]] for (uint i = 0u; i < 2u; ++i) {
     s_cells[2u * thread + i] = 0u;
     s_bits[2u * thread + i] = 0u;
@@ -96,7 +90,7 @@ void order_window(uint window) {
   const uint bucket_begin = own.first - begin;  // in the group's entries
   uint rank = 0u;
   if (is_own) {
-    rank = smaller_in(bucket_begin, bucket_begin + own.count, entry);
+    rank = smaller_in(bucket_begin, own.count, entry);
     s_ordered[bucket_begin + rank] = entry;
     if (rank % BLOCK == 0u)
       s_blocks[atomicAdd(s_block_count, 1u)] = uvec2(bucket_begin + rank, min(own.count - rank, BLOCK));
