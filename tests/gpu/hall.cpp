@@ -19,18 +19,6 @@ void add_quad(Scene& scene, float height, float half, bool front_up, std::uint32
   scene.instances.push_back({.mesh = static_cast<std::uint32_t>(scene.meshes.size()) - 1});
 }
 
-void add_quad(Scene& scene, const std::array<glm::vec3, 4>& corners, std::uint32_t material) {
-  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-  const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[3] - corners[0]));
-  for (const glm::vec3& corner : corners) scene.vertices.push_back({.position = corner, .normal = normal});
-  scene.meshes.push_back({.first_index = static_cast<std::uint32_t>(scene.indices.size()),
-                          .index_count = 6,
-                          .vertex_offset = first,
-                          .material = material});
-  for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) scene.indices.push_back(i);
-  scene.instances.push_back({.mesh = static_cast<std::uint32_t>(scene.meshes.size()) - 1});
-}
-
 Scene hall(float half_ceiling) {
   Scene scene{.name = "hall"};
   scene.materials = {Material{.base_color = {1.0F, 1.0F, 1.0F, 1.0F}, .metallic = 1.0F, .roughness = 0.05F},

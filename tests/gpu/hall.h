@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include "scene/scene.h"
 
 namespace lamp::app {
 
 /// A quad in the plane y = height, `half` its side from the middle, front up or down.
 void add_quad(Scene& scene, float height, float half, bool front_up, std::uint32_t material);
-
-/// A quad by its corners, in order around it.
-void add_quad(Scene& scene, const std::array<glm::vec3, 4>& corners, std::uint32_t material);
 
 /// Its camera looks at the floor alone, from 1 m above. Material 0 is the floor's, 1 the ceiling's.
 [[nodiscard]] Scene hall(float half_ceiling);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "gpu/hall.h"
@@ -33,6 +34,18 @@ class MirrorRays : public GpuTest {
   }
 };
 
+void add_quad_of(Scene& scene, const std::array<glm::vec3, 4>& corners) {
+  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+  const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[3] - corners[0]));
+  for (const glm::vec3& corner : corners) scene.vertices.push_back({.position = corner, .normal = normal});
+  scene.meshes.push_back({.first_index = static_cast<std::uint32_t>(scene.indices.size()),
+                          .index_count = 6,
+                          .vertex_offset = first,
+                          .material = 1});
+  for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) scene.indices.push_back(i);
+  scene.instances.push_back({.mesh = static_cast<std::uint32_t>(scene.meshes.size()) - 1});
+}
+
 /// Laths above the floor, in no axis's direction.
 Scene lath_hall() {
   constexpr float LENGTH_M = 80.0F;
@@ -46,7 +59,7 @@ Scene lath_hall() {
     const glm::vec3 middle = glm::vec3(0.0F, 0.6F, -1.5F) + WIDTH_M * static_cast<float>(i) * across;
     const glm::vec3 a = middle - 0.4F * LENGTH_M * along;
     const glm::vec3 b = middle + 0.6F * LENGTH_M * along;
-    add_quad(scene, {a, b, b + WIDTH_M * aside, a + WIDTH_M * aside}, 1);
+    add_quad_of(scene, {a, b, b + WIDTH_M * aside, a + WIDTH_M * aside});
   }
   return scene;
 }
@@ -71,7 +84,7 @@ Scene grazed_hall() {
     const glm::vec3 top = middle + 60.0F * up_slope;
     const glm::vec3 bottom = middle + 1.5F * up_slope;
     const glm::vec3 side(30.0F, 0.0F, 0.0F);
-    add_quad(scene, {bottom - side, bottom + side, top + side, top - side}, 1);
+    add_quad_of(scene, {bottom - side, bottom + side, top + side, top - side});
   }
   // Rays are rounded where they come into the space of a mesh that is turned.
   const glm::vec3 far_away(700.0F, 0.0F, 900.0F);

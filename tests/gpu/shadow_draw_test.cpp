@@ -230,44 +230,73 @@ TEST_F(GpuTest, ShadowRasterizerWithoutRoomDrawsTheSame) {
   EXPECT_EQ(atlas_with(100), with_room);
 }
 
+/// How a lath is cut into triangles: from corner to corner, or from the middle of one long edge, beside which angles
+/// are almost straight.
+enum class LathCut : std::uint8_t { corners, middles };
+
 /// A sheet of laths below the light, in no axis's direction.
-Scene lath_sheet() {
+Scene lath_sheet(LathCut cut) {
   constexpr float LENGTH_M = 1000.0F;
   constexpr float WIDTH_M = 0.001F;
+  constexpr std::uint32_t LATHS = 600;
   Scene scene = hall(0.01F);
   const glm::vec3 along = glm::normalize(glm::vec3(0.6F, 0.05F, -0.8F));
   const glm::vec3 across = glm::normalize(glm::cross(along, glm::vec3(0.1F, 1.0F, 0.0F)));
-  const auto on_edge = [&](int edge, float at) {
-    return glm::vec3(0.0F, 0.8F, 0.0F) + WIDTH_M * static_cast<float>(edge) * across + LENGTH_M * at * along;
-  };
-  for (int i = -300; i < 300; ++i)
-    add_quad(scene, {on_edge(i, -0.4F), on_edge(i, 0.6F), on_edge(i + 1, 0.6F), on_edge(i + 1, -0.4F)}, 1);
+  Mesh sheet{.first_index = static_cast<std::uint32_t>(scene.indices.size()),
+             .vertex_offset = static_cast<std::uint32_t>(scene.vertices.size()),
+             .material = 1};
+  for (std::uint32_t edge = 0; edge <= LATHS; ++edge)
+    for (const float at : {-0.4F, 0.1F, 0.6F}) {
+      const glm::vec3 middle = glm::vec3(0.0F, 0.8F, 0.0F) + WIDTH_M * (static_cast<float>(edge) - 300.0F) * across;
+      scene.vertices.push_back({.position = middle + LENGTH_M * at * along, .normal = glm::cross(along, across)});
+    }
+  for (std::uint32_t lath = 0; lath < LATHS; ++lath) {
+    const std::uint32_t cut_edge =
+        3 * (lath + lath % 2);  // even edges have a corner in their middle, odd ones have none
+    const std::uint32_t whole_edge = 3 * (lath + 1 - lath % 2);
+    if (cut == LathCut::corners)
+      scene.indices.insert(scene.indices.end(),
+                           {cut_edge, cut_edge + 2, whole_edge, cut_edge + 2, whole_edge + 2, whole_edge});
+    else
+      scene.indices.insert(scene.indices.end(), {whole_edge, whole_edge + 2, cut_edge + 1, cut_edge, cut_edge + 1,
+                                                 whole_edge, cut_edge + 1, cut_edge + 2, whole_edge + 2});
+  }
+  sheet.index_count = static_cast<std::uint32_t>(scene.indices.size()) - sheet.first_index;
+  scene.meshes.push_back(sheet);
+  scene.instances.push_back({.mesh = static_cast<std::uint32_t>(scene.meshes.size()) - 1});
   return scene;
+}
+
+/// How many texels of a light's map are not at the depth that rays meet.
+std::uint32_t wrong_texels(const TestScene& scene, const Light& light, PointShadows points) {
+  const Occluders occluders = scene_occluders(scene.scene);
+  const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
+  Shadows shadows(test_context(), shader_library(), scene.gpu,
+                  {.points = points, .raster = ShadowRaster::compute, .atlas_size = 2 * ATLAS}, 1);
+  vulkan::AccessTracker tracker;
+  shadows.schedule({&view, 1}, pack(std::vector{light}));
+  draw(shadows, tracker);
+  std::uint32_t checked = 0;
+  std::uint32_t wrong = 0;
+  for_some_texels(shadows, read_atlas(shadows, tracker),
+                  [&](const auto& map, std::uint32_t square, const glm::uvec2& texel, double stored) {
+                    const Spread expected = stored_by_rays(occluders, map, square, texel, 2 * ATLAS);
+                    if (expected.least <= expected.at_range) return;
+                    ++checked;
+                    wrong += expected.has(stored) ? 0 : 1;
+                  });
+  EXPECT_GT(checked, 500U);
+  return wrong;
 }
 
 // What rounding makes of a depth does not grow with a triangle's length over its width.
 TEST_F(GpuTest, ShadowRasterizerDrawsLongThinTriangles) {
-  const TestScene scene(lath_sheet());
-  const Occluders occluders = scene_occluders(scene.scene);
-  const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
-  const Light light{.position = {0.05F, 1.6F, 0.1F}, .range = 2000.0F};
-  for (const PointShadows points : {PointShadows::faces, PointShadows::octahedron}) {
-    Shadows shadows(test_context(), shader_library(), scene.gpu,
-                    {.points = points, .raster = ShadowRaster::compute, .atlas_size = 2 * ATLAS}, 1);
-    vulkan::AccessTracker tracker;
-    shadows.schedule({&view, 1}, pack(std::vector{light}));
-    draw(shadows, tracker);
-    std::uint32_t checked = 0;
-    std::uint32_t wrong = 0;
-    for_some_texels(shadows, read_atlas(shadows, tracker),
-                    [&](const auto& map, std::uint32_t square, const glm::uvec2& texel, double stored) {
-                      const Spread expected = stored_by_rays(occluders, map, square, texel, 2 * ATLAS);
-                      if (expected.least <= expected.at_range) return;
-                      ++checked;
-                      wrong += expected.has(stored) ? 0 : 1;
-                    });
-    EXPECT_GT(checked, 500U);
-    EXPECT_EQ(wrong, 0U) << "of " << checked;
+  for (const LathCut cut : {LathCut::corners, LathCut::middles}) {
+    SCOPED_TRACE(cut == LathCut::corners ? "corners" : "middles");
+    const TestScene scene(lath_sheet(cut));
+    const Light light{.position = {0.05F, 1.6F, 0.1F}, .range = 2000.0F};
+    for (const PointShadows points : {PointShadows::faces, PointShadows::octahedron})
+      EXPECT_EQ(wrong_texels(scene, light, points), 0U);
   }
 }
 

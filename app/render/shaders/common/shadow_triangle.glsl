@@ -9,6 +9,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "scene_data.h"
 #include "shadow_data.h"
+#include "common/triangle_normal.glsl"
 
 layout(set = 0, binding = 2, scalar) readonly buffer InstanceBuffer { InstanceData instances[]; };
 layout(set = 0, binding = 10, scalar) readonly buffer ViewBuffer { ShadowView views[]; };
@@ -74,17 +75,6 @@ vec3 vertex_in(SquareView square, uint instance, uint word) {
 vec3 edge_of(vec3 a, vec3 b) {
   precise const vec3 edge = a.yzx * b.zxy - a.zxy * b.yzx;
   return edge;
-}
-
-// At right angles to the triangle, twice its area long. Of its two shorter edges: rounding takes from a product as much as
-// the edges are long, and of a long thin triangle's two long edges that is more than the product.
-vec3 normal_of(vec3 a, vec3 b, vec3 c) {
-  const vec3 ab = b - a;
-  const vec3 bc = c - b;
-  const vec3 ca = a - c;
-  const vec3 squares = vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca));
-  if (squares.x >= squares.y && squares.x >= squares.z) return cross(bc, ca);
-  return squares.y >= squares.z ? cross(ca, ab) : cross(ab, bc);
 }
 
 // All of the square if a corner is beside or behind the light.
