@@ -87,10 +87,10 @@ glm::vec2 widget_at(Player& player, const ScriptLine& line, const std::string& l
 
 void play_set(Player& player, const ScriptLine& line) { read_state(player.viewer.state(), line.value, line.name); }
 
-/// Until all is done, and where time goes on, until something was drawn after that.
+/// Until all is done, and where time goes on, until something was drawn that was asked for after that.
 void play_until_idle(Player& player, const ScriptLine& line) {
   frames(player, 1);
-  const std::uint64_t first = player.viewer.shown().number;
+  const std::uint64_t first = player.viewer.shown().number + (player.viewer.busy() ? 1 : 0);
   const auto moved = [&] {
     return player.viewer.asks_for_nothing() && player.viewer.shown().number > first && !player.viewer.state().paused;
   };
@@ -107,8 +107,22 @@ void play_wait(Player& player, const ScriptLine& line) {
     frames(player, count_of(line, line.value));
 }
 
+/// Where panels grow as pictures come, not until the widget stands still under the mouse.
+void press_widget(Player& player, const ScriptLine& line, const std::string& label) {
+  glm::vec2 at = widget_at(player, line, label);
+  for (int i = 0; i < MOST_FRAMES; ++i) {
+    player.input.mouse = at;
+    frames(player, CLICK_FRAMES);
+    const glm::vec2 now = widget_at(player, line, label);
+    if (now == at) return press_at(player, at);
+    at = now;
+  }
+  fail(line, fmt::format("{} does not stand still", label), Exit::check_failed);
+}
+
 void play_click(Player& player, const ScriptLine& line) {
-  press_at(player, line.value.is_string() ? widget_at(player, line, text_of(line)) : pair_of(line, line.value));
+  if (line.value.is_string()) return press_widget(player, line, text_of(line));
+  press_at(player, pair_of(line, line.value));
 }
 
 void play_click_picture(Player& player, const ScriptLine& line) {

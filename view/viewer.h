@@ -42,6 +42,8 @@ class Viewer {
   }
   /// Everything that was asked for is done, and what is shown is the state.
   [[nodiscard]] bool idle() const { return idle_ && queued_.empty() && !busy_; }
+  /// Something is being drawn, which may know nothing yet of what was set since it was asked for.
+  [[nodiscard]] bool busy() const { return busy_; }
   /// No picture in a file and no proof waits to be made.
   [[nodiscard]] bool asks_for_nothing() const { return queued_.empty() && !proving_ && !asking_; }
 

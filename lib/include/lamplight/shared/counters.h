@@ -11,8 +11,7 @@ namespace lamp::shared {
 #endif
 
 struct Counters {
-  uint overflowed_cells;  // cells whose list did not fit; their look-up walks every light instead; of `lamplight` parts
-                          // of lists, for up to 128 lights each, all of which it walks
+  uint overflowed_cells;  // cells whose list did not fit; their look-up walks every light instead
   uint entries_needed;    // list entries that all cells together need, where a plan has one shared list; else 0
   uint longest_list;      // of those that did not fit a list of their own
   uint excess_lights;     // lights beyond the capacity, of a count that only the GPU knew; filled where it is read back
