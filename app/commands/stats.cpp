@@ -31,6 +31,12 @@ void add_statistics(nlohmann::json& json, const PassTime& pass) {
   }
 }
 
+nlohmann::json options_json(const Options& options) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [key, value] : options.all()) json[key] = value;
+  return json;
+}
+
 std::optional<TransparentStats> transparent_stats(const Lighting& lighting, const vulkan::FrameCounts& counted) {
   if (lighting.any_depth_method() == nullptr) return std::nullopt;
   return TransparentStats{.method = std::string(lighting.any_depth_method()->name),
@@ -41,12 +47,10 @@ std::optional<TransparentStats> transparent_stats(const Lighting& lighting, cons
 }
 
 nlohmann::json to_json(const TransparentStats& stats) {
-  nlohmann::json json{{"method", stats.method},
-                      {"options", nlohmann::json::object()},
-                      {"bytes", stats.bytes},
-                      {"overflowed_cells", stats.overflowed_cells}};
-  for (const auto& [key, value] : stats.options.all()) json["options"][key] = value;
-  return json;
+  return {{"method", stats.method},
+          {"options", options_json(stats.options)},
+          {"bytes", stats.bytes},
+          {"overflowed_cells", stats.overflowed_cells}};
 }
 
 constexpr const char* NOT_COUNTED =
@@ -155,7 +159,7 @@ nlohmann::json to_json(const Stats& s) {
                       {"driver", s.driver},
                       {"scene", s.scene},
                       {"method", s.method},
-                      {"options", nlohmann::json::object()},
+                      {"options", options_json(s.options)},
                       {"path", s.path},
                       {"width", s.width},
                       {"height", s.height},
@@ -174,7 +178,6 @@ nlohmann::json to_json(const Stats& s) {
                       {"approximate", s.approximate},
                       {"ordered", s.ordered},
                       {"overflowed_cells", s.rendered.counters.overflowed_cells}};
-  for (const auto& [key, value] : s.options.all()) json["options"][key] = value;
   for (const auto& [key, value] : s.fits_with) json["fits_with"][key] = value;
   for (const PassTime& pass : s.rendered.passes)
     json["passes"].push_back({{"name", pass.name},

@@ -57,6 +57,15 @@ void limit_rows(VkCommandBuffer commands, const LightingInfo& info) {
   vkCmdSetScissor(commands, 0, 1, &rows);
 }
 
+/// Nothing where the plan did not count.
+std::optional<Options> grown_options(const Method& method, const Problem& problem, const Plan& plan,
+                                     std::span<const std::uint32_t> needed) {
+  if (needed.size() != plan.capacities.size()) return std::nullopt;
+  std::optional<GrownPlan> grown = grow_plan(method, problem, plan, needed);
+  if (!grown) return std::nullopt;
+  return std::move(grown->options);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> changed_options(const Options& before, const Options& after) {
@@ -84,18 +93,12 @@ Lighting::Lighting(const vulkan::Device& device, const ShaderLibrary& shaders, c
 }
 
 std::optional<Options> Lighting::grown(std::span<const std::uint32_t> needed) const {
-  const Plan& plan = runner_.plan();
-  if (needed.size() != plan.capacities.size()) return std::nullopt;
-  std::optional<GrownPlan> grown = grow_plan(*info_.method, problem_of(info_, traits_), plan, needed);
-  if (!grown) return std::nullopt;
-  return std::move(grown->options);
+  return grown_options(*info_.method, problem_of(info_, traits_), runner_.plan(), needed);
 }
 
 std::optional<Options> Lighting::any_depth_grown(std::span<const std::uint32_t> needed) const {
-  if (!any_depth_ || needed.size() != any_depth_plan().capacities.size()) return std::nullopt;
-  std::optional<GrownPlan> grown = grow_plan(*any_depth_->method, any_depth_->problem, any_depth_plan(), needed);
-  if (!grown) return std::nullopt;
-  return std::move(grown->options);
+  if (!any_depth_) return std::nullopt;
+  return grown_options(*any_depth_->method, any_depth_->problem, any_depth_plan(), needed);
 }
 
 std::vector<std::pair<std::string, std::string>> Lighting::fits_with(std::span<const std::uint32_t> needed) const {
