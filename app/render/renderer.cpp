@@ -163,10 +163,8 @@ void Renderer::draw_depths() {
   }
 }
 
-vulkan::Resource Renderer::light_meshes() const { return vulkan::Resource::storage(plan_inputs().meshes); }
-
 vulkan::PlanInputs Renderer::plan_inputs() const {
-  vulkan::PlanInputs inputs = (all_pictures_ ? all_pictures_->data : data_).plan_inputs(culled_depths_);
+  vulkan::PlanInputs inputs = culled_data().plan_inputs(culled_depths_);
   if (!shadows_) return inputs;
   if (const vulkan::Buffer* radial = shadows_->reach(ShadowReach::Kind::radial)) inputs.radial = radial->handle();
   if (const vulkan::Buffer* meshes = shadows_->reach(ShadowReach::Kind::meshes)) inputs.meshes = meshes->handle();
@@ -205,10 +203,9 @@ LightingFrame Renderer::lighting_frame() const {
 
 void Renderer::submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record) {
   if (lighting != nullptr) {
-    FrameData& data = all_pictures_ ? all_pictures_->data : data_;
     const Plan& plan = lighting->runner().plan();
-    still_tree_.bring(context_, data, plan, lighting->info().options);
-    data.take_cells_of(plan);
+    still_tree_.bring(context_, culled_data(), plan, lighting->info().options);
+    culled_data().take_cells_of(plan);
   }
   context_.submit(record);
   if (lighting != nullptr) lighting->finish();

@@ -96,7 +96,7 @@ class Renderer {
   void light_probes(const ProbeSet* probes);
   [[nodiscard]] const ProbeSet& probes() const { return probes_ == nullptr ? no_probes_ : *probes_; }
   /// Of each light, as far as a method asked for them.
-  [[nodiscard]] vulkan::Resource light_meshes() const;
+  [[nodiscard]] vulkan::Resource light_meshes() const { return vulkan::Resource::storage(plan_inputs().meshes); }
   /// Makes them for the frame that was drawn, whether or not a method asks for them.
   void make_reach(ShadowReach::Kind kind) {
     if (!shadows_) return;
@@ -216,6 +216,9 @@ class Renderer {
   void submit(Lighting* lighting, const std::function<void(VkCommandBuffer)>& record);
   [[nodiscard]] LightingFrame lighting_frame() const;
   [[nodiscard]] vulkan::PlanInputs plan_inputs() const;
+  /// What the method culls: of all views, where these are culled at once.
+  [[nodiscard]] FrameData& culled_data() { return all_pictures_ ? all_pictures_->data : data_; }
+  [[nodiscard]] const FrameData& culled_data() const { return all_pictures_ ? all_pictures_->data : data_; }
   /// Lights by their numbers in the buffer, where some stand still: nothing of boxes.
   [[nodiscard]] std::vector<shared::Light> shadowed_records() const;
   void record_upload(vulkan::Recorder& recorder);
