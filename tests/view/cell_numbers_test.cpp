@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
 #include "render/shaders/sky_cell.h"
 
 namespace lamp::app {
