@@ -72,7 +72,7 @@ std::optional<StillPixels> Stage::still_pixels(std::span<const float> depth) {
                  .occluders = still_->occluders ? &*still_->occluders : nullptr,
                  .points = {}};
   if (!still_->made.tree) {
-    at.points = pixel_points(*renderer_, *scene_->gpu, shaders_);
+    at.points = pixel_points(*renderer_);
     return at;
   }
   const View& view = renderer_->view();

@@ -86,11 +86,9 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
     object.read("path", method.path);
     object.read("still_lists", method.still_lists);
     object.read("still_occlusion", method.still_occlusion, 0, 1024);
-    const bool by_triangle = method.still_lists == "triangle-lists" && method.path == "forward";
-    const bool by_position = method.still_lists == "world-tree" && method.path != "standard-deferred";
-    if (method.still_lists != "off" && !by_position && !by_triangle)
-      object.wrong("still_lists",
-                   "off, world-tree, or triangle-lists with \"path\": \"forward\"; none with standard-deferred");
+    const bool known = method.still_lists == "triangle-lists" || method.still_lists == "world-tree";
+    if (method.still_lists != "off" && (!known || method.path == "standard-deferred"))
+      object.wrong("still_lists", "off, triangle-lists or world-tree; none with standard-deferred");
     method.host = parse_host(object);
     object.finish();
   }

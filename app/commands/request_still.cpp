@@ -84,11 +84,6 @@ std::uint32_t still_kind(const std::string& lists) {
 void check_still(const Request& request) {
   if (std::ranges::find(LISTS, request.still_lists) == LISTS.end())
     throw unknown_name("--still-lists", request.still_lists, LISTS);
-  if (still_kind(request.still_lists) == gpu::STILL_TRIANGLES && request.path != "forward")
-    throw Error(
-        fmt::format("--still-lists {}: on path {} a pixel does not know its triangle, expected --path forward, or "
-                    "--still-lists world-tree",
-                    request.still_lists, request.path));
   if (request.still_lists != OFF && request.path == "standard-deferred")
     throw Error(fmt::format("--still-lists {}: path standard-deferred walks no lists, expected another --path",
                             request.still_lists));
@@ -146,8 +141,8 @@ void add_still_options(CLI::App& command, Request& r) {
   command
       .add_option(
           "--still-lists", r.still_lists,
-          "lists made ahead for lights that stand still: off; triangle-lists, by a pixel's triangle, with --path "
-          "forward; or world-tree, by its position")
+          "lists made ahead for lights that stand still: off; triangle-lists, by a pixel's triangle; or world-tree, by "
+          "its position")
       ->type_name("NAME")
       ->group("Lights")
       ->capture_default_str();

@@ -39,7 +39,7 @@ void add_still_walks(Session& session, std::vector<std::uint32_t>& walked) {
     }
     return;
   }
-  const std::vector<gpu::StillPoint> points = pixel_points(session.renderer(), session.gpu_scene(), session.shaders());
+  const std::vector<gpu::StillPoint> points = pixel_points(session.renderer());
   for (std::size_t i = 0; i < walked.size(); ++i)
     if (points[i].triangle != NO_TRIANGLE) walked[i] += static_cast<std::uint32_t>(still.lights_at(points[i]).size());
 }

@@ -63,8 +63,7 @@ std::optional<StillStats> check_still_lists(const Request& request, Session& ses
                          .occluders = occluders ? &*occluders : nullptr};
   show_progress("verify still lights: pixels");
   std::vector<gpu::StillPoint> pixels =
-      still.tree ? positions_of_pixels(session.renderer())
-                 : points_of_pixels(session.renderer(), session.gpu_scene(), session.shaders());
+      still.tree ? positions_of_pixels(session.renderer()) : points_of_pixels(session.renderer());
   if (occluders && pixels.size() > MOST_SEEN) pixels = thinned(pixels, MOST_SEEN);
   stats.findings.emplace_back("pixels", check_all(check, pixels));
   show_progress("verify still lights: points on surfaces");

@@ -242,7 +242,8 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                  {2, frame.targets.hdr.storage()},
                  {3, frame.data.lights()},
                  {4, frame.scene.surroundings()},
-                 {BINDING_STILL, frame.still}});
+                 {BINDING_STILL, frame.still},
+                 triangles_bound(frame.targets)});
   std::vector<vulkan::Use> uses{{.resource = frame.targets.hdr.storage(),
                                  .stages = COMPUTE,
                                  .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
@@ -251,6 +252,7 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.data.lights(), COMPUTE),
                                 reads(frame.still, COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
+  if (frame.targets.numbered) uses.push_back(reads(frame.targets.triangles.sampled(), COMPUTE));
   // A look-up that standard deferred does not walk is bound, but nothing reads it; only for boxes it was filled.
   if (walks()) append(uses, walked.buffer_uses(COMPUTE));
   append(bound, walked.resources);

@@ -90,7 +90,9 @@ vulkan::Pipeline deferred_pipeline(const vulkan::Device& device, const ShaderLib
   const bool walks = info.path != ShadingPath::standard_deferred;
   vulkan::PipelineInfo pipeline{.name = "deferred shading",
                                 .bindings = gbuffer_bindings(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)};
-  append(pipeline.bindings, {{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}});
+  append(pipeline.bindings, {{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                             {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                             {BINDING_TRIANGLES, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}});
   pipeline.constants = {{0, group.x},
                         {1, group.y},
                         {CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)},

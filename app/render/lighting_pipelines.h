@@ -63,8 +63,7 @@ struct LightingInfo {
   std::uint32_t probes = 0;             ///< what probes of the frames show (probe_data.h); 0: there are none
   float mirror = 0.0F;                  ///< where there are probes: MirrorSettings::roughness of the frames
   std::optional<ShadowFilter> shadows;  ///< lights cast shadows, filtered so
-  std::uint32_t still =
-      0;  ///< how lights that stand still are looked up (still_data.h); triangles on the forward path alone
+  std::uint32_t still = 0;              ///< how lights that stand still are looked up (still_data.h)
   /// Of the options, those that room was made with, for what did not fit with the ones asked for.
   std::vector<std::pair<std::string, std::string>> grown;
   /// Of the lists that transparent surfaces have of their own (AnyDepthPlan), where room was made for what did not fit.

@@ -75,4 +75,10 @@ inline void record_copy(vulkan::Recorder& recorder, const GpuImage& from, const 
   return {.resource = resource, .stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT};
 }
 
+/// The same, for the host to read.
+inline void record_readback(vulkan::Recorder& recorder, const GpuImage& from, const vulkan::Buffer& to) {
+  record_copy(recorder, from, to);
+  recorder.barrier({host_reads(vulkan::Resource::storage(to.handle()))});
+}
+
 }  // namespace lamp::app

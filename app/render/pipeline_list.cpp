@@ -29,7 +29,9 @@ class PipelineLister {
     device_.pipelines = &store_;
     // A driver without hardware has no memory. Its plans are those of a device that has enough.
     if (device_.traits.memory_bytes == 0) device_.traits.memory_bytes = DeviceTraits().memory_bytes;
-    for (const vulkan::Pipeline& pipeline : Geometry(device_, shaders).pipelines()) add("", pipeline);
+    Geometry geometry(device_, shaders);
+    geometry.need_triangles(device_, shaders);
+    for (const vulkan::Pipeline& pipeline : geometry.pipelines()) add("", pipeline);
     for (const vulkan::Pipeline& pipeline : ProbeAtlas::pipelines(device_, shaders)) add("", pipeline);
     for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong}) {
       const LightingInfo info{.path = ShadingPath::standard_deferred, .brdf = brdf};
@@ -72,11 +74,11 @@ class PipelineLister {
     add_paths(info, plan);
     info.probes = gpu::PROBES_OFF;
     info.mirror = 0.0F;
-    info.still = gpu::STILL_TRIANGLES;
-    add_path(info, ShadingPath::forward, plan);
-    info.still = gpu::STILL_TREE;
-    add_path(info, ShadingPath::forward, plan);
-    add_path(info, ShadingPath::deferred, plan);
+    for (const std::uint32_t still : {gpu::STILL_TRIANGLES, gpu::STILL_TREE}) {
+      info.still = still;
+      add_path(info, ShadingPath::forward, plan);
+      add_path(info, ShadingPath::deferred, plan);
+    }
     add_passes_of_many_lights(method, {});
   }
 

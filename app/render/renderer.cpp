@@ -12,7 +12,6 @@
 #include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "render/antialias.h"
-#include "render/gbuffer_texels.h"
 
 namespace lamp::app {
 namespace {
@@ -24,11 +23,6 @@ std::unique_ptr<Targets> make_targets(const vulkan::Device& device, std::uint32_
   if (width == 0 || height == 0 || width > limit || height > limit)
     throw Error(fmt::format("size {}x{}: expected 1 to {} pixels a side on this device", width, height, limit));
   return std::make_unique<Targets>(device, width, height);
-}
-
-void record_readback(vulkan::Recorder& recorder, const GpuImage& image, const vulkan::Buffer& buffer) {
-  record_copy(recorder, image, buffer);
-  recorder.barrier({host_reads(vulkan::Resource::storage(buffer.handle()))});
 }
 
 void add_counts(Rendered& rendered, const Lighting& lighting) {
@@ -142,12 +136,6 @@ std::vector<FramePicture> Renderer::all_pictures() const {
   for (std::uint32_t view = depth_.views; view-- != 0;)
     for (std::uint32_t sample = depth_.samples; sample-- != 0;) all.push_back({view, sample});
   return all;
-}
-
-void Renderer::forget_surfaces() {
-  surfaces_drawn_ = false;
-  if (kept_) std::ranges::for_each(kept_->buffers(), [&](const vulkan::Buffer* buffer) { forget(*buffer); });
-  kept_.reset();
 }
 
 void Renderer::draw_depths() {
@@ -341,59 +329,6 @@ void Renderer::warm_up(Lighting& lighting) {
     vulkan::Recorder recorder(context_.device(), commands, tracker_);
     record_frame(recorder, lighting, true);
   });
-}
-
-template <class Texel>
-std::vector<Texel> Renderer::read_texels(const GpuImage& image) {
-  const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
-  const vulkan::Buffer buffer = readback_buffer(context_.device(), "texel read-back", pixels * sizeof(Texel));
-  context_.submit([&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    record_readback(recorder, image, buffer);
-  });
-  tracker_.forget(buffer.handle());
-  return first_values<Texel>(buffer, pixels);
-}
-
-std::vector<float> Renderer::read_depth() { return read_texels<float>(targets_->depth); }
-
-void Renderer::draw_surfaces(Lighting* decals) {
-  submit(decals, [&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    record_upload(recorder);
-    if (decals != nullptr)
-      decals->record_surfaces(recorder, lighting_frame());
-    else
-      geometry_.record_gbuffer(recorder, scene_, data_, *targets_);
-  });
-  surfaces_drawn_ = decals == nullptr;
-}
-
-void Renderer::need_surfaces() {
-  if (!surfaces_drawn_) draw_surfaces();
-}
-
-void Renderer::keep_surfaces() {
-  if (kept_) return;
-  need_surfaces();
-  kept_.emplace(context_.device(), *targets_);
-  context_.submit([&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(context_.device(), commands, tracker_);
-    kept_->record_keep(recorder, *targets_);
-  });
-}
-
-std::vector<float> Renderer::draw_depth() {
-  draw_surfaces();
-  return read_depth();
-}
-
-CapturedFrame Renderer::capture(Lighting* decals) {
-  draw_surfaces(decals);
-  return decode(shown_view_, {.depth = read_depth(),
-                              .base_color = read_texels<glm::u8vec4>(targets_->base_color),
-                              .surface = read_texels<glm::uvec2>(targets_->surface),
-                              .emission = read_texels<glm::u16vec4>(targets_->emission)});
 }
 
 }  // namespace lamp::app

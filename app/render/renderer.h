@@ -89,7 +89,8 @@ class Renderer {
   [[nodiscard]] float mirror_roughness() const { return mirror_ ? mirror_->info().settings.roughness : 0.0F; }
   /// The last lights of the next frames stand still, as many as `lists` has, and are looked up in it by lightings that
   /// were made for it. Null: none do. It must live on, and be told before `set_frame`.
-  void light_still(const StillLists* lists) { still_ = lists; }
+  /// Lists of triangles: their numbers are drawn wherever surfaces are.
+  void light_still(const StillLists* lists);
   [[nodiscard]] const StillLists* still() const { return still_; }
   /// The probes of the next frames, for lightings that were made for their kind; null: none. They must live on, and be
   /// told before `cast_shadows`, `mirror` and `set_frame`. Forgets the frame.
@@ -168,11 +169,15 @@ class Renderer {
   void need_surfaces();
 
   /// Keeps a copy of the surfaces of this view, drawn first where there are none yet. Until the view changes, frames of
-  /// the deferred paths copy that into the G-buffer instead of drawing, in less time.
+  /// the deferred paths copy that into the G-buffer instead of drawing, in less time. Nothing with lists of triangles.
   void keep_surfaces();
 
   /// The depth of the last frame, device depth, row by row.
   [[nodiscard]] std::vector<float> read_depth();
+
+  /// The triangle of each pixel that is not sky, row by row. Draws the surfaces first where there are none yet. Of
+  /// lists of triangles alone.
+  [[nodiscard]] std::vector<std::uint32_t> read_triangles();
 
   /// Draws the surfaces of a frame, of a scene that has any, and reads their depth back.
   [[nodiscard]] std::vector<float> draw_depth();

@@ -1,4 +1,4 @@
-// Draws triangles' numbers, walks lists on the device and on the host, and asks the oracle.
+// Reads pixels' triangles, walks lists on the device and on the host, and asks the oracle.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/still_check.h"
 
@@ -12,7 +12,6 @@
 #include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "oracle/points.h"
-#include "render/mesh_pass.h"
 
 namespace lamp::app {
 namespace {
@@ -80,8 +79,8 @@ Verdict StillFindings::verdict() const {
   return missed != 0 || unordered != 0 || differing != 0 ? Verdict::failed : Verdict::ok;
 }
 
-std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer, const GpuScene& scene, const ShaderLibrary& shaders) {
-  std::vector<gpu::StillPoint> points = pixel_points(renderer, scene, shaders);
+std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer) {
+  std::vector<gpu::StillPoint> points = pixel_points(renderer);
   std::erase_if(points, [](const gpu::StillPoint& point) { return point.triangle == NO_TRIANGLE; });
   return points;
 }
@@ -97,43 +96,15 @@ std::vector<gpu::StillPoint> positions_of_pixels(Renderer& renderer) {
   return points;
 }
 
-std::vector<gpu::StillPoint> pixel_points(Renderer& renderer, const GpuScene& scene, const ShaderLibrary& shaders) {
-  const Targets& targets = renderer.targets();
-  const GpuImage ids(renderer.device(),
-                     {.name = "triangle numbers",
-                      .width = targets.width,
-                      .height = targets.height,
-                      .format = VK_FORMAT_R32_UINT,
-                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-  const vulkan::Pipeline pipeline = take(vulkan::Pipeline::graphics(
-      renderer.device(), {.name = "triangle numbers", .bindings = mesh_bindings()}, shaders.spirv("mesh"),
-      shaders.spirv("triangle_id"), mesh_state(renderer.depth().nearer(), {VK_FORMAT_R32_UINT})));
-  const std::size_t pixels = std::size_t{targets.width} * targets.height;
-  const vulkan::Buffer read = readback_buffer(renderer.device(), "triangle numbers", pixels * sizeof(std::uint32_t));
-  renderer.need_surfaces();  // and the frame
-  renderer.also([&](vulkan::Recorder& recorder) {
-    const Attachments attachments{
-        .colors = {{&ids, Load::clear}}, .depth = &targets.depth, .sky = renderer.depth().sky()};
-    std::vector<vulkan::Use> uses = attachment_uses(attachments);
-    uses.push_back(reads(renderer.data().frame(), GRAPHICS_SHADERS));
-    recorder.begin_pass("triangle numbers", uses);
-    begin_rendering(recorder.commands(), attachments, targets);
-    draw_meshes(
-        recorder,
-        {.scene = &scene, .frame = &renderer.data(), .draws = scene.opaque(), .pipeline = &pipeline, .more = {}});
-    vkCmdEndRendering(recorder.commands());
-    recorder.end_pass();
-    record_copy(recorder, ids, read);
-    recorder.barrier({host_reads(vulkan::Resource::storage(read.handle()))});
-  });
-  renderer.forget(read);
-  const std::vector<std::uint32_t> numbers = first_values<std::uint32_t>(read, pixels);
+std::vector<gpu::StillPoint> pixel_points(Renderer& renderer) {
+  const std::vector<std::uint32_t> triangles = renderer.read_triangles();
   const std::vector<float> depth = renderer.read_depth();
+  const View& view = renderer.view();
   std::vector<gpu::StillPoint> points;
-  for (std::uint32_t i = 0; i < pixels; ++i) {
-    const DVec3 position(renderer.view().world_position(i % targets.width, i / targets.width, depth[i]));
-    // Of no triangle: 0 - 1.
-    points.push_back({.position = numbers[i] == 0 ? Vec3{} : Vec3(position), .triangle = numbers[i] - 1});
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const bool sky = depth[i] == renderer.depth().sky();
+    const DVec3 position(view.world_position(i % view.width(), i / view.width(), depth[i]));
+    points.push_back({.position = sky ? Vec3{} : Vec3(position), .triangle = sky ? NO_TRIANGLE : triangles[i]});
   }
   return points;
 }

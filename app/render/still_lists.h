@@ -1,4 +1,4 @@
-// Lists of lights that stand still, on the GPU: what forward shading looks them up with.
+// Lists of lights that stand still, on the GPU: what shading looks them up with.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +20,7 @@ class StillLists {
  public:
   /// No list: all lights are the picture's.
   explicit StillLists(Context& context);
-  /// `kind`: STILL_TRIANGLES. Throws Error where the device has no such buffer.
+  /// `kind`: STILL_TRIANGLES or STILL_TREE. Throws Error where the device has no such buffer.
   StillLists(Context& context, std::uint32_t kind, std::uint32_t lights, std::span<const std::uint32_t> words);
 
   [[nodiscard]] std::uint32_t kind() const { return kind_; }

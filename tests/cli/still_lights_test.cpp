@@ -33,6 +33,16 @@ TEST_F(Still, ListsAreCheckedAndCounted) {
   EXPECT_FALSE(cut.contains("image_max_abs_diff"));
 }
 
+TEST_F(Still, TriangleListsServeDeferredShading) {
+  const Outcome run = lamp({"verify", "corridor", "--lights", "200", "--size", "64x36", "--method", "clustered",
+                            "--still", "0.25", "--still-lists", "triangle-lists", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json row = nlohmann::json::parse(run.out).at(0);
+  EXPECT_EQ(row.at("path"), "deferred");
+  EXPECT_EQ(row.at("image_max_abs_diff"), 0.0);
+  for (const nlohmann::json& check : row.at("still").at("checks")) EXPECT_EQ(check.at("verdict"), "ok");
+}
+
 TEST_F(Still, TreesServeDeferredShading) {
   const Outcome run = lamp({"verify", "corridor", "--lights", "200", "--size", "64x36", "--method", "clustered",
                             "--still", "0.25", "--still-lists", "world-tree", "--json"});
@@ -49,10 +59,9 @@ TEST_F(Still, TreesServeDeferredShading) {
 TEST_F(Still, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--still", "2"}, {"--still"});
   expect_error(BAD_INPUT, {"render", "--still-lists", "triangles"}, {"--still-lists 'triangles'", "triangle-lists"});
-  expect_error(BAD_INPUT, {"render", "--still-lists", "triangle-lists"},
-               {"does not know its triangle", "--path forward"});
-  expect_error(BAD_INPUT, {"render", "--still-lists", "world-tree", "--path", "standard-deferred"},
-               {"standard-deferred walks no lists"});
+  for (const char* lists : {"triangle-lists", "world-tree"})
+    expect_error(BAD_INPUT, {"render", "--still-lists", lists, "--path", "standard-deferred"},
+                 {"standard-deferred walks no lists"});
   expect_error(BAD_INPUT, {"render", "--still-occlusion", "32"}, {"--still-occlusion 32", "there are no lists"});
 }
 

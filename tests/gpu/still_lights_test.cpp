@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
@@ -63,7 +64,7 @@ class StillLights : public GpuTest, public ::testing::WithParamInterface<std::st
                        .transparency = !scene_.gpu.blended().empty(),
                        .decals = !decals.empty(),
                        .still = still == nullptr ? gpu::STILL_OFF : still->kind()});
-    return renderer.render(lighting).image;
+    return renderer.relight(lighting).image;
   }
 
   TestScene scene_;
@@ -75,17 +76,43 @@ class StillLights : public GpuTest, public ::testing::WithParamInterface<std::st
   std::optional<StillLists> on_gpu_;
 };
 
-/// Glass, masked surfaces, instances; two look-ups of the picture's lights.
+constexpr ShadingPath WALKING[] = {ShadingPath::forward, ShadingPath::deferred, ShadingPath::tiled_deferred};
+
+/// Glass, masked surfaces, instances; look-ups of the picture's lights with and without a fused form.
 TEST_P(StillLights, PictureEqualsThatOfOneList) {
   make({});
   Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
-  const HdrImage reference = picture(renderer, brute_force(), {});
-  EXPECT_GT(largest_value(reference), 0.01F);
-  renderer.light_still(&*on_gpu_);
-  for (const char* method : {"all", "lamplight", "clustered", "tiled-bits"}) {
-    SCOPED_TRACE(method);
-    EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method(method)), {}), reference), 0.0F);
+  for (const ShadingPath path : WALKING) {
+    SCOPED_TRACE(path_names()[static_cast<std::size_t>(path)]);
+    renderer.light_still(nullptr);
+    const HdrImage reference = picture(renderer, brute_force(), {}, path);
+    EXPECT_GT(largest_value(reference), 0.01F);
+    renderer.light_still(&*on_gpu_);
+    for (const char* method : {"all", "lamplight", "clustered", "tiled-bits"}) {
+      SCOPED_TRACE(method);
+      EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method(method)), {}, path), reference), 0.0F);
+    }
   }
+}
+
+/// Numbers are drawn while lists of triangles are there, and no image of them is made for anything else.
+TEST_P(StillLights, OnlyListsOfTrianglesNumberPixels) {
+  Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
+  make_tree();
+  renderer.light_still(&*on_gpu_);
+  EXPECT_FALSE(renderer.targets().numbered);
+  EXPECT_EQ(renderer.targets().triangles.handle(), VK_NULL_HANDLE);
+  make({});
+  renderer.light_still(&*on_gpu_);
+  EXPECT_TRUE(renderer.targets().numbered);
+  renderer.set_frame(view_, lights_);
+  const std::vector<std::uint32_t> numbers = renderer.read_triangles();
+  EXPECT_LT(*std::ranges::max_element(numbers), triangles_.size());
+  EXPECT_GT(std::set(numbers.begin(), numbers.end()).size(), 100U);
+  renderer.keep_surfaces();  // which have no numbers: frames draw them anew
+  EXPECT_EQ(renderer.read_triangles(), numbers);
+  renderer.light_still(nullptr);
+  EXPECT_FALSE(renderer.targets().numbered);
 }
 
 TEST_P(StillLights, NothingIsMissed) {
@@ -99,7 +126,7 @@ TEST_P(StillLights, NothingIsMissed) {
                          .lights = std::span(lights_).last(STILL),
                          .list = [&](const gpu::StillPoint& p) { return lights_at(lists_, p.triangle, p.position); },
                          .on_gpu = *on_gpu_};
-  const std::vector<gpu::StillPoint> pixels = points_of_pixels(renderer, scene_.gpu, shader_library());
+  const std::vector<gpu::StillPoint> pixels = points_of_pixels(renderer);
   EXPECT_GT(pixels.size(), 1000U);
   for (const auto& points : {pixels, random_points_on(triangles_, 2000, 1)}) {
     const StillFindings found = check_still_points(check, points);
@@ -127,7 +154,7 @@ TEST_P(StillLights, HlslWalksAsGlslDoes) {
 TEST_P(StillLights, PictureOfATreeEqualsThatOfOneList) {
   make_tree();
   Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT);
-  for (const ShadingPath path : {ShadingPath::forward, ShadingPath::deferred, ShadingPath::tiled_deferred}) {
+  for (const ShadingPath path : WALKING) {
     SCOPED_TRACE(path_names()[static_cast<std::size_t>(path)]);
     renderer.light_still(nullptr);
     const HdrImage reference = picture(renderer, brute_force(), {}, path);
@@ -184,9 +211,13 @@ TEST_P(StillLights, DecalsKeepTheirIds) {
   const std::vector<gpu::DecalData> decals = pack(place_decals(scene_.scene, 20, 1));
   make(decals);
   Renderer renderer(test_context(), shader_library(), scene_.gpu, WIDTH, HEIGHT, COUNT, 20);
-  const HdrImage reference = picture(renderer, brute_force(), decals);
-  renderer.light_still(&*on_gpu_);
-  EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method("lamplight")), decals), reference), 0.0F);
+  for (const ShadingPath path : {ShadingPath::forward, ShadingPath::deferred}) {
+    SCOPED_TRACE(path_names()[static_cast<std::size_t>(path)]);
+    renderer.light_still(nullptr);
+    const HdrImage reference = picture(renderer, brute_force(), decals, path);
+    renderer.light_still(&*on_gpu_);
+    EXPECT_EQ(max_abs_difference(picture(renderer, *take(find_method("lamplight")), decals, path), reference), 0.0F);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, StillLights, ::testing::Values("corridor", "atrium"),

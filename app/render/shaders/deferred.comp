@@ -18,6 +18,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer SurroundingsBuffer {
   DirectionalData directional_lights[];
 };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D hdr_image;
+layout(set = 0, binding = 8) uniform utexture2D triangle_image;  // only where still lights are in lists of triangles
 #include "common/shown_view.glsl"
 #include "lookup.glsl"
 #include "common/deferred_surface.glsl"
@@ -44,6 +45,6 @@ void main() {
                                : shade_surroundings(s, r, emission, light_of_probes(s, r, uvec2(pixel), z_view));
   }
   if (WALK) add_group(sum, r, lit, uvec2(pixel), z_view);
-  if (lit) add_still(sum, r, STILL_NO_TRIANGLE);
+  if (lit) add_still(sum, r, STILL_LISTS == STILL_TRIANGLES ? texelFetch(triangle_image, pixel, 0).x : 0u);
   if (inside) imageStore(hdr_image, pixel, vec4(sum, lit ? 1.0 : 0.0));  // alpha: where surfaces are
 }

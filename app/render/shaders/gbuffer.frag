@@ -2,20 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "common/gbuffer.glsl"
-#include "common/material.glsl"
+#include "common/write_gbuffer.glsl"
 
-layout(location = 0) out vec4 out_base_color;
-layout(location = 1) out uvec2 out_surface;
-layout(location = 2) out vec4 out_emission;
-
-void main() {
-  const vec4 color = material_color();
-  const vec3 normal = material_normal(gl_FrontFacing);
-  const vec3 factors = material_factors();
-  const vec3 emission = material_emission();
-  if (is_cut_out(color.a)) discard;
-  out_base_color = vec4(color.rgb, 1.0);
-  out_surface = pack_surface(normal, factors.x, factors.y, factors.z);
-  out_emission = vec4(emission, 1.0);
-}
+void main() { write_gbuffer(); }

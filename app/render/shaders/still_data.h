@@ -10,10 +10,9 @@ namespace lamp::app::gpu {
 using namespace lamp::shared;
 #endif
 
-LAMP_CONST STILL_OFF = 0u;                   // all lights are the picture's
-LAMP_CONST STILL_TRIANGLES = 1u;             // by a pixel's triangle and its position (triangle_lists.h)
-LAMP_CONST STILL_TREE = 2u;                  // by its position (world_tree.h)
-LAMP_CONST STILL_NO_TRIANGLE = 0xffffffffu;  // of pixels that do not know
+LAMP_CONST STILL_OFF = 0u;        // all lights are the picture's
+LAMP_CONST STILL_TRIANGLES = 1u;  // by a pixel's triangle and its position (triangle_lists.h)
+LAMP_CONST STILL_TREE = 2u;       // by its position (world_tree.h)
 
 // A position that is asked, and what a walk met there.
 struct StillPoint {
