@@ -255,6 +255,8 @@ Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& 
 }
 
 Exit verify(const VerifyOptions& o) {
+  if (!o.at_points.cut.empty())
+    throw Error("--cut: shows a method's look-up by position, not --still-lists; expected --still-lists off");
   const ShadingPath path = parse_path(o.request.path);
   const std::vector<std::string> wanted = wanted_methods(o);
   constexpr std::string_view PICTURES[] = {".png"};
@@ -289,7 +291,7 @@ Exit verify(const VerifyOptions& o) {
     find_by_oracle(session, setup, candidates);
   find_boxes(session, setup, candidates);
   const std::optional<ShadowFindings> shadows = shadow_findings(session, setup);
-  const std::optional<StillStats> still = check_still_lists(o.request, session, setup);
+  const std::optional<StillStats> still = check_still_lists(o.request, session, setup, o.at_points.points);
   const std::optional<MirrorStats> mirror = verify_mirror(session, setup, candidates.front().lighting);
 
   std::vector<Stats> rows;
@@ -370,7 +372,7 @@ Run add_verify(CLI::App& app) {
       "difference: from brute force's picture.\n"
       "Exit code 1: a method failed. 4: none failed, but one could not be checked on this device.");
   return [o] {
-    if (o->at_points.points == 0) return verify(*o);
+    if (o->at_points.points == 0 || o->request.still_lists != "off") return verify(*o);
     PointsRequest of = o->at_points;
     of.methods = o->methods;
     of.json = o->json;

@@ -166,7 +166,7 @@ void add_points_option(CLI::App& command, PointsRequest& of) {
           .add_option(
               "--points", of.points,
               "check look-ups by position instead, at so many random points of each kind: on surfaces, in the air, "
-              "anywhere, and 100 km away")
+              "anywhere, and 100 km away; with --still-lists: check these at so many points of surfaces, not 10000")
           ->check(whole_number(1, 10'000'000))
           ->type_name("N")
           ->group("Method");

@@ -14,9 +14,9 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::size_t RANDOM_POINTS = 10'000;
-constexpr std::size_t MOST_SEEN = 20'000;  // pixels whose lights are held against rays
-constexpr std::size_t AT_ONCE = 1U << 16;  // points whose truth is held
+constexpr std::size_t RANDOM_POINTS = 10'000;  // unless another number is asked for
+constexpr std::size_t MOST_SEEN = 20'000;      // pixels whose lights are held against rays
+constexpr std::size_t AT_ONCE = 1U << 16;      // points whose truth is held
 
 void add(StillFindings& sum, const StillFindings& more) {
   if (sum.missed == 0) sum.first_miss = more.first_miss;
@@ -31,10 +31,12 @@ void add(StillFindings& sum, const StillFindings& more) {
   sum.longest = std::max(sum.longest, more.longest);
 }
 
-StillFindings check_all(const StillCheck& check, std::span<const gpu::StillPoint> points) {
+StillFindings check_all(const StillCheck& check, std::span<const gpu::StillPoint> points, std::string_view kind) {
   StillFindings sum;
-  for (std::size_t first = 0; first < points.size(); first += AT_ONCE)
+  for (std::size_t first = 0; first < points.size(); first += AT_ONCE) {
+    show_progress(fmt::format("verify still lights: {}, {} %", kind, 100 * first / points.size()));
     add(sum, check_still_points(check, points.subspan(first, std::min(AT_ONCE, points.size() - first))));
+  }
   return sum;
 }
 
@@ -48,7 +50,8 @@ std::vector<gpu::StillPoint> thinned(const std::vector<gpu::StillPoint>& points,
 
 }  // namespace
 
-std::optional<StillStats> check_still_lists(const Request& request, Session& session, const Setup& setup) {
+std::optional<StillStats> check_still_lists(const Request& request, Session& session, const Setup& setup,
+                                            std::uint32_t points) {
   if (session.still() == nullptr) return std::nullopt;
   const StillSetup& still = *session.still();
   StillStats stats = still_stats(still);
@@ -61,14 +64,13 @@ std::optional<StillStats> check_still_lists(const Request& request, Session& ses
                          .list = [&](const gpu::StillPoint& point) { return still.lights_at(point); },
                          .on_gpu = *session.renderer().still(),
                          .occluders = occluders ? &*occluders : nullptr};
-  show_progress("verify still lights: pixels");
   std::vector<gpu::StillPoint> pixels =
       still.tree ? positions_of_pixels(session.renderer()) : points_of_pixels(session.renderer());
   if (occluders && pixels.size() > MOST_SEEN) pixels = thinned(pixels, MOST_SEEN);
-  stats.findings.emplace_back("pixels", check_all(check, pixels));
-  show_progress("verify still lights: points on surfaces");
-  stats.findings.emplace_back("surfaces",
-                              check_all(check, random_points_on(still.triangles, RANDOM_POINTS, request.seed)));
+  stats.findings.emplace_back("pixels", check_all(check, pixels, "pixels"));
+  const std::size_t count = points == 0 ? RANDOM_POINTS : points;
+  stats.findings.emplace_back(
+      "surfaces", check_all(check, random_points_on(still.triangles, count, request.seed), "points on surfaces"));
   return stats;
 }
 
