@@ -32,12 +32,15 @@ std::string shadow_words(const ShadowStats& shadows) {
 
 std::string truth_words(const ShadowFindings& truth) {
   const auto percent = [](const ShadowLight& light) {
-    return fmt::format("leaks {:.2f} % of the light that rays stop, false shadows take {:.2f} % of what arrives",
-                       100.0 * light.leaks(), 100.0 * light.false_shadows());
+    return fmt::format("leaks {:.2f} %, false shadows {:.2f} %", 100.0 * light.leaks(), 100.0 * light.false_shadows());
   };
-  return fmt::format("{}; {} px from edges and more: {} ({} pairs{}, {} unclear)", percent(truth.all), EDGE_PX,
-                     percent(truth.away), truth.pairs,
-                     truth.thinned > 1 ? fmt::format(", one of {}", truth.thinned) : "", truth.unclear);
+  std::string words = percent(truth.all) + " (of the light that rays stop, and that arrives)";
+  if (truth.all.bled > 0.0) words += fmt::format(", {:.2f} % bleeding", 100.0 * truth.all.bleeding());
+  words += fmt::format("; {} px from edges and more: {}", EDGE_PX, percent(truth.away));
+  words += fmt::format("; beyond the filter's reach, where {:.0f} % of the stopped light is: {}",
+                       100.0 * truth.stopped_beyond(), percent(truth.beyond));
+  return words + fmt::format(" ({} pairs{}, {} unclear)", truth.pairs,
+                             truth.thinned > 1 ? fmt::format(", one of {}", truth.thinned) : "", truth.unclear);
 }
 
 std::string cut_words(const ShadowFindings& truth) {
@@ -79,8 +82,12 @@ nlohmann::json to_json(const ShadowStats& shadows) {
                      {"lost_outside", truth->lost_outside},
                      {"leaks", truth->all.leaks()},
                      {"false_shadows", truth->all.false_shadows()},
+                     {"bleeding", truth->all.bleeding()},
                      {"leaks_away", truth->away.leaks()},
-                     {"false_shadows_away", truth->away.false_shadows()}};
+                     {"false_shadows_away", truth->away.false_shadows()},
+                     {"stopped_beyond", truth->stopped_beyond()},
+                     {"leaks_beyond", truth->beyond.leaks()},
+                     {"false_shadows_beyond", truth->beyond.false_shadows()}};
   return json;
 }
 

@@ -25,9 +25,11 @@ struct ShadowLight {
   double arriving = 0.0;  ///< that no ray stops
   double stopped = 0.0;   ///< that rays stop
   double leaked = 0.0;    ///< of the stopped, what the filter lets through
+  double bled = 0.0;      ///< of the leaked, what is more than the filter's taps would leave if each compared depths
   double lost = 0.0;      ///< of the arriving, what the filter stops: false shadows
 
   [[nodiscard]] double leaks() const { return stopped > 0.0 ? leaked / stopped : 0.0; }
+  [[nodiscard]] double bleeding() const { return stopped > 0.0 ? bled / stopped : 0.0; }
   [[nodiscard]] double false_shadows() const { return arriving > 0.0 ? lost / arriving : 0.0; }
 };
 
@@ -44,7 +46,11 @@ struct ShadowFindings {
   std::uint64_t outside = 0;       ///< of the dark, outside the light's mesh
   std::uint64_t lost_outside = 0;  ///< outside the mesh although the look-up lights them: a fault
   ShadowLight all;
-  ShadowLight away;  ///< of the pairs away from edges
+  ShadowLight away;    ///< of the pairs away from edges
+  ShadowLight beyond;  ///< of the pairs beyond the filter's reach: all texels with a say are as dark or lit as the ray
+
+  /// Part of the stopped light that is beyond the filter's reach, 0 .. 1.
+  [[nodiscard]] double stopped_beyond() const { return all.stopped > 0.0 ? beyond.stopped / all.stopped : 0.0; }
 };
 
 /// Told what is done now, and how much of that, 0 .. 1.

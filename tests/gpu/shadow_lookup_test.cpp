@@ -76,7 +76,7 @@ std::vector<glm::vec4> some_moments(ShadowFilter filter, Random& random) {
     const float deviation = random.in(0.0F, 0.05F);
     if (filter == ShadowFilter::evsm) {
       const float far = std::exp(40.0F * (2.0F * mean - 1.0F));
-      const float near = -std::exp(-10.0F * (2.0F * mean - 1.0F));
+      const float near = -std::exp(-5.0F * (2.0F * mean - 1.0F));
       moments[i] = {far, far * far * (1.0F + deviation), near, near * near * (1.0F + deviation)};
     } else {
       moments[i] = {mean, mean * mean + deviation * deviation, 0.0F, 0.0F};
@@ -170,9 +170,9 @@ class Reference {
     const glm::dvec4 m = moments_at(map, place);
     const double x = 2.0 * unit_depth(map, double{place.w}) - 1.0;
     const double far = std::exp(40.0 * x);
-    const double near = -std::exp(-10.0 * x);
+    const double near = -std::exp(-5.0 * x);
     return std::min(chebyshev(m.x, m.y, far, std::pow(0.08 * far, 2.0)),
-                    chebyshev(m.z, m.w, near, std::pow(0.02 * near, 2.0)));
+                    chebyshev(m.z, m.w, near, std::pow(0.01 * near, 2.0)));
   }
   [[nodiscard]] double is_lit(const ShadowMap& map, const ShadowPlace& place, const glm::dvec2& at) const {
     return double{depths_[texel(map, place.square, at)]} <= double{map.near_m} * 1.0005 / double{place.w} ? 1.0 : 0.0;

@@ -9,13 +9,12 @@
 #include "shadow/parts/offset.glsl"
 #include "shadow/parts/taps.glsl"
 
-// `light`: its index among the frame's. `position`: world, m. `normal`: unit, on the side that is lit. `seed` turns the
-// taps of pcf: a number of the pixel in pictures, a hash of the position elsewhere.
-float shadow_of(uint light, vec3 position, vec3 normal, uint seed) {
-  if (shadow_maps[light].kind == SHADOW_NONE) return 1.0;
+// Where a point is looked up: moved along its normal, so that its surface casts no shadow on itself. Its w is not > 0 where
+// the light's map does not show it.
+ShadowPlace shadow_moved_place(uint light, vec3 position, vec3 normal) {
   precise const vec3 rel = position - shadow_maps[light].position;
-  ShadowPlace place = shadow_place(light, rel);
-  if (!(place.w > 0.0)) return 1.0;
+  const ShadowPlace place = shadow_place(light, rel);
+  if (!(place.w > 0.0)) return place;
   float taps = 0.0;
   if (SHADOW_FILTER == SHADOW_PCF) taps = shadow_pcf_radius(light);
   // Of a blur the middle counts: on a plane its taps are as much before as behind.
@@ -23,7 +22,14 @@ float shadow_of(uint light, vec3 position, vec3 normal, uint seed) {
   const float offset = shadow_normal_offset(light, place, rel, normal, taps);
   precise const vec3 moved = vec3(LAMP_FMA(normal.x, offset, rel.x), LAMP_FMA(normal.y, offset, rel.y),
                                   LAMP_FMA(normal.z, offset, rel.z));
-  place = shadow_place(light, moved);
+  return shadow_place(light, moved);
+}
+
+// `light`: its index among the frame's. `position`: world, m. `normal`: unit, on the side that is lit. `seed` turns the
+// taps of pcf: a number of the pixel in pictures, a hash of the position elsewhere.
+float shadow_of(uint light, vec3 position, vec3 normal, uint seed) {
+  if (shadow_maps[light].kind == SHADOW_NONE) return 1.0;
+  const ShadowPlace place = shadow_moved_place(light, position, normal);
   if (!(place.w > 0.0)) return 1.0;
   if (SHADOW_FILTER == SHADOW_PCF) return shadow_pcf(light, place, seed);
   if (SHADOW_FILTER == SHADOW_VSM) return shadow_vsm(light, place);

@@ -1,6 +1,5 @@
 // A pass of the separable Gaussian of nine taps over the squares that were drawn, each by itself: a work group takes a
 // block of a square, 16 lines of up to 64 texels, with what their taps reach beside them in shared memory.
-// Based on: Adventures in Deferred Rendering: Tiled Deferred Shading and Compute Shaders: weights, taps three texels apart.
 // Promise: no texel of another square is read: taps end at the edge of a square, or fold across that of an octahedron.
 // Needs: BLUR_ALONG_X (bool), vec4 blur_source(uint light, ivec2 texel of the atlas), BLUR_FORMAT.
 // SPDX-License-Identifier: Apache-2.0
@@ -23,8 +22,6 @@ const int LINES = int(LEAST_SQUARE);  // of a block; 16 threads each, in either 
 const int MOST_WIDTH = 64;
 const int REACH = 12;  // texels, of the farthest tap
 const int MOST_WIDE = MOST_WIDTH + 2 * REACH;
-const float WEIGHTS[9] = float[](0.0162162162, 0.0540540541, 0.1216216216, 0.1945945946, 0.2270270270, 0.1945945946,
-                                 0.1216216216, 0.0540540541, 0.0162162162);
 shared vec4 s_texels[LINES * MOST_WIDE];
 
 ivec2 texel_at(int along, int across) { return BLUR_ALONG_X ? ivec2(along, across) : ivec2(across, along); }
@@ -51,7 +48,7 @@ void main() {
   for (int along = thread.x; along < width; along += 16) {
     vec4 sum = vec4(0.0);
     for (int tap = 0; tap < 9; ++tap) {
-      precise const vec4 added = s_texels[place_of(REACH + along + (tap - 4) * step, thread.y)] * WEIGHTS[tap];
+      precise const vec4 added = s_texels[place_of(REACH + along + (tap - 4) * step, thread.y)] * BLUR_WEIGHTS[tap];
       sum += added;
     }
     const ivec2 texel = texel_at(first_along + along, first_across + thread.y);

@@ -9,7 +9,9 @@
 
 // exp(2 * 40) is the largest square that a float holds with room for sums.
 LAMP_CONST_FLOAT EVSM_FAR = 40.0;   // exponent of the warp that keeps what lies behind apart
-LAMP_CONST_FLOAT EVSM_NEAR = 10.0;  // and of the one that keeps what lies before apart
+// And of the one that keeps what lies before apart. A larger one counts casters behind the nearest as lit, and darkens
+// surfaces that slant: in docs/methods/shadow-filters.md's corridor and atrium 20 .. 40 leak more and err more, 2 leaks more.
+LAMP_CONST_FLOAT EVSM_NEAR = 5.0;
 // Of depths 0 .. 1: below it a float's square has no digits left.
 LAMP_CONST_FLOAT VSM_LEAST_VARIANCE = 4e-7;
 // Of warped depths, relative: the same, and a curved warp over a flat surface.
