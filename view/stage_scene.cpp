@@ -14,8 +14,8 @@ namespace lamp::app {
 namespace {
 
 std::string shadows_key(const Request& r) {
-  return fmt::format("{} {} {} {} {} {}", r.shadows, r.point_shadows, r.shadow_raster, r.shadow_lights, r.shadow_budget,
-                     r.atlas);
+  return fmt::format("{} {} {} {} {} {} {}", r.shadows, r.point_shadows, r.shadow_raster, r.shadow_blur,
+                     r.shadow_lights, r.shadow_budget, r.atlas);
 }
 
 /// What probes and mirrors of a renderer follow from.

@@ -82,7 +82,9 @@ Group base_of(const Series& series, const Limits& limits) {
             .depth_samples = series.depth_samples,
             .stereo_m = series.stereo_m,
             .shadows = series.shadows,
+            .point_shadows = series.point_shadows,
             .shadow_raster = series.shadow_raster,
+            .shadow_blur = series.shadow_blur,
             .atlas = series.atlas,
             .mirror = series.mirror,
             .mirror_lists = series.mirror_lists,
@@ -100,7 +102,9 @@ Group base_of(const Series& series, const Limits& limits) {
           .depth_samples = series.depth_samples,
           .stereo_m = series.stereo_m,
           .shadows = series.shadows,
+          .point_shadows = series.point_shadows,
           .shadow_raster = series.shadow_raster,
+          .shadow_blur = series.shadow_blur,
           .atlas = series.atlas,
           .mirror = series.mirror,
           .mirror_lists = series.mirror_lists,
@@ -192,7 +196,9 @@ std::string depth_words(const Group& group) {
 /// Likewise.
 std::string shadow_words(const Group& group) {
   return (group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas)) +
+         (group.point_shadows == "faces" ? "" : fmt::format(" point_shadows={}", group.point_shadows)) +
          (group.shadow_raster == "auto" ? "" : fmt::format(" shadow_raster={}", group.shadow_raster)) +
+         (group.shadow_blur == "fused" ? "" : fmt::format(" shadow_blur={}", group.shadow_blur)) +
          (group.mirror == 0.0 ? "" : fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists));
 }
 

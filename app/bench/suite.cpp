@@ -178,7 +178,9 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("depth_samples", series.depth_samples, 1, 8);
   object.read("stereo", series.stereo_m, 0.0, 1000.0);
   object.read("shadows", series.shadows);
+  object.read("point_shadows", series.point_shadows);
   object.read("shadow_raster", series.shadow_raster);
+  object.read("shadow_blur", series.shadow_blur);
   object.read("atlas", series.atlas, 16, 32768);
   object.read("mirror", series.mirror, 0.0, 1.0);
   object.read("mirror_lists", series.mirror_lists);

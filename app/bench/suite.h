@@ -73,7 +73,9 @@ struct Series {
   std::uint32_t depth_samples = 1;           ///< a pixel, of the depth that lights are culled with
   double stereo_m = 0.0;                     ///< between two eyes, each with half of the size's width; 0: one eye
   std::string shadows = "off";               ///< or a filter
+  std::string point_shadows = "faces";       ///< or "octahedron"
   std::string shadow_raster = "auto";        ///< what draws shadow maps
+  std::string shadow_blur = "fused";         ///< how vsm and evsm are blurred
   std::uint32_t atlas = 4096;                ///< of shadow maps, texels a side
   double mirror = 0.0;                       ///< as `--mirror`
   std::string mirror_lists = "world-cells";  ///< as `--mirror-lists`

@@ -127,6 +127,7 @@ Words values_of(const Typed& typed, const std::string& name) {
   if (name == "--mirror-lists") return copied(mirror_list_names());
   if (name == "--point-shadows") return copied(point_shadow_names());
   if (name == "--shadow-raster") return copied(shadow_raster_names());
+  if (name == "--shadow-blur") return copied(shadow_blur_names());
   if (name == "--depth") return copied(depth_names());
   if (name == "--depth-samples") return {"1", "2", "4", "8"};
   if (name == "--verifier") return copied(verifier_names());

@@ -55,6 +55,7 @@ struct Request {
   std::string shadows = "off";               ///< filter
   std::string point_shadows = "faces";       ///< or octahedron
   std::string shadow_raster = "auto";        ///< what draws maps
+  std::string shadow_blur = "fused";         ///< how moments are blurred
   std::string shadow_lights = "all";         ///< how many of the first lights
   std::string shadow_budget = "all";         ///< texels drawn in a frame
   std::uint32_t atlas = 4096;                ///< texels a side
@@ -194,6 +195,7 @@ void check_probes_show(const Request& request);
 [[nodiscard]] std::span<const std::string_view> shadow_names();
 [[nodiscard]] std::span<const std::string_view> point_shadow_names();
 [[nodiscard]] std::span<const std::string_view> shadow_raster_names();
+[[nodiscard]] std::span<const std::string_view> shadow_blur_names();
 /// Where instances move: puts the setup's where they are in its frame.
 void move_instances(const Request& request, Setup& setup);
 /// Of `--mirror`; nothing where no surface mirrors. Throws Error for what it does not go with.

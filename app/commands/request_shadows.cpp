@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 5> FILTERS{"off", "hard", "pcf", "vsm",
                                                   "evsm"};                         // then in the order of ShadowFilter
 constexpr std::array<std::string_view, 2> POINTS{"faces", "octahedron"};           // in the order of PointShadows
 constexpr std::array<std::string_view, 3> RASTERS{"auto", "hardware", "compute"};  // in the order of ShadowRaster
+constexpr std::array<std::string_view, 3> BLURS{"fused", "lines", "listing"};      // in the order of ShadowBlur
 
 /// A whole number, or all.
 template <class Number>
@@ -36,11 +37,23 @@ std::size_t parse_name(const char* option, const std::string& text, std::span<co
   return static_cast<std::size_t>(found - names.begin());
 }
 
+/// Bounds reckon with where taps lie.
+void check_cuts(const Request& request, const ShadowSettings& settings) {
+  if (settings.blur != ShadowBlur::listing || !ShadowMoments::has(settings.filter)) return;
+  for (const std::string_view cut : {"occlusion=radial", "proxy=cut"})
+    if (std::ranges::find(request.options, cut) != request.options.end())
+      throw Error(
+          fmt::format("--option {}: the taps of --shadow-blur listing lie anywhere, so that nothing can be cut; "
+                      "expected --shadow-blur fused or lines",
+                      cut));
+}
+
 }  // namespace
 
 std::span<const std::string_view> shadow_names() { return FILTERS; }
 std::span<const std::string_view> point_shadow_names() { return POINTS; }
 std::span<const std::string_view> shadow_raster_names() { return RASTERS; }
+std::span<const std::string_view> shadow_blur_names() { return BLURS; }
 
 std::string_view shadow_filter_name(ShadowFilter filter) { return FILTERS[static_cast<std::size_t>(filter) + 1]; }
 
@@ -50,10 +63,12 @@ std::optional<ShadowSettings> requested_shadows(const Request& request) {
       .filter = filter == 0 ? ShadowFilter::hard : static_cast<ShadowFilter>(filter - 1),
       .points = static_cast<PointShadows>(parse_name("--point-shadows", request.point_shadows, POINTS)),
       .raster = static_cast<ShadowRaster>(parse_name("--shadow-raster", request.shadow_raster, RASTERS)),
+      .blur = static_cast<ShadowBlur>(parse_name("--shadow-blur", request.shadow_blur, BLURS)),
       .atlas_size = request.atlas,
       .lights = parse_count("--shadow-lights", request.shadow_lights, ~0U),
       .budget_texels = parse_count("--shadow-budget", request.shadow_budget, ALL_TEXELS)};
   if (filter == 0) return std::nullopt;
+  check_cuts(request, settings);
   return settings;
 }
 
@@ -86,6 +101,13 @@ void add_shadow_options(CLI::App& command, Request& r) {
           "--shadow-raster", r.shadow_raster,
           "what draws shadow maps: the GPU's rasterizer (hardware) or compute shaders (compute); auto takes compute, "
           "but not on Mesa's llvmpipe")
+      ->type_name("NAME")
+      ->group("Shadows")
+      ->capture_default_str();
+  command
+      .add_option("--shadow-blur", r.shadow_blur,
+                  "how vsm and evsm are blurred: both directions in one pass (fused), a pass for each (lines), or by "
+                  "the indices of the article's listing, which mix lines (listing)")
       ->type_name("NAME")
       ->group("Shadows")
       ->capture_default_str();

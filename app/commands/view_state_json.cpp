@@ -49,6 +49,7 @@ void for_each_field(Fields&& at, State& s) {
   at.text("shadows", r.shadows);
   at.text("point_shadows", r.point_shadows);
   at.text("shadow_raster", r.shadow_raster);
+  at.text("shadow_blur", r.shadow_blur);
   at.text("shadow_lights", r.shadow_lights);
   at.text("shadow_budget", r.shadow_budget);
   at.whole("atlas", r.atlas, 1, 32768);

@@ -13,11 +13,23 @@
 namespace lamp::app {
 namespace {
 
-// Texels that a work group blurs (blur_main.glsl).
-constexpr std::uint32_t BLOCK_LINES = shared::LEAST_SQUARE;
-constexpr std::uint32_t MOST_BLOCK_WIDTH = 64;
-constexpr std::uint32_t LEAST_BLOCK_TEXELS = BLOCK_LINES * shared::LEAST_SQUARE;
+/// Texels that a work group blurs, at most (blur_fused.glsl, blur_lines.glsl).
+glm::uvec2 most_of_group(ShadowBlur blur) {
+  if (blur == ShadowBlur::fused) return {32, 32};
+  if (blur == ShadowBlur::lines) return {64, shared::LEAST_SQUARE};
+  return {shared::LEAST_SQUARE, shared::LEAST_SQUARE};
+}
+
+/// Of a square of that side.
+std::uint32_t groups_of(std::uint32_t side, ShadowBlur blur) {
+  const glm::uvec2 texels = glm::min(most_of_group(blur), glm::uvec2(side));
+  return side * side / (texels.x * texels.y);
+}
+
+constexpr std::uint64_t LEAST_GROUP_TEXELS = std::uint64_t{shared::LEAST_SQUARE} * shared::LEAST_SQUARE;
 constexpr std::uint32_t MOST_GROUPS_X = 32768;
+constexpr std::uint32_t BINDING_DEPTHS = 1;
+constexpr std::uint32_t BINDING_BETWEEN = 2;
 constexpr std::uint32_t BINDING_BLOCKS = 3;
 constexpr std::uint32_t BINDING_BLURRED = 4;
 
@@ -34,8 +46,9 @@ void check_storage(const Context& context, VkFormat format) {
 
 }  // namespace
 
-ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shaders, ShadowFilter filter,
-                             std::uint32_t atlas_size, std::uint64_t most_texels) {
+ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shaders, ShadowFilter filter, ShadowBlur blur,
+                             std::uint32_t atlas_size)
+    : blur_(blur) {
   const bool exponential = filter == ShadowFilter::evsm;
   const VkFormat format = exponential ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_SFLOAT;
   check_storage(context, format);
@@ -48,33 +61,40 @@ ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shader
                  .format = format,
                  .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
   };
-  first_ = make("shadow moments, blurred along x");
-  second_ = make("shadow moments");
+  blurred_ = make("shadow moments");
   blocks_ = take(vulkan::Buffer::create(
-      device, {.name = "shadow blocks",
-               .bytes = std::max<std::uint64_t>(1, most_texels / LEAST_BLOCK_TEXELS) * sizeof(Block),
-               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               .memory = vulkan::MemoryUse::records}));
-  const auto pipeline = [&](const char* name, std::uint32_t source, const char* shader) {
-    return take(vulkan::Pipeline::compute(device,
-                                          {.name = name,
-                                           .constants = {{0, static_cast<std::uint32_t>(filter)}},
-                                           .bindings = {{0},
-                                                        {source, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-                                                        {BINDING_BLOCKS},
-                                                        {BINDING_BLURRED, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}},
-                                           .push_constant_bytes = sizeof(std::uint32_t)},
-                                          shaders.spirv(shader)));
+      device,
+      {.name = "shadow blocks",
+       .bytes = std::max<std::uint64_t>(1, std::uint64_t{atlas_size} * atlas_size / LEAST_GROUP_TEXELS) * sizeof(Block),
+       .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+       .memory = vulkan::MemoryUse::records}));
+  const auto add_pass = [&](const char* name, std::uint32_t source, const char* shader) {
+    std::vector<vulkan::Constant> constants{{0, static_cast<std::uint32_t>(filter)}};
+    if (blur != ShadowBlur::fused) constants.push_back({1, blur == ShadowBlur::listing ? 1U : 0U});
+    passes_.push_back(take(vulkan::Pipeline::compute(device,
+                                                     {.name = name,
+                                                      .constants = std::move(constants),
+                                                      .bindings = {{0},
+                                                                   {source, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+                                                                   {BINDING_BLOCKS},
+                                                                   {BINDING_BLURRED, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}},
+                                                      .push_constant_bytes = sizeof(std::uint32_t)},
+                                                     shaders.spirv(shader))));
   };
-  along_x_ = pipeline("shadow blur along x", 1, exponential ? "shadow/blur_evsm_x" : "shadow/blur_vsm_x");
-  along_y_ = pipeline("shadow blur along y", 2, exponential ? "shadow/blur_evsm_y" : "shadow/blur_vsm_y");
+  if (blur == ShadowBlur::fused) {
+    add_pass("shadow blur", BINDING_DEPTHS, exponential ? "shadow/blur_evsm" : "shadow/blur_vsm");
+    return;
+  }
+  between_ = make("shadow moments, blurred along x");
+  add_pass("shadow blur along x", BINDING_DEPTHS, exponential ? "shadow/blur_evsm_x" : "shadow/blur_vsm_x");
+  add_pass("shadow blur along y", BINDING_BETWEEN, exponential ? "shadow/blur_evsm_y" : "shadow/blur_vsm_y");
 }
 
 void ShadowMoments::set(std::span<const shared::ShadowMap> maps, std::span<const ShadowRedraw> redraws) {
   std::vector<Block> blocks;
   for (const ShadowRedraw& redraw : redraws) {
     const shared::ShadowMap& map = maps[redraw.light];
-    const std::uint32_t of_square = map.side * map.side / (BLOCK_LINES * std::min(map.side, MOST_BLOCK_WIDTH));
+    const std::uint32_t of_square = squares_of(map) == 0 ? 0 : groups_of(map.side, blur_);
     for (std::uint32_t square = 0; square < squares_of(map); ++square)
       for (std::uint32_t i = 0; i < of_square; ++i)
         blocks.push_back({.light = redraw.light, .square = square, .block = i});
@@ -103,8 +123,15 @@ void ShadowMoments::record_pass(vulkan::Recorder& recorder, const vulkan::Pipeli
 
 void ShadowMoments::record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) const {
   if (block_count_ == 0) return;
-  record_pass(recorder, along_x_, {{0, maps}, {1, atlas.sampled()}, {BINDING_BLURRED, first_.storage()}});
-  record_pass(recorder, along_y_, {{0, maps}, {2, first_.sampled()}, {BINDING_BLURRED, second_.storage()}});
+  const bool fused = blur_ == ShadowBlur::fused;
+  recorder.begin_pass("shadow blur", {});
+  record_pass(
+      recorder, passes_.front(),
+      {{0, maps}, {BINDING_DEPTHS, atlas.sampled()}, {BINDING_BLURRED, (fused ? blurred_ : between_).storage()}});
+  if (!fused)
+    record_pass(recorder, passes_.back(),
+                {{0, maps}, {BINDING_BETWEEN, between_.sampled()}, {BINDING_BLURRED, blurred_.storage()}});
+  recorder.end_pass();
 }
 
 }  // namespace lamp::app

@@ -1,5 +1,5 @@
-// Moments of shadow maps for vsm and evsm: two images as large as the atlas, and the two passes that blur what was
-// drawn. SPDX-License-Identifier: Apache-2.0
+// Moments of shadow maps for vsm and evsm: an image as large as the atlas, and the passes that blur what was drawn.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -11,11 +11,15 @@
 
 namespace lamp::app {
 
+/// How moments are blurred. fused: both directions in one pass. lines: a pass for each, with another image as large
+/// between them. listing: as lines, but by the indices of the OpenGL article's listing, which mix lines.
+enum class ShadowBlur : std::uint8_t { fused, lines, listing };
+
 class ShadowMoments {
  public:
   /// Throws Error for a device that cannot store such images. Of filters that have moments.
-  ShadowMoments(const Context& context, const ShaderLibrary& shaders, ShadowFilter filter, std::uint32_t atlas_size,
-                std::uint64_t most_texels);
+  ShadowMoments(const Context& context, const ShaderLibrary& shaders, ShadowFilter filter, ShadowBlur blur,
+                std::uint32_t atlas_size);
 
   /// Whether a filter reads moments.
   [[nodiscard]] static bool has(ShadowFilter filter) {
@@ -26,7 +30,7 @@ class ShadowMoments {
   /// `maps`: the buffer of all maps; `atlas`: depths.
   void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) const;
 
-  [[nodiscard]] const GpuImage& image() const { return second_; }
+  [[nodiscard]] const GpuImage& image() const { return blurred_; }
 
  private:
   void record_pass(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline,
@@ -37,11 +41,11 @@ class ShadowMoments {
     std::uint32_t square = 0;
     std::uint32_t block = 0;
   };
-  GpuImage first_;
-  GpuImage second_;
+  ShadowBlur blur_;
+  GpuImage between_;  ///< blurred along x; none if both directions are one pass
+  GpuImage blurred_;
   vulkan::Buffer blocks_;
-  vulkan::Pipeline along_x_;
-  vulkan::Pipeline along_y_;
+  std::vector<vulkan::Pipeline> passes_;
   std::uint32_t block_count_ = 0;
 };
 

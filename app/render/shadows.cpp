@@ -71,8 +71,7 @@ Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene&
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                   .memory = vulkan::MemoryUse::upload}));
   if (ShadowMoments::has(settings.filter))
-    moments_.emplace(context, shaders, settings.filter, settings.atlas_size,
-                     std::uint64_t{settings.atlas_size} * settings.atlas_size);
+    moments_.emplace(context, shaders, settings.filter, settings.blur, settings.atlas_size);
 }
 
 void Shadows::restart() {
@@ -103,8 +102,7 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
       redrawn_squares_.push_back(square_at(maps_[redraw.light], i));
   if (moments_) moments_->set(maps_, frame.redraws);
   lights_.assign(lights.begin(), lights.end());
-  for (std::optional<ShadowReach>& reach : reaches_)
-    if (reach) reach->set(maps_, lights, frame.redraws);
+  set_reaches(frame.redraws);
   const std::span<std::byte> to = staging_.mapped();
   if (!maps_.empty()) std::memcpy(to.data(), maps_.data(), maps_.size() * sizeof(shared::ShadowMap));
   if (view_count_ != 0)
@@ -120,15 +118,21 @@ void Shadows::record(vulkan::Recorder& recorder) {
                               .view_count = view_count_,
                               .maps = maps,
                               .squares = redrawn_squares_});
-  if (moments_) moments_->record(recorder, maps, atlas());
   recorder.end_pass();
+  if (moments_) moments_->record(recorder, maps, atlas());
 }
 
 void Shadows::need(ShadowReach::Kind kind) {
   std::optional<ShadowReach>& reach = reaches_[static_cast<std::size_t>(kind)];
   if (reach) return;
   reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_);
-  reach->set(maps_, lights_, {});
+  set_reaches({});
+}
+
+void Shadows::set_reaches(std::span<const ShadowRedraw> redraws) {
+  if (settings_.blur == ShadowBlur::listing && moments_) return;
+  for (std::optional<ShadowReach>& reach : reaches_)
+    if (reach) reach->set(maps_, lights_, redraws);
 }
 
 void Shadows::record_reach(vulkan::Recorder& recorder) {

@@ -28,6 +28,7 @@ struct ShadowSettings {
   ShadowFilter filter = ShadowFilter::pcf;
   PointShadows points = PointShadows::faces;
   ShadowRaster raster = ShadowRaster::automatic;
+  ShadowBlur blur = ShadowBlur::fused;       ///< of vsm and evsm
   std::uint32_t raster_items = 1U << 22;     ///< in compute: room for blocks of large triangles, 8 bytes each
   std::uint32_t atlas_size = 4096;           ///< texels
   std::uint32_t lights = ~0U;                ///< so many of the first have shadows, at most
@@ -84,7 +85,8 @@ class Shadows {
   [[nodiscard]] const ShadowMoments* moments() const { return moments_ ? &*moments_ : nullptr; }
   [[nodiscard]] ShadowBound bound() const;
 
-  /// Bounds of what lights light take memory and time, so each kind is made from the first call on.
+  /// Bounds of what lights light take memory and time, so each kind is made from the first call on. With
+  /// ShadowBlur::listing they cut nothing: its taps lie anywhere.
   void need(ShadowReach::Kind kind);
   /// Draws the maps, too, if they are not up to date.
   void record_reach(vulkan::Recorder& recorder);
@@ -93,6 +95,7 @@ class Shadows {
 
  private:
   void record_uploads(vulkan::Recorder& recorder);
+  void set_reaches(std::span<const ShadowRedraw> redraws);
 
   ShadowSettings settings_;
   const vulkan::Device& device_;

@@ -1,7 +1,11 @@
 // Moments of shadow maps against a blur on the CPU of the same depths, square by square.
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 #include "gpu/dispatch.h"
 #include "gpu/test_scenes.h"
@@ -35,6 +39,11 @@ class CpuBlur {
         map_(map),
         corner_(glm::ivec2(map.squares[square] & 0xffffU, map.squares[square] >> 16U) * 16) {}
 
+  static double weight(int tap) {
+    constexpr std::array WEIGHTS{0.0162162162, 0.0540540541, 0.1216216216, 0.1945945946, 0.2270270270,
+                                 0.1945945946, 0.1216216216, 0.0540540541, 0.0162162162};
+    return WEIGHTS[static_cast<std::size_t>(tap) + 4];
+  }
   [[nodiscard]] glm::dvec2 at(const glm::ivec2& texel) const {
     const int step = map_.side >= 64 ? 3 : map_.side >= 32 ? 1 : 0;
     glm::dvec2 sum(0.0);
@@ -47,12 +56,17 @@ class CpuBlur {
     return sum;
   }
 
- private:
-  static double weight(int tap) {
-    constexpr std::array WEIGHTS{0.0162162162, 0.0540540541, 0.1216216216, 0.1945945946, 0.2270270270,
-                                 0.1945945946, 0.1216216216, 0.0540540541, 0.0162162162};
-    return WEIGHTS[static_cast<std::size_t>(tap) + 4];
+  /// Of one texel.
+  [[nodiscard]] glm::dvec2 moments(const glm::ivec2& texel) const {
+    const glm::ivec2 at = corner_ + texel;
+    const double stored = depths_[static_cast<std::size_t>(at.y) * ATLAS + static_cast<std::size_t>(at.x)];
+    const double longest = double{map_.range_m} * (map_.kind == shared::SHADOW_OCTAHEDRON ? std::sqrt(3.0) : 1.0);
+    const double w = stored > 0.0 ? double{map_.near_m} / stored : 1e30;
+    const double unit = std::isfinite(map_.range_m) ? std::min(w / longest, 1.0) : stored > 0.0 ? w / (w + 10.0) : 1.0;
+    return {unit, unit * unit};
   }
+
+ private:
   /// Beyond the upper and lower edges of an octahedron lines run the other way.
   [[nodiscard]] int turn(int y) const {
     const int side = static_cast<int>(map_.side);
@@ -66,62 +80,125 @@ class CpuBlur {
     }
     return glm::clamp(t, glm::ivec2(0), glm::ivec2(side - 1));
   }
-  [[nodiscard]] glm::dvec2 moments(const glm::ivec2& texel) const {
-    const glm::ivec2 at = corner_ + texel;
-    const double stored = depths_[static_cast<std::size_t>(at.y) * ATLAS + static_cast<std::size_t>(at.x)];
-    const double longest = double{map_.range_m} * (map_.kind == shared::SHADOW_OCTAHEDRON ? std::sqrt(3.0) : 1.0);
-    const double w = stored > 0.0 ? double{map_.near_m} / stored : 1e30;
-    const double unit = std::isfinite(map_.range_m) ? std::min(w / longest, 1.0) : stored > 0.0 ? w / (w + 10.0) : 1.0;
-    return {unit, unit * unit};
-  }
-
   const std::vector<float>& depths_;
   const ShadowMap& map_;
   glm::ivec2 corner_;
 };
 
-class ShadowBlur : public GpuTest, public ::testing::WithParamInterface<PointShadows> {};
+/// The blur of one square by the article's indices: a line of 256 texels is a block of 16 x 16.
+class CpuListing {
+ public:
+  CpuListing(const CpuBlur& blur, int side) : side_(side), step_(side >= 64 ? 3 : side >= 32 ? 1 : 0) {
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) texels_.push_back(blur.moments({x, y}));
+    pass({1, 0});
+    pass({0, 1});
+  }
+  [[nodiscard]] glm::dvec2 at(const glm::ivec2& t) const { return texels_[number_of(t)]; }
 
-TEST_P(ShadowBlur, AreTheBlurOfTheirOwnSquare) {
-  const TestScene& scene = builtin_test_scene("corridor");
-  const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
-  const std::vector<shared::Light> lights = pack(std::vector<Light>{
-      {.position = {4.0F, 1.5F, 0.3F}, .range = 6.0F},
-      {.position = {8.0F, 2.5F, -0.3F}, .range = 3.0F},
-      {.position = {5.0F, 2.0F, 0.0F}},
-      {.position = {30.0F, 1.5F, 0.0F}, .range = 1.0F},
-      {.type = LightType::spot, .position = {6.0F, 2.5F, 0.0F}, .range = 5.0F, .direction = {0.5F, -1.0F, 0.0F}}});
-  Shadows shadows(test_context(), shader_library(), scene.gpu,
-                  {.filter = ShadowFilter::vsm, .points = GetParam(), .atlas_size = ATLAS},
-                  static_cast<std::uint32_t>(lights.size()));
-  vulkan::AccessTracker tracker;
-  shadows.schedule({&view, 1}, lights);
-  ASSERT_GE(shadows.counts().shadowed, 4U);
-  test_context().submit([&](VkCommandBuffer commands) {
-    vulkan::Recorder recorder(test_context().device(), commands, tracker);
-    shadows.record(recorder);
-  });
-  const std::vector<float> depths = read_image<float>(shadows.atlas(), tracker);
-  const std::vector<glm::vec2> moments = read_image<glm::vec2>(shadows.moments()->image(), tracker);
-  for (const ShadowMap& map : shadows.maps())
-    for (std::uint32_t i = 0; map.kind != shared::SHADOW_NONE && i < (map.kind == shared::SHADOW_FACES ? 6U : 1U);
-         ++i) {
-      const CpuBlur blur(depths, map, i);
-      const glm::ivec2 corner = glm::ivec2(map.squares[i] & 0xffffU, map.squares[i] >> 16U) * 16;
-      for (int y = 0; y < static_cast<int>(map.side); y += y < 16 ? 1 : 13)
-        for (int x = 0; x < static_cast<int>(map.side); x += x < 16 ? 3 : 11) {
-          const glm::dvec2 expected = blur.at({x, y});
-          const glm::dvec2 found(
-              moments[static_cast<std::size_t>(corner.y + y) * ATLAS + static_cast<std::size_t>(corner.x + x)]);
-          ASSERT_NEAR(found.x, expected.x, 2e-6 * expected.x)
-              << map.side << ", square " << i << " at " << x << ", " << y;
-          ASSERT_NEAR(found.y, expected.y, 4e-6 * expected.y);
+ private:
+  [[nodiscard]] std::size_t number_of(const glm::ivec2& texel) const {
+    const glm::ivec2 t = glm::clamp(texel, glm::ivec2(0), glm::ivec2(side_ - 1));
+    return static_cast<std::size_t>(t.y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(t.x);
+  }
+  void pass(const glm::ivec2& along) {
+    std::vector<glm::dvec2> blurred;
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x) {
+        const glm::ivec2 first = glm::ivec2(x, y) / 16 * 16;
+        glm::dvec2 sum(0.0);
+        for (int tap = 0; tap < 9; ++tap) {
+          const int entry = y % 16 * 16 + x % 16 + tap * step_;  // of the line
+          const glm::ivec2 behind = entry < 256 ? glm::ivec2(0) : 256 * along;
+          const glm::ivec2 start = glm::ivec2(entry % 16, entry % 256 / 16) - 4 * step_ * along;
+          sum += CpuBlur::weight(tap - 4) * texels_[number_of(first + start + behind)];
         }
-    }
+        blurred.push_back(sum);
+      }
+    texels_ = blurred;
+  }
+
+  int side_;
+  int step_;
+  std::vector<glm::dvec2> texels_;
+};
+
+class BlurOfMoments : public GpuTest {
+ protected:
+  /// Draws and blurs maps of lights with all sizes of squares, and has `check` look at every square.
+  static void blur(const ShadowSettings& settings,
+                   const std::function<void(const CpuBlur& blur, int side,
+                                            const std::function<glm::dvec2(const glm::ivec2&)>& found)>& check) {
+    const TestScene& scene = builtin_test_scene("corridor");
+    const View view = view_of(scene.scene.cameras.front(), 160, 90, "camera");
+    const std::vector<shared::Light> lights = pack(std::vector<Light>{
+        {.position = {4.0F, 1.5F, 0.3F}, .range = 6.0F},
+        {.position = {8.0F, 2.5F, -0.3F}, .range = 3.0F},
+        {.position = {5.0F, 2.0F, 0.0F}},
+        {.position = {30.0F, 1.5F, 0.0F}, .range = 1.0F},
+        {.type = LightType::spot, .position = {6.0F, 2.5F, 0.0F}, .range = 5.0F, .direction = {0.5F, -1.0F, 0.0F}}});
+    Shadows shadows(test_context(), shader_library(), scene.gpu, settings, static_cast<std::uint32_t>(lights.size()));
+    vulkan::AccessTracker tracker;
+    shadows.schedule({&view, 1}, lights);
+    ASSERT_GE(shadows.counts().shadowed, 4U);
+    test_context().submit([&](VkCommandBuffer commands) {
+      vulkan::Recorder recorder(test_context().device(), commands, tracker);
+      shadows.record(recorder);
+    });
+    const std::vector<float> depths = read_image<float>(shadows.atlas(), tracker);
+    const std::vector<glm::vec2> moments = read_image<glm::vec2>(shadows.moments()->image(), tracker);
+    for (const ShadowMap& map : shadows.maps())
+      for (std::uint32_t i = 0; map.kind != shared::SHADOW_NONE && i < (map.kind == shared::SHADOW_FACES ? 6U : 1U);
+           ++i) {
+        SCOPED_TRACE(fmt::format("side {}, square {}", map.side, i));
+        const glm::ivec2 corner = glm::ivec2(map.squares[i] & 0xffffU, map.squares[i] >> 16U) * 16;
+        check(CpuBlur(depths, map, i), static_cast<int>(map.side), [&](const glm::ivec2& t) {
+          const glm::ivec2 at = corner + t;
+          return glm::dvec2(moments[static_cast<std::size_t>(at.y) * ATLAS + static_cast<std::size_t>(at.x)]);
+        });
+      }
+  }
+  static void expect_near(const glm::dvec2& found, const glm::dvec2& expected, const glm::ivec2& at) {
+    ASSERT_NEAR(found.x, expected.x, 2e-6 * expected.x) << at.x << ", " << at.y;
+    ASSERT_NEAR(found.y, expected.y, 4e-6 * expected.y) << at.x << ", " << at.y;
+  }
+};
+
+class SquareBlur : public BlurOfMoments, public ::testing::WithParamInterface<std::tuple<PointShadows, ShadowBlur>> {};
+
+TEST_P(SquareBlur, IsThatOfTheSquareAlone) {
+  blur({.filter = ShadowFilter::vsm,
+        .points = std::get<0>(GetParam()),
+        .blur = std::get<1>(GetParam()),
+        .atlas_size = ATLAS},
+       [&](const CpuBlur& blur, int side, const auto& found) {
+         for (int y = 0; y < side; y += y < 16 ? 1 : 13)
+           for (int x = 0; x < side; x += x < 16 ? 3 : 11) expect_near(found({x, y}), blur.at({x, y}), {x, y});
+       });
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ShadowBlur, ::testing::Values(PointShadows::faces, PointShadows::octahedron),
-                         [](const auto& test) { return test.param == PointShadows::faces ? "faces" : "octahedron"; });
+INSTANTIATE_TEST_SUITE_P(Of, SquareBlur,
+                         ::testing::Combine(::testing::Values(PointShadows::faces, PointShadows::octahedron),
+                                            ::testing::Values(ShadowBlur::fused, ShadowBlur::lines)),
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param) == PointShadows::faces ? "faces" : "octahedron") +
+                                  (std::get<1>(test.param) == ShadowBlur::fused ? "_fused" : "_lines");
+                         });
+
+// What the article's listing does, so that its picture can be shown: lines of a block run into one another.
+TEST_F(BlurOfMoments, ByTheListingMixesLines) {
+  int differ = 0;
+  blur({.filter = ShadowFilter::vsm, .blur = ShadowBlur::listing, .atlas_size = ATLAS},
+       [&](const CpuBlur& blur, int side, const auto& found) {
+         const CpuListing listing(blur, side);
+         for (int y = 0; y < side; y += 3)
+           for (int x = 0; x < side; x += 7) {
+             expect_near(found({x, y}), listing.at({x, y}), {x, y});
+             differ += std::abs(listing.at({x, y}).x - blur.at({x, y}).x) > 0.01 ? 1 : 0;
+           }
+       });
+  EXPECT_GT(differ, 100);
+}
 
 }  // namespace
 }  // namespace lamp::app

@@ -6,6 +6,7 @@
 #define SHADOW_FIRST_BINDING 0
 #define SHADOW_FIRST_CONSTANT 0
 #define BLUR_FORMAT rgba32f
+#define BLUR_VECTOR vec4
 const bool BLUR_ALONG_X = false;
 #include "shadow/parts/blur_source_y.glsl"
-#include "shadow/parts/blur_main.glsl"
+#include "shadow/parts/blur_lines.glsl"
