@@ -1,6 +1,5 @@
 // What all passes that blur moments have in common: the separable Gaussian of nine taps, three texels apart, over the
 // squares that were drawn, each by itself.
-// Based on: Adventures in Deferred Rendering: Tiled Deferred Shading and Compute Shaders: weights, taps three texels apart.
 // Promise: no texel of another square is read: taps end at the edge of a square, or fold across that of an octahedron.
 // Needs: BLUR_FORMAT, BLUR_VECTOR (vec2 or vec4, moments of a texel).
 // SPDX-License-Identifier: Apache-2.0
@@ -22,8 +21,6 @@ layout(set = 0, binding = 4, BLUR_FORMAT) uniform writeonly image2D blurred;
 layout(push_constant) uniform Push { uint block_count; };
 
 const int TAPS = 9;
-const float WEIGHTS[TAPS] = float[](0.0162162162, 0.0540540541, 0.1216216216, 0.1945945946, 0.2270270270, 0.1945945946,
-                                    0.1216216216, 0.0540540541, 0.0162162162);
 const int MOST_REACH = 12;  // texels, to the farthest tap
 
 uint group_number() { return gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x; }

@@ -49,7 +49,7 @@ void blur_along_x(int wide, int step) {
     }
     [[unroll]] for (int k = 0; k < CHUNK; ++k) {
       vec2 sum = vec2(0.0);
-      [[unroll]] for (int tap = 0; tap < TAPS; ++tap) sum = fma(taken[k + tap], vec2(WEIGHTS[tap]), sum);
+      [[unroll]] for (int tap = 0; tap < TAPS; ++tap) sum = fma(taken[k + tap], vec2(BLUR_WEIGHTS[tap]), sum);
       if (begin + k * step < TILE) s_lines[line * LINE_PITCH + begin + k * step] = sum;
     }
   }
@@ -61,7 +61,7 @@ void blur_along_y(int chunk, int column, int step, out vec2 sums[CHUNK]) {
   [[unroll]] for (int k = 0; k < TAKEN; ++k) taken[k] = s_lines[(begin + k * step) * LINE_PITCH + column];
   [[unroll]] for (int k = 0; k < CHUNK; ++k) {
     sums[k] = vec2(0.0);
-    [[unroll]] for (int tap = 0; tap < TAPS; ++tap) sums[k] = fma(taken[k + tap], vec2(WEIGHTS[tap]), sums[k]);
+    [[unroll]] for (int tap = 0; tap < TAPS; ++tap) sums[k] = fma(taken[k + tap], vec2(BLUR_WEIGHTS[tap]), sums[k]);
   }
 }
 

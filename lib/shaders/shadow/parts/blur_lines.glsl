@@ -35,7 +35,7 @@ void blur_block(BlurBlock block, int side) {
   for (int along = thread.x; along < width; along += LINES) {
     BLUR_VECTOR sum = BLUR_VECTOR(0.0);
     [[unroll]] for (int tap = 0; tap < TAPS; ++tap)
-      sum = fma(s_texels[place_of(along + tap * step, thread.y)], BLUR_VECTOR(WEIGHTS[tap]), sum);
+      sum = fma(s_texels[place_of(along + tap * step, thread.y)], BLUR_VECTOR(BLUR_WEIGHTS[tap]), sum);
     blur_store(block, texel_at(first_along + along, first_across + thread.y), sum);
   }
 }
@@ -56,7 +56,7 @@ void blur_by_listing(BlurBlock block, int side) {
   barrier();  // the whole line is there
   BLUR_VECTOR sum = BLUR_VECTOR(0.0);
   [[unroll]] for (int tap = 0; tap < TAPS; ++tap)
-    sum = fma(s_texels[thread + tap * step], BLUR_VECTOR(WEIGHTS[tap]), sum);
+    sum = fma(s_texels[thread + tap * step], BLUR_VECTOR(BLUR_WEIGHTS[tap]), sum);
   blur_store(block, first + ivec2(thread % LINES, thread / LINES), sum);
 }
 
