@@ -8,8 +8,7 @@ namespace lamp::app {
 
 std::vector<std::string> with_box_shapes(const Method& method, std::vector<std::string> settings, bool boxes) {
   const bool has_option = std::ranges::find(method.options, "boxes", &OptionSpec::key) != method.options.end();
-  const auto decides = [](const std::string& s) { return s.starts_with("boxes=") || s == "cells=gather"; };
-  const bool is_set = std::ranges::any_of(settings, decides);  // lamplight's gathered cells have spheres alone
+  const bool is_set = std::ranges::any_of(settings, [](const std::string& s) { return s.starts_with("boxes="); });
   if (boxes && has_option && !is_set) settings.emplace_back("boxes=shape");
   return settings;
 }

@@ -25,8 +25,8 @@ bool radial_cells_are_lit(uint light, RadialCells cells) {
 bool radial_reaches_box(uint light, vec3 low, vec3 high) {
   if (radial_bounds[light].kind == RADIAL_SPOT)
     return radial_cells_are_lit(light, radial_cells_of_spot(radial_bounds[light].scale, low, high));
-  for (uint octant = 0u; octant < 8u; ++octant)
-    if (radial_cells_are_lit(light, radial_cells_of_octant(octant, low, high))) return true;
+  for (uint octants = radial_octants(low, high); octants != 0u; octants &= octants - 1u)
+    if (radial_cells_are_lit(light, radial_cells_of_octant(uint(findLSB(octants)), low, high))) return true;
   return false;
 }
 
@@ -56,8 +56,48 @@ vec2 radial_depths(LightBounds sphere, float z_near, float z_far) {
 
 const uint RADIAL_MOST_PIECES = 8u;
 
-// The box around the part of a tile between its edges (TileSides) and two depths, in the light's space.
-bool radial_reaches_piece(uint light, RadialSpace space, vec4 x_edges, vec4 y_edges, vec2 depths, float slack) {
+// The way between two depths. A long one is cut in pieces of an eighth of the light's range, a cell's width at a third of
+// it: the box around all of it would be wide where the tile is not.
+struct RadialPieces {
+  RadialSpace space;
+  float slack;  // m
+  vec2 depths;
+  float step;
+  uint count;
+};
+
+bool radial_cuts_nothing(uint light) {
+  return light >= uint(radial_bounds.length()) || radial_bounds[light].kind == RADIAL_NONE;
+}
+
+// Of a light that something is known of. Rounding: where depths do not meet, another test has said that they do, and one
+// piece has them both.
+RadialPieces radial_pieces(Frame frame, uint light, vec2 depths) {
+  RadialPieces pieces;
+  pieces.space = radial_space(frame, light);
+  precise const float slack =
+      4.0 * ROUND_POSITION *
+      (length(radial_bounds[light].position) + length(frame.eye_world) + abs(depths.x) + abs(depths.y));
+  pieces.slack = slack;
+  pieces.depths = vec2(min(depths.x, depths.y), max(depths.x, depths.y));
+  const float length_m = pieces.depths.y - pieces.depths.x;
+  const float piece_m = radial_bounds[light].unit_m * float(RADIAL_ANY) / float(RADIAL_MOST_PIECES);
+  pieces.count = uint(clamp(ceil(length_m / piece_m), 1.0, float(RADIAL_MOST_PIECES)));
+  precise const float step = length_m / float(pieces.count);
+  pieces.step = step;
+  return pieces;
+}
+
+// Its depths.
+vec2 radial_piece(RadialPieces pieces, uint i) {
+  precise const vec2 piece = pieces.depths.x + pieces.step * vec2(float(i), float(i + 1u));
+  return i + 1u < pieces.count ? piece : vec2(piece.x, pieces.depths.y);
+}
+
+// By the box around the part of a tile between its edges (TileSides) and the depths of a piece, in the light's space.
+bool radial_reaches_piece(uint light, RadialPieces pieces, uint number, vec4 x_edges, vec4 y_edges) {
+  const RadialSpace space = pieces.space;
+  const vec2 depths = radial_piece(pieces, number);
   const mat3 lengths = mat3(abs(space.axes[0]), abs(space.axes[1]), abs(space.axes[2]));
   vec3 low = vec3(3e38);
   vec3 high = vec3(-3e38);
@@ -70,25 +110,15 @@ bool radial_reaches_piece(uint light, RadialSpace space, vec4 x_edges, vec4 y_ed
     low = min(low, middle - around);
     high = max(high, middle + around);
   }
-  return radial_reaches_box(light, low - slack, high + slack);
+  return radial_reaches_box(light, low - pieces.slack, high + pieces.slack);
 }
 
-// The part of a tile between its edges and two depths. A long one is cut in pieces of an eighth of the light's range, a
-// cell's width at a third of it: the box around all of it would be wide where the tile is not.
+// The part of a tile between its edges and two depths.
 bool radial_reaches(Frame frame, uint light, vec4 x_edges, vec4 y_edges, vec2 depths) {
-  if (light >= uint(radial_bounds.length()) || radial_bounds[light].kind == RADIAL_NONE) return true;
-  if (!(depths.x <= depths.y)) return true;  // rounding: another test has said that they meet
-  const RadialSpace space = radial_space(frame, light);
-  precise const float slack =
-      4.0 * ROUND_POSITION *
-      (length(radial_bounds[light].position) + length(frame.eye_world) + abs(depths.x) + abs(depths.y));
-  const float piece_m = radial_bounds[light].unit_m * float(RADIAL_ANY) / float(RADIAL_MOST_PIECES);
-  const uint pieces = uint(clamp(ceil((depths.y - depths.x) / piece_m), 1.0, float(RADIAL_MOST_PIECES)));
-  precise const float step = (depths.y - depths.x) / float(pieces);
-  for (uint i = 0u; i < pieces; ++i) {
-    precise const vec2 piece = depths.x + step * vec2(float(i), float(i + 1u));
-    if (radial_reaches_piece(light, space, x_edges, y_edges, piece, slack)) return true;
-  }
+  if (radial_cuts_nothing(light)) return true;
+  const RadialPieces pieces = radial_pieces(frame, light, depths);
+  for (uint i = 0u; i < pieces.count; ++i)
+    if (radial_reaches_piece(light, pieces, i, x_edges, y_edges)) return true;
   return false;
 }
 

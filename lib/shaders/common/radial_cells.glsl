@@ -24,6 +24,14 @@ RadialCells radial_cells_between(vec2 low, vec2 high, float nearest_m) {
   return RadialCells(true, radial_cell(low - RADIAL_ROUNDING), radial_cell(high + RADIAL_ROUNDING), nearest_m);
 }
 
+// A bit for each octant that the box lies in; x, y, z of octant o are negative where its bits 0, 1, 2 are set.
+uint radial_octants(vec3 low, vec3 high) {
+  const uvec3 positive = mix(uvec3(0u), uvec3(0x55u, 0x33u, 0x0fu), greaterThanEqual(high, vec3(0.0)));
+  const uvec3 negative = mix(uvec3(0u), uvec3(0xaau, 0xccu, 0xf0u), lessThanEqual(low, vec3(0.0)));
+  const uvec3 both = positive | negative;
+  return both.x & both.y & both.z;
+}
+
 RadialCells radial_cells_of_octant(uint octant, vec3 low, vec3 high) {
   const vec3 side = vec3((octant & 1u) == 0u ? 1.0 : -1.0, (octant & 2u) == 0u ? 1.0 : -1.0,
                          (octant & 4u) == 0u ? 1.0 : -1.0);

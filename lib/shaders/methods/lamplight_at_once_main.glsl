@@ -12,7 +12,7 @@ layout(constant_id = 6) const uint ROWS = 16;        // tiles of the cell
 layout(constant_id = 7) const uint MARK_WORDS = 64;  // PIECE_WORDS for each of them
 layout(constant_id = 8) const bool BITS = false;     // the container: bits, or lists
 layout(constant_id = 9) const uint SAMPLES = 1;      // a pixel
-const uint FURTHER = 0u;                             // no FURTHER_* tests: can_gather
+layout(constant_id = 10) const uint FURTHER = 0;     // FURTHER_*
 const bool LIGHTS_MISS = false;                      // a work group has all rows of its cell
 #include "methods/lamplight_exact.glsl"
 
@@ -20,13 +20,14 @@ layout(set = 0, binding = 3) uniform DepthSquares depth_squares;
 layout(set = 0, binding = 4, scalar) writeonly buffer CellBuffer { LightCell cells[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer RowBuffer { uint rows[]; };    // LightSpan, or PIECE_WORDS words
 layout(set = 0, binding = 6, scalar) writeonly buffer ListBuffer { uint lists[]; };  // of rows, or with BITS of cells
-#define RADIAL_BINDING 7  // not read
+#define RADIAL_BINDING 7
 #ifdef PRUNED
 layout(set = 0, binding = 8) uniform DepthImage depth_image;
 #endif
 
 shared uint s_lights[PIECE];
 shared uint s_words[PIECE_WORDS];  // a bit for each light that may reach the cell
+#include "methods/lamplight_cut.glsl"
 #include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_tile_depths.glsl"
@@ -103,6 +104,10 @@ void main() {
   barrier();  // lights before they are tested
   mark_lights(cell, count);
   barrier();  // all bits before they are read
+  if (FURTHER != 0u) {
+    cut_marks(cell, count);
+    barrier();  // what is cut before bits are written
+  }
   if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, count == 0u ? 0u : 1u, count);
   write_rows(index, count);
 }

@@ -52,6 +52,7 @@ layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { Ti
 layout(set = 0, binding = DEPTH_BINDING + 1) uniform DepthImage depth_image;
 #endif
 
+#include "methods/lamplight_cut.glsl"
 #include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_list_room.glsl"
@@ -112,6 +113,10 @@ void cull_piece(CellPiece piece) {
   order_lights(load, piece);
   mark_lights(cell, piece.count);
   barrier();  // all bits before they are read
+  if (FURTHER != 0u) {
+    cut_marks(cell, piece.count);
+    barrier();  // what is cut before bits are written
+  }
   write_piece(s_piece);
 }
 

@@ -2,7 +2,7 @@
 // its own, and no barrier of the group stands between them. A first look at all pairs of light and row decides most.
 // Those that it leaves open wait until there are enough for the exact test of spheres by all of the subgroup's threads.
 // Spots whose spheres reach wait as well, for the test of cones.
-// Needs: FURTHER; TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS, LIGHTS_MISS; `frame`, `lights`, `spheres`; s_lights; PRUNED or
+// Needs: FURTHER (lamplight_cut.glsl); TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS, LIGHTS_MISS; `frame`, `lights`, `spheres`; s_lights; PRUNED or
 // not.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
@@ -44,7 +44,6 @@ uint load_spheres(uint count) {
 uint entry_of(uint i) { return kept_entry(gl_SubgroupID + i * gl_NumSubgroups); }
 
 void mark(Cell cell, Pair pair, bool reached) {
-  if (FURTHER != 0u && reached) reached = passes_in_row(pair);
 #ifdef PRUNED
   reached = keeps_pair(cell, pair, reached);
 #endif

@@ -336,8 +336,7 @@ std::optional<Error> check_lamplight(const Problem& problem) {
     return Error{
         "option cells",
         "gather is for up to " + std::to_string(PIECE) +
-            " lights, a depth buffer, pictures whose lists take no more than 32 MiB, occlusion=none and boxes=sphere; "
-            "expected auto, list or bits"};
+            " lights, a depth buffer, and pictures whose lists take no more than 32 MiB; expected auto, list or bits"};
   return std::nullopt;
 }
 

@@ -61,22 +61,21 @@ Pass pass_of(const Problem& problem, const Grid& grid, std::vector<Binding> bind
   const std::uint32_t pairs = THREAD_PAIRS * grid.threads;
   const std::uint32_t mark_words = grid.cell_rows() * shared::PIECE_WORDS;
   if (pruned) bindings.push_back({INPUT_DEPTH});
-  return {.name = bits ? "tile bits" : "tile lists",
-          .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
-          .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs,
-                        grid.cell_rows(), mark_words, bits ? 1U : 0U, problem.depth_samples},
-          .bindings = std::move(bindings),
-          .extent = {.cells = {.px = grid.cell_px()}},
-          .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
-          .full_subgroups = grid.threads};
+  return {
+      .name = bits ? "tile bits" : "tile lists",
+      .shader = pruned ? "methods/lamplight_at_once_pruned" : "methods/lamplight_at_once",
+      .constants = {grid.threads, grid.tile_px, grid.cell_tiles, squares_held(problem), lights, pairs, grid.cell_rows(),
+                    mark_words, bits ? 1U : 0U, problem.depth_samples, parts::further_tests(problem.options)},
+      .bindings = std::move(bindings),
+      .extent = {.cells = {.px = grid.cell_px()}},
+      .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
+      .full_subgroups = grid.threads};
 }
 
 }  // namespace
 
 bool can_gather(const Problem& problem) {
   if (parts::capacity(problem) > PIECE || problem.options.word("depth") == "none") return false;
-  // An NVIDIA driver (580, H200) makes empty lists of the shader with these tests, at tiles of 16 pixels.
-  if (parts::further_tests(problem.options) != 0) return false;
   const Grid grid = grid_of(problem);
   const CellGrid across{.px = grid.cell_px()};
   return list_bytes(problem, grid) <= std::min(MOST_LIST_BYTES, problem.traits.max_storage_buffer_bytes) &&
@@ -93,9 +92,10 @@ Plan plan_at_once(const Problem& problem) {
   const ResourceId rows = plan.add({.name = bits ? "tile bits" : "tile spans", .bytes = grid.rows() * row_bytes(bits)});
   const ResourceId lists = plan.add({.name = bits ? "cell lists" : "tile lists",
                                      .bytes = bits ? grid.most_cells() * PIECE * 4 : list_bytes(problem, grid)});
-  const std::vector<Binding> bindings{{INPUT_FRAME},          {INPUT_LIGHTS},         {INPUT_SPHERES},
-                                      {INPUT_DEPTH},          {cells, Access::write}, {rows, Access::write},
-                                      {lists, Access::write}, {INPUT_SPHERES}};
+  const std::vector<Binding> bindings{{INPUT_FRAME},          {INPUT_LIGHTS},
+                                      {INPUT_SPHERES},        {INPUT_DEPTH},
+                                      {cells, Access::write}, {rows, Access::write},
+                                      {lists, Access::write}, parts::radial_binding(problem, INPUT_SPHERES)};
   plan.passes = {pass_of(problem, grid, bindings)};
   if (grid.has_finer) {
     const Grid finer = of_tiles(problem, grid);
