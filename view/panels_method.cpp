@@ -143,7 +143,7 @@ void shadow_panel(PanelFrame& p) {
     p.widgets.choose("shadow raster", r.shadow_raster, shadow_raster_names(),
                      "What draws shadow maps: the GPU's rasterizer or compute shaders.");
     p.widgets.choose("shadow blur", r.shadow_blur, shadow_blur_names(),
-                     "How vsm and evsm are blurred: in one pass, in two, or as the article's listing does.");
+                     "How vsm and evsm are blurred: line by line, or as the article's listing does.");
     p.widgets.write("shadow lights", r.shadow_lights, "How many of the first lights cast shadows, or all.");
     p.widgets.write("shadow budget", r.shadow_budget, "Texels of shadow maps that are drawn in a frame, or all.");
     Widgets::steady(3, [&] {

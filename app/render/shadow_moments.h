@@ -1,5 +1,5 @@
-// Moments of shadow maps for vsm and evsm: an image as large as the atlas, and the passes that blur what was drawn.
-// SPDX-License-Identifier: Apache-2.0
+// Moments of shadow maps for vsm and evsm: two images as large as the atlas, and the two passes that blur what was
+// drawn. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -11,9 +11,8 @@
 
 namespace lamp::app {
 
-/// How moments are blurred. fused: both directions in one pass. lines: a pass for each, with another image as large
-/// between them. listing: as lines, but by the indices of the OpenGL article's listing, which mix lines.
-enum class ShadowBlur : std::uint8_t { fused, lines, listing };
+/// How moments are blurred: line by line, or by the indices of the OpenGL article's listing, which mix lines.
+enum class ShadowBlur : std::uint8_t { lines, listing };
 
 class ShadowMoments {
  public:
@@ -42,10 +41,11 @@ class ShadowMoments {
     std::uint32_t block = 0;
   };
   ShadowBlur blur_;
-  GpuImage between_;  ///< blurred along x; none if both directions are one pass
+  GpuImage between_;  ///< blurred along x
   GpuImage blurred_;
   vulkan::Buffer blocks_;
-  std::vector<vulkan::Pipeline> passes_;
+  vulkan::Pipeline along_x_;
+  vulkan::Pipeline along_y_;
   std::uint32_t block_count_ = 0;
 };
 

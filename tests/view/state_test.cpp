@@ -47,7 +47,7 @@ ViewState full_state() {
   state.request.shadows = "pcf";
   state.request.point_shadows = "octahedron";
   state.request.shadow_raster = "compute";
-  state.request.shadow_blur = "lines";
+  state.request.shadow_blur = "listing";
   state.request.shadow_lights = "5";
   state.request.shadow_budget = "65536";
   state.request.atlas = 1024;

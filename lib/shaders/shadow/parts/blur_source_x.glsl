@@ -1,7 +1,5 @@
 // What the first pass of the blur reads: depths.
 // SPDX-License-Identifier: Apache-2.0
-#include "shadow/parts/moments.glsl"
+#include "shadow/parts/blur_block.glsl"
 
-vec4 blur_source(uint light, ivec2 texel) {
-  return shadow_moments_of_depth(shadow_unit_depth_of_stored(light, SHADOW_TEXEL(shadow_atlas, texel).x));
-}
+vec4 blur_source(BlurSquare s, ivec2 texel) { return shadow_moments_of_depth(blur_unit_depth(s, texel)); }
