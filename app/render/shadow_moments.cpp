@@ -3,6 +3,7 @@
 #include "render/shadow_moments.h"
 
 #include <fmt/format.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cstring>
