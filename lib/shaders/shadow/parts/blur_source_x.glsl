@@ -1,5 +1,7 @@
 // What the first pass of the blur reads: depths.
 // SPDX-License-Identifier: Apache-2.0
-#include "shadow/parts/blur_block.glsl"
+#include "shadow/parts/moments.glsl"
 
-vec4 blur_source(BlurSquare s, ivec2 texel) { return shadow_moments_of_depth(blur_unit_depth(s, texel)); }
+vec4 blur_source(uint light, ivec2 texel) {
+  return shadow_moments_of_depth(shadow_unit_depth_of_stored(light, SHADOW_TEXEL(shadow_atlas, texel).x));
+}

@@ -1,5 +1,5 @@
 // What the second pass of the blur reads: what the first wrote.
 // SPDX-License-Identifier: Apache-2.0
-#include "shadow/parts/blur_block.glsl"
+#include "shadow/parts/moments.glsl"
 
-vec4 blur_source(BlurSquare s, ivec2 texel) { return SHADOW_TEXEL(shadow_moments, texel); }
+vec4 blur_source(uint light, ivec2 texel) { return SHADOW_TEXEL(shadow_moments, texel); }
