@@ -28,7 +28,6 @@ layout(set = 0, binding = 8) uniform DepthImage depth_image;
 shared uint s_lights[PIECE];
 shared uint s_words[PIECE_WORDS];  // a bit for each light that may reach the cell
 #include "methods/lamplight_cut.glsl"
-#include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_tile_depths.glsl"
 
@@ -102,12 +101,7 @@ void main() {
   barrier();  // all lights before they are counted
   const uint count = list_lights();
   barrier();  // lights before they are tested
-  mark_lights(cell, count);
-  barrier();  // all bits before they are read
-  if (FURTHER != 0u) {
-    cut_marks(cell, count);
-    barrier();  // what is cut before bits are written
-  }
+  test_lights(cell, count);
   if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, count == 0u ? 0u : 1u, count);
   write_rows(index, count);
 }

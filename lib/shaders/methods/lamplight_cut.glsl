@@ -12,11 +12,7 @@ void cut_pairs(inout uint waiting) {
   const uint rank = gl_SubgroupInvocationID & share - 1u;
   bool has_pair;
   const Pair pair = pair_of(take(first_pair(), share, waiting, has_pair));
-  bool passes = has_pair && passes_in_row(pair, rank, share);
-  for (uint step = 1u; step < share; step *= 2u) {
-    const bool other = subgroupShuffleXor(passes, step);
-    passes = passes || other;
-  }
+  const bool passes = any_sharer(has_pair && passes_in_row(pair, rank, share), share);
   if (has_pair && rank == 0u && !passes)
     atomicAnd(s_bits[bit_word(pair.row, pair.entry / 32u)], ~(1u << (pair.entry % 32u)));
 }
@@ -34,6 +30,16 @@ void cut_marks(Cell cell, uint count) {
     while (waiting >= gl_SubgroupSize) cut_pairs(waiting);
   }
   while (waiting > 0u) cut_pairs(waiting);
+}
+
+// By all threads of the group together: marks of `count` lights, by all tests, are there for all threads.
+void test_lights(Cell cell, uint count) {
+  mark_lights(cell, count);
+  barrier();  // all bits before they are read
+  if (FURTHER != 0u) {
+    cut_marks(cell, count);
+    barrier();  // what is cut before bits are written
+  }
 }
 
 #endif

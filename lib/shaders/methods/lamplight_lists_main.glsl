@@ -53,7 +53,6 @@ layout(set = 0, binding = DEPTH_BINDING + 1) uniform DepthImage depth_image;
 #endif
 
 #include "methods/lamplight_cut.glsl"
-#include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_list_room.glsl"
 
@@ -111,12 +110,7 @@ void cull_piece(CellPiece piece) {
   if (gl_LocalInvocationIndex < CELL_TILES) load_sides(cell, gl_LocalInvocationIndex);
   if (LIGHTS_MISS && gl_LocalInvocationIndex == CELL_TILES) load_edges(cell);
   order_lights(load, piece);
-  mark_lights(cell, piece.count);
-  barrier();  // all bits before they are read
-  if (FURTHER != 0u) {
-    cut_marks(cell, piece.count);
-    barrier();  // what is cut before bits are written
-  }
+  test_lights(cell, piece.count);
   write_piece(s_piece);
 }
 

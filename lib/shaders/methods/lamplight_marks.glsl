@@ -7,7 +7,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
 #define LAMP_METHODS_LAMPLIGHT_MARKS
-#extension GL_KHR_shader_subgroup_shuffle : require
 #include "methods/lamplight_kept.glsl"
 #include "methods/lamplight_pair_tests.glsl"
 
@@ -79,11 +78,7 @@ void test_cones(Cell cell, inout uint spots) {
   const uint rank = gl_SubgroupInvocationID & share - 1u;
   bool has_pair;
   const Pair pair = pair_of(take(first_spot(), share, spots, has_pair));
-  bool reached = has_pair && cone_reaches_row(pair, rank, share);
-  for (uint step = 1u; step < share; step *= 2u) {
-    const bool other = subgroupShuffleXor(reached, step);
-    reached = reached || other;
-  }
+  const bool reached = any_sharer(has_pair && cone_reaches_row(pair, rank, share), share);
   mark(cell, pair, reached && rank == 0u);
 }
 

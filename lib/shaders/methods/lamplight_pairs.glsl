@@ -5,6 +5,7 @@
 #ifndef LAMP_METHODS_LAMPLIGHT_PAIRS
 #define LAMP_METHODS_LAMPLIGHT_PAIRS
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 
 shared uint s_pairs[PAIRS];  // two of each thread for spheres, and behind all these two for cones
 
@@ -44,6 +45,15 @@ uint sharers(uint waiting) {
   uint share = 1u;
   while (share < MOST_SHARERS && 2u * share * waiting <= gl_SubgroupSize) share *= 2u;
   return share;
+}
+
+// Whether one of the threads that share a pair says so.
+bool any_sharer(bool says, uint share) {
+  for (uint step = 1u; step < share; step *= 2u) {
+    const bool other = subgroupShuffleXor(says, step);
+    says = says || other;
+  }
+  return says;
 }
 
 // One of those that came last for `share` threads each; without one any of them again.
