@@ -15,6 +15,7 @@
 #include "image/write_file.h"
 #include "render/heatmap.h"
 #include "render/shadow_heat.h"
+#include "render/shadow_leaks.h"
 #include "system/temporary.h"
 
 namespace lamp::app {
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 3> HEAT_NAMES{"lights", "shadow-age", "shadow-size"};
+constexpr std::array<std::string_view, 4> HEAT_NAMES{"lights", "shadow-age", "shadow-size", "shadow-leaks"};
 constexpr std::array<const char*, 3> HEAT_UNITS{"lights", "frames", "texels"};
 
 /// What `of_view` says of each pixel, views side by side. The first stays shown.
@@ -75,6 +76,18 @@ std::vector<std::uint32_t> shadow_heat(Session& session, Lighting& lighting, Hea
   Renderer& renderer = session.renderer();
   const ShadowHeat heat = of == HeatOf::shadow_age ? ShadowHeat::age : ShadowHeat::size;
   return side_by_side(renderer, [&] { return shadow_heat(renderer, lighting, heat); });
+}
+
+void check_heat(Session& session, const Lighting& lighting, HeatOf of) {
+  if (of != HeatOf::shadow_leaks) return;
+  if (const std::string why = why_no_leaks(session.renderer(), lighting, session.gpu_scene().scene()); !why.empty())
+    throw Error(fmt::format("--heatmap-of shadow-leaks: {}", why));
+}
+
+std::vector<gpu::ShadowLeak> shadow_leaks(Session& session, Lighting& lighting) {
+  Renderer& renderer = session.renderer();
+  const MirrorScene& rays = session.rays();
+  return side_by_side(renderer, [&] { return shadow_leaks(renderer, lighting, rays); });
 }
 
 std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {

@@ -11,6 +11,7 @@
 
 #include "commands/request.h"
 #include "image/image.h"
+#include "render/shaders/shadow_leak_data.h"
 
 namespace lamp::app {
 
@@ -25,16 +26,21 @@ void for_each_picture(Renderer& renderer, const std::function<void(std::span<con
 
 /// What a heat map counts.
 enum class HeatOf : std::uint8_t {
-  lights,       ///< that each pixel walks
-  shadow_age,   ///< frames since the oldest shadow map that is looked up there was drawn
-  shadow_size,  ///< texels a side of the smallest
+  lights,        ///< that each pixel walks
+  shadow_age,    ///< frames since the oldest shadow map that is looked up there was drawn
+  shadow_size,   ///< texels a side of the smallest
+  shadow_leaks,  ///< no count: light that a filter lets through or stops, and should not (draw_leak_map)
 };
-/// "lights", "shadow-age", "shadow-size", in the order of HeatOf.
+/// "lights", "shadow-age", "shadow-size", "shadow-leaks", in the order of HeatOf.
 [[nodiscard]] std::span<const std::string_view> heat_names();
 /// Throws Error, naming `--heatmap-of`, for what is no such name, or needs shadows that the request does not have.
 [[nodiscard]] HeatOf parse_heat(const std::string& name, const Request& request);
 /// As `shadow_heat` of a view (render/shadow_heat.h), of several views side by side. The first view stays shown.
 [[nodiscard]] std::vector<std::uint32_t> shadow_heat(Session& session, Lighting& lighting, HeatOf of);
+/// Throws Error, naming `--heatmap-of`, for what the lighting's lists or rays through the scene cannot say.
+void check_heat(Session& session, const Lighting& lighting, HeatOf of);
+/// As `shadow_leaks` of a view (render/shadow_leaks.h), likewise; of what `check_heat` has nothing against.
+[[nodiscard]] std::vector<gpu::ShadowLeak> shadow_leaks(Session& session, Lighting& lighting);
 
 /// Colours of what is no number in heat maps of shadows.
 inline constexpr glm::u8vec3 WAITS_COLOR{255, 70, 40};

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -18,6 +19,7 @@
 #include "files/read_json.h"
 #include "image/write_file.h"
 #include "render/antialias.h"
+#include "render/leak_map.h"
 #include "scene/flight.h"
 #include "system/print.h"
 
@@ -93,6 +95,8 @@ void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& c
 /// What one frame took, and where its picture is.
 void print_numbers(const RenderOptions& o, const Stats& stats) {
   if (stats.shadows) line("shadows", shadow_words(*stats.shadows));
+  if (stats.shadows && stats.shadows->leaks)
+    line("by rays", fmt::format("{}; {}", leak_words(*stats.shadows->leaks), lost_words(*stats.shadows->leaks)));
   if (stats.mirror) line("mirror", mirror_words(*stats.mirror));
   if (stats.mirror)
     for (const std::string& note : stats.mirror->notes) line("note", note);
@@ -151,16 +155,39 @@ struct Drawing {
 
 /// What heat maps are made of.
 struct Drawn {
-  const Stats& stats;
+  Stats& stats;
   std::span<const Visit> visits;
   const LdrImage& toned;
 };
 
-/// The heat map by itself and over the picture, as far as they were asked for.
+/// The map by itself and over the picture, as far as they were asked for. `map`: of the picture below, or null.
+void write_both(const RenderOptions& o, const LdrImage& toned, const std::function<LdrImage(const LdrImage*)>& map) {
+  const auto write_map = [&](const std::string& name, const LdrImage* below) {
+    if (!name.empty()) write_output(name, [&](const auto& file) { write_png(file, map(below)); });
+  };
+  write_map(o.heatmap, nullptr);
+  write_map(o.overlay, &toned);
+}
+
+void write_leaks(const RenderOptions& o, const Drawing& drawing, const Drawn& drawn) {
+  const std::vector<gpu::ShadowLeak> leaks = shadow_leaks(drawing.session, drawing.lighting);
+  drawn.stats.shadows->leaks = sum_of(leaks);
+  write_both(o, drawn.toned, [&](const LdrImage* below) {
+    return draw_leak_map(
+        {.width = drawn.toned.width,
+         .height = drawn.toned.height,
+         .pixels = leaks,
+         .title = fmt::format("{} shadows against rays; full colour: all light of the pixel", o.state.request.shadows),
+         .overlay = below});
+  });
+}
+
+/// What was asked for with heat maps.
 void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& drawn) {
   if (o.heatmap.empty() && o.overlay.empty()) return;
   Session& session = drawing.session;
   const HeatOf of = parse_heat(o.heatmap_of, o.state.request);
+  if (of == HeatOf::shadow_leaks) return write_leaks(o, drawing, drawn);
   std::vector<std::uint32_t> counts =
       of == HeatOf::lights ? walked_lights(drawn.visits) : shadow_heat(session, drawing.lighting, of);
   if (session.still() != nullptr && !session.renderer().depth().several()) add_still_walks(session, counts);
@@ -168,13 +195,9 @@ void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& dra
       of == HeatOf::lights
           ? fmt::format("{}, {} lights", drawn.stats.method, drawn.stats.lights)
           : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest", o.state.request.shadows);
-  const auto write_map = [&](const std::string& name, const LdrImage* below) {
-    if (name.empty()) return;
-    const LdrImage map = heatmap_of(session, counts, {.title = title, .overlay = below, .of = of});
-    write_output(name, [&](const auto& file) { write_png(file, map); });
-  };
-  write_map(o.heatmap, nullptr);
-  write_map(o.overlay, &drawn.toned);
+  write_both(o, drawn.toned, [&](const LdrImage* below) {
+    return heatmap_of(session, counts, {.title = title, .overlay = below, .of = of});
+  });
 }
 
 /// Draws the session's frame, writes its pictures, and says what it took.
@@ -250,6 +273,7 @@ Exit render(const RenderOptions& o) {
   const MethodChoice chosen =
       chosen_methods(session, setup, o.state.request, {&o.state.request.method, 1}, o.json).front();
   Lighting lighting = session.lighting(*chosen.method, chosen.options, path);
+  check_heat(session, lighting, parse_heat(o.heatmap_of, o.state.request));
   const bool software = session.context().software();
   const std::uint32_t timed = wanted.timed != 0 ? wanted.timed : software || wanted.flight ? 1 : 20;
   // A device's first frame is slow: its driver is still translating shaders.
@@ -287,8 +311,9 @@ Run add_render(CLI::App& app) {
   add_output("--overlay", o->overlay, "write the heat map blended over the picture, .png");
   command
       ->add_option("--heatmap-of", o->heatmap_of,
-                   "what heat map and overlay show: lights that a pixel walks, or of the shadow maps that it looks up "
-                   "the age of the oldest (shadow-age) or the size of the smallest (shadow-size)")
+                   "what heat map and overlay show: lights that a pixel walks; of the shadow maps that it looks up "
+                   "the age of the oldest (shadow-age) or the size of the smallest (shadow-size); or light that "
+                   "shadows let through or stop and rays do not (shadow-leaks)")
       ->type_name("WHAT")
       ->group("Output")
       ->capture_default_str();

@@ -88,6 +88,11 @@ nlohmann::json to_json(const ShadowStats& shadows) {
                      {"stopped_beyond", truth->stopped_beyond()},
                      {"leaks_beyond", truth->beyond.leaks()},
                      {"false_shadows_beyond", truth->beyond.false_shadows()}};
+  if (const auto& leaks = shadows.leaks)
+    json["picture"] = {{"leaks", leaks->light.leaks()},
+                       {"false_shadows", leaks->light.false_shadows()},
+                       {"unclear", leaks->unclear},
+                       {"ended", leaks->ended}};
   return json;
 }
 

@@ -12,6 +12,7 @@
 #include "commands/still_stats.h"
 #include "gpu/device_clock.h"
 #include "render/judgement.h"
+#include "render/shadow_leaks.h"
 #include "render/shadow_truth.h"
 
 namespace lamp::app {
@@ -23,6 +24,7 @@ struct ShadowStats {
   std::vector<std::uint32_t> waiting;  ///< lights
   std::vector<std::uint32_t> without;
   std::optional<ShadowFindings> truth;  ///< where they were held against rays
+  std::optional<LeakSums> leaks;        ///< of a picture of leaks
 };
 
 /// Of the lists that transparent surfaces have of their own, where the method's hold at one depth alone.

@@ -12,43 +12,18 @@
 
 #include "image/font_5x7.h"
 #include "render/heatmap.h"
+#include "render/legend_strip.h"
 
 namespace lamp::app {
 namespace {
 
-constexpr glm::u8vec4 PANEL{18, 18, 22, 255};
-constexpr glm::u8vec3 BRIGHT{240, 240, 240};
-constexpr glm::u8vec3 QUIET{176, 176, 184};
-
 /// Vertical measures in font pixels.
-constexpr std::int32_t PAD = 4;
-constexpr std::int32_t BAR_TOP = PAD + static_cast<std::int32_t>(GLYPH_HEIGHT) + 3;
+constexpr std::int32_t BAR_TOP = LegendStrip::PAD + static_cast<std::int32_t>(GLYPH_HEIGHT) + 3;
 constexpr std::int32_t BAR_HEIGHT = 7;
 constexpr std::int32_t TICK_HEIGHT = 2;
 constexpr std::int32_t LABEL_TOP = BAR_TOP + BAR_HEIGHT + TICK_HEIGHT + 1;
-constexpr std::int32_t STRIP_HEIGHT = LABEL_TOP + 7 + PAD;
-constexpr std::int32_t SIGNAL_HEIGHT = BAR_HEIGHT + PAD;
-
-std::int32_t text_width(std::string_view text, std::int32_t scale) {
-  return static_cast<std::int32_t>(text_size(text, static_cast<std::uint32_t>(scale)).x);
-}
-
-/// The strip below the picture: where it is and how large its letters are. All in pixels.
-struct Strip {
-  LdrImage& image;
-  std::int32_t top;
-  std::int32_t scale;
-
-  [[nodiscard]] std::int32_t left() const { return PAD * scale; }
-  [[nodiscard]] std::int32_t right() const { return static_cast<std::int32_t>(image.width) - PAD * scale; }
-  [[nodiscard]] std::int32_t y(std::int32_t font_pixels) const { return top + font_pixels * scale; }
-  void text(std::int32_t x, std::int32_t font_y, std::string_view what, glm::u8vec3 color) const {
-    draw_text(image, x, y(font_y), what, color, static_cast<std::uint32_t>(scale));
-  }
-  void rect(std::int32_t x, std::int32_t font_y, glm::ivec2 size, glm::u8vec3 color) const {
-    fill_rect(image, {x, y(font_y)}, size, color);
-  }
-};
+constexpr std::int32_t STRIP_HEIGHT = LABEL_TOP + 7 + LegendStrip::PAD;
+constexpr std::int32_t SIGNAL_HEIGHT = BAR_HEIGHT + LegendStrip::PAD;
 
 /// Mean and maximum, in as many words as there is room for.
 std::string numbers_line(const HeatSummary& summary, std::int32_t room, std::int32_t scale) {
@@ -58,7 +33,7 @@ std::string numbers_line(const HeatSummary& summary, std::int32_t room, std::int
   return text_width(sentence, scale) <= room ? sentence : numbers;
 }
 
-void draw_title(const Strip& strip, std::string title, const HeatSummary& summary) {
+void draw_title(const LegendStrip& strip, std::string title, const HeatSummary& summary) {
   const std::int32_t gap = 2 * static_cast<std::int32_t>(GLYPH_ADVANCE) * strip.scale;
   const std::int32_t width = strip.right() - strip.left();
   const std::string numbers = numbers_line(summary, width - text_width(title, strip.scale) - gap, strip.scale);
@@ -68,8 +43,8 @@ void draw_title(const Strip& strip, std::string title, const HeatSummary& summar
     while (!title.empty() && text_width(title + "..", strip.scale) > room) title.pop_back();
     title += "..";
   }
-  strip.text(strip.left(), PAD, title, BRIGHT);
-  strip.text(numbers_x, PAD, numbers, QUIET);
+  strip.text(strip.left(), LegendStrip::PAD, title, LegendStrip::BRIGHT);
+  strip.text(numbers_x, LegendStrip::PAD, numbers, LegendStrip::QUIET);
 }
 
 /// The numbers of the scale: powers of two, every n-th so that labels keep apart, and the top.
@@ -85,16 +60,16 @@ std::vector<std::uint32_t> ticks(std::uint32_t top, std::int32_t bar_width, std:
   return values;
 }
 
-void draw_tick(const Strip& strip, std::int32_t x, const std::string& label) {
-  strip.rect(x, BAR_TOP + BAR_HEIGHT, glm::ivec2(1, TICK_HEIGHT) * strip.scale, QUIET);
-  strip.text(x - (text_width(label, strip.scale) - strip.scale) / 2, LABEL_TOP, label, QUIET);
+void draw_tick(const LegendStrip& strip, std::int32_t x, const std::string& label) {
+  strip.rect(x, BAR_TOP + BAR_HEIGHT, glm::ivec2(1, TICK_HEIGHT) * strip.scale, LegendStrip::QUIET);
+  strip.text(x - (text_width(label, strip.scale) - strip.scale) / 2, LABEL_TOP, label, LegendStrip::QUIET);
 }
 
-void draw_scale(const Strip& strip, const HeatSummary& summary) {
+void draw_scale(const LegendStrip& strip, const HeatSummary& summary) {
   const std::int32_t scale = strip.scale;
   const std::string top_label = fmt::format("{}{}", summary.top, summary.max > summary.top ? "+" : "");
   const std::int32_t zero_width = 8 * scale;
-  strip.rect(strip.left(), BAR_TOP, {zero_width, BAR_HEIGHT * scale}, QUIET);
+  strip.rect(strip.left(), BAR_TOP, {zero_width, BAR_HEIGHT * scale}, LegendStrip::QUIET);
   strip.rect(strip.left() + scale, BAR_TOP + 1, {zero_width - 2 * scale, (BAR_HEIGHT - 2) * scale},
              heat_color(0, summary.top));
   draw_tick(strip, strip.left() + (zero_width - scale) / 2, "0");
@@ -113,11 +88,11 @@ void draw_scale(const Strip& strip, const HeatSummary& summary) {
 }
 
 /// A line for each colour beside the scale.
-void draw_signals(const Strip& strip, const HeatSummary& summary) {
+void draw_signals(const LegendStrip& strip, const HeatSummary& summary) {
   std::int32_t at = STRIP_HEIGHT;
   for (const auto& [color, meaning] : summary.signals) {
     strip.rect(strip.left(), at, glm::ivec2(8, BAR_HEIGHT) * strip.scale, color);
-    strip.text(strip.left() + 12 * strip.scale, at, meaning, BRIGHT);
+    strip.text(strip.left() + 12 * strip.scale, at, meaning, LegendStrip::BRIGHT);
     at += SIGNAL_HEIGHT;
   }
 }
@@ -126,10 +101,8 @@ void draw_signals(const Strip& strip, const HeatSummary& summary) {
 
 void append_legend(LdrImage& image, const std::string& title, const HeatSummary& summary) {
   if (image.width < LEGEND_MIN_WIDTH) return;
-  const Strip strip{image, static_cast<std::int32_t>(image.height), static_cast<std::int32_t>(1 + image.width / 640)};
   const std::int32_t signals = static_cast<std::int32_t>(summary.signals.size()) * SIGNAL_HEIGHT;
-  image.height += static_cast<std::uint32_t>((STRIP_HEIGHT + signals) * strip.scale);
-  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height, PANEL);
+  const LegendStrip strip = append_strip(image, STRIP_HEIGHT + signals);
   draw_title(strip, title, summary);
   draw_scale(strip, summary);
   draw_signals(strip, summary);

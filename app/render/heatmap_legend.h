@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "render/legend_strip.h"
 
 namespace lamp::app {
 
@@ -26,9 +27,6 @@ struct HeatSummary {
 
 /// The colour of a position 0 .. 1.
 [[nodiscard]] glm::u8vec3 heat_ramp(double position);
-
-/// Pictures narrower than this get no legend.
-inline constexpr std::uint32_t LEGEND_MIN_WIDTH = 200;
 
 /// Makes the picture higher by the legend. Letters grow with the picture; a title that does not fit ends in "..".
 void append_legend(LdrImage& image, const std::string& title, const HeatSummary& summary);

@@ -80,6 +80,11 @@ MirrorScene::MirrorScene(Context& context, const GpuScene& drawn) : drawn_(drawn
 }
 
 void MirrorScene::upload_bvh(Context& context) {
+  const std::uint64_t most = context.device().traits.max_storage_buffer_bytes;
+  const std::uint64_t largest = std::max(bytes_of(bvh_.triangles).size(), bytes_of(bvh_.nodes).size());
+  if (largest > most)
+    throw Error(fmt::format("rays through the scene: {} triangles take {} MB, expected at most {} on this device",
+                            bvh_.triangles.size(), largest / 1'000'000, most / 1'000'000));
   triangles_ = upload_buffer(context, "triangles of rays", bytes_of(bvh_.triangles), STORAGE);
   nodes_ = upload_buffer(context, "nodes of rays", bytes_of(bvh_.nodes), STORAGE | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   instances_ =
@@ -145,10 +150,11 @@ std::uint64_t MirrorScene::bytes() const {
   return sum;
 }
 
-std::vector<vulkan::Bound> MirrorScene::bound() const {
+std::vector<vulkan::Bound> MirrorScene::bound(std::uint32_t first) const {
   const auto storage = [](const vulkan::Buffer& buffer) { return vulkan::Resource::storage(buffer.handle()); };
-  return {{8, storage(nodes_)},   {9, storage(triangles_)},  {10, storage(instances_)}, {11, drawn_.vertices()},
-          {12, drawn_.indices()}, {13, storage(materials_)}, {14, storage(images_)},    {15, storage(texels_)}};
+  return {{first, storage(nodes_)},       {first + 1, storage(triangles_)}, {first + 2, storage(instances_)},
+          {first + 3, drawn_.vertices()}, {first + 4, drawn_.indices()},    {first + 5, storage(materials_)},
+          {first + 6, storage(images_)},  {first + 7, storage(texels_)}};
 }
 
 }  // namespace lamp::app

@@ -1,4 +1,5 @@
-// A scene as rays read it on the GPU: its hierarchy, vertices, materials, and images as plain texels.
+// A scene as rays read it on the GPU, for mirrors and for the truth of shadows: its hierarchy, vertices, materials, and
+// images as plain texels.
 // Promise: no more texels than a buffer of the device holds; images that do not fit are read from a coarser level on,
 // and a note says so. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,7 +17,8 @@ namespace lamp::app {
 
 class MirrorScene {
  public:
-  /// Shares its vertices, which must live on.
+  /// Shares its vertices, which must live on. Throws Error for a scene whose triangles do not fit a buffer of the
+  /// device.
   MirrorScene(Context& context, const GpuScene& scene);
 
   /// Its instances have moved: they are uploaded anew with the next `record_upload`, and boxes of the upper level.
@@ -26,8 +28,8 @@ class MirrorScene {
   [[nodiscard]] const Bvh& bvh() const { return bvh_; }
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-  /// At the bindings of common/bvh_scene.glsl.
-  [[nodiscard]] std::vector<vulkan::Bound> bound() const;
+  /// At the bindings of common/bvh_scene.glsl, whose BVH_FIRST_BINDING is `first`.
+  [[nodiscard]] std::vector<vulkan::Bound> bound(std::uint32_t first = 8) const;
 
  private:
   void upload_bvh(Context& context);

@@ -14,7 +14,7 @@ bool is_fused(const PixelPass& pass) {
 
 /// A fused look-up's group is its tile.
 glm::uvec2 group_of(const PixelPass& pass) {
-  if (!is_fused(pass)) return glm::uvec2(16);
+  if (!is_fused(pass)) return glm::uvec2(pass.group_px);
   const FusedLookUp& fused = *pass.lighting->runner().plan().fused;
   return {fused.group_width, fused.group_height};
 }
@@ -27,11 +27,13 @@ vulkan::Pipeline Renderer::pixel_pipeline(const PixelPass& pass) const {
   info.bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
   for (const PixelPass::Storage& storage : pass.storage)
     info.bindings.push_back({storage.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  for (const vulkan::Bound& b : pass.bound) info.bindings.push_back({b.binding, b.resource.type});
   if (pass.lighting == nullptr)
     return take(vulkan::Pipeline::compute(context_.device(), info, shaders_.spirv(pass.shader)));
   const Plan& plan = pass.lighting->runner().plan();
   const LookUp& lookup = is_fused(pass) ? plan.fused->lookup : plan.lookup;
   info.constants = vulkan::lookup_constants(lookup);
+  info.constants.insert(info.constants.end(), pass.constants.begin(), pass.constants.end());
   info.constants.push_back(shown_view_constant(plan));
   const glm::uvec2 group_px = group_of(pass);
   info.constants.push_back({0, group_px.x});
@@ -65,6 +67,10 @@ void Renderer::run(const PixelPass& pass, const vulkan::Pipeline& pipeline) {
     for (const PixelPass::Storage& storage : pass.storage) {
       bound.push_back({storage.binding, storage.resource});
       uses.push_back({.resource = storage.resource, .stages = COMPUTE, .access = storage.access});
+    }
+    for (const vulkan::Bound& b : pass.bound) {
+      bound.push_back(b);
+      uses.push_back(reads(b.resource, COMPUTE));
     }
     if (pass.lighting != nullptr) {
       const vulkan::BoundLookUp lookup = pass.lighting->runner().lookup(inputs, pass.which, shown_.view);

@@ -59,8 +59,11 @@ struct PixelPass {
     bool zeroed = false;  ///< before the dispatch; the buffer is one that transfers write
   };
   std::vector<Storage> storage;
-  Rows rows;                        ///< dispatched; 0 rows: all. A fused look-up's are always all
-  std::vector<std::uint32_t> push;  ///< constants
+  std::vector<vulkan::Bound> bound;         ///< that is read besides
+  std::vector<vulkan::Constant> constants;  ///< besides those of the look-up
+  std::uint32_t group_px = 16;              ///< threads of a group along x and y; a fused look-up's are its tile's
+  Rows rows;                                ///< dispatched; 0 rows: all. A fused look-up's are always all
+  std::vector<std::uint32_t> push;          ///< constants
 };
 
 class Renderer {

@@ -31,6 +31,8 @@ struct ShadowLight {
   [[nodiscard]] double leaks() const { return stopped > 0.0 ? leaked / stopped : 0.0; }
   [[nodiscard]] double bleeding() const { return stopped > 0.0 ? bled / stopped : 0.0; }
   [[nodiscard]] double false_shadows() const { return arriving > 0.0 ? lost / arriving : 0.0; }
+
+  friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
 
 /// Of pairs of pixel and light whose light reaches the pixel and faces it.

@@ -184,4 +184,13 @@ Arguments small(const Arguments& command) {
   return all;
 }
 
+std::pair<unsigned, unsigned> size_of_png(const std::string& bytes) {
+  const auto number_at = [&](std::size_t at) {
+    unsigned number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number = number << 8U | static_cast<unsigned char>(bytes.at(at + i));
+    return number;
+  };
+  return {number_at(16), number_at(20)};
+}
+
 }  // namespace lamp::cli

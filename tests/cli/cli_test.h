@@ -86,4 +86,7 @@ class CliTest : public ::testing::Test {
 /// A scene and a picture so small that a software device takes no time.
 [[nodiscard]] Arguments small(const Arguments& command);
 
+/// Of a PNG file's header: width, then height.
+[[nodiscard]] std::pair<unsigned, unsigned> size_of_png(const std::string& bytes);
+
 }  // namespace lamp::cli

@@ -29,7 +29,7 @@ TEST_F(Completion, OfCommandsAndOptions) {
   expect_words("lamp ren", {"render"});
   expect_words("lamp help com", {"compare", "completion"});
   expect_words("lamp render --heat", {"--heatmap", "--heatmap-of"});
-  expect_words("lamp render --heatmap-of sh", {"shadow-age", "shadow-size"});
+  expect_words("lamp render --heatmap-of sh", {"shadow-age", "shadow-size", "shadow-leaks"});
   expect_words("lamp verify --ver", {"--verifier"});
   expect_words("lamp --vers", {"--version"});
   expect_among("lamp ", "verify");

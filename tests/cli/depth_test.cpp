@@ -18,16 +18,6 @@ Arguments with(Arguments arguments, const Arguments& more) {
   return arguments;
 }
 
-/// Of a PNG file's header: width, then height.
-std::pair<unsigned, unsigned> size_of_png(const std::string& bytes) {
-  const auto number_at = [&](std::size_t at) {
-    unsigned number = 0;
-    for (std::size_t i = 0; i < 4; ++i) number = number << 8U | static_cast<unsigned char>(bytes.at(at + i));
-    return number;
-  };
-  return {number_at(16), number_at(20)};
-}
-
 TEST_F(DepthTest, NoMethodMissesALightAtAnySample) {
   const auto rows = json_of(with({"verify", "posts", "--depth", "standard", "--depth-samples", "4", "--json"}, SMALL));
   EXPECT_GE(rows.size(), 20);

@@ -55,11 +55,34 @@ TEST_F(Shadows, AreMeasuredWithLightsThatAreCut) {
   EXPECT_LT(walked(2), walked(0));
 }
 
+TEST_F(Shadows, LeakInColour) {
+  const auto with = [](const Arguments& more) {
+    Arguments all{"render", "corridor",     "--lights",    "8",         "--range", "4:8",       "--size",
+                  "240x36", "--samples",    "1",           "--shadows", "vsm",     "--heatmap", "leaks.png",
+                  "--json", "--heatmap-of", "shadow-leaks"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const nlohmann::json none =
+      json_of(with({"--method", "tight", "--overlay", "over.png", "--shadow-budget", "0"})).at("shadows").at("picture");
+  EXPECT_EQ(none.at("leaks"), 1.0) << "nothing has a map";
+  EXPECT_EQ(none.at("false_shadows"), 0.0);
+  EXPECT_EQ(none.at("ended"), 0);
+  for (const char* file : {"leaks.png", "over.png"}) {
+    EXPECT_EQ(size_of_png(read(file)).first, 240U);
+    EXPECT_GT(size_of_png(read(file)).second, 36U) << "there is a legend";
+  }
+  EXPECT_NE(read("leaks.png"), read("over.png"));
+  expect_error(BAD_INPUT, with({"--method", "lamplight", "--option", "occlusion=radial"}),
+               {"--heatmap-of shadow-leaks", "lists leave out lights"});
+}
+
 TEST_F(Shadows, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--shadows", "soft"}, {"--shadows 'soft'", "nearest are "});
   expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "age"},
                {"--heatmap-of 'age'", "nearest are"});
   expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "shadow-age"}, {"expected --shadows"});
+  expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "shadow-leaks"}, {"expected --shadows"});
   expect_error(BAD_INPUT, {"render", "--shadows", "pcf", "--heatmap-of", "shadow-age"},
                {"expected --heatmap or --overlay"});
   expect_error(BAD_INPUT, {"render", "--shadow-lights", "many"}, {"--shadow-lights 'many'", "or all"});

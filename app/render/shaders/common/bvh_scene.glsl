@@ -2,6 +2,7 @@
 // more textures in a shader than a few.
 // Based on: Akenine-Moeller et al., Texture Level of Detail Strategies for Real-Time Ray Tracing, Ray Tracing Gems
 // (2019), chapter 20: a cone around the ray.
+// A shader may say BVH_FIRST_BINDING before it includes this: eight bindings from there on.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_BVH_SCENE
 #define LAMP_BVH_SCENE
@@ -10,16 +11,19 @@
 #include "mirror_data.h"
 #include "common/srgb.glsl"
 
-#define VERTEX_BINDING 11
-#define INDEX_BINDING 12
+#ifndef BVH_FIRST_BINDING
+#define BVH_FIRST_BINDING 8
+#endif
+#define VERTEX_BINDING (BVH_FIRST_BINDING + 3)
+#define INDEX_BINDING (BVH_FIRST_BINDING + 4)
 #include "common/vertex_words.glsl"
 
-layout(set = 0, binding = 8, scalar) readonly buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 9, scalar) readonly buffer BvhTriangleBuffer { BvhTriangle bvh_triangles[]; };
-layout(set = 0, binding = 10, scalar) readonly buffer BvhInstanceBuffer { BvhInstance bvh_instances[]; };
-layout(set = 0, binding = 13, scalar) readonly buffer MaterialBuffer { MirrorMaterial materials[]; };
-layout(set = 0, binding = 14, scalar) readonly buffer ImageBuffer { MirrorImage images[]; };
-layout(set = 0, binding = 15, std430) readonly buffer TexelBuffer { uint texels[]; };
+layout(set = 0, binding = BVH_FIRST_BINDING, scalar) readonly buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = BVH_FIRST_BINDING + 1, scalar) readonly buffer BvhTriangleBuffer { BvhTriangle bvh_triangles[]; };
+layout(set = 0, binding = BVH_FIRST_BINDING + 2, scalar) readonly buffer BvhInstanceBuffer { BvhInstance bvh_instances[]; };
+layout(set = 0, binding = BVH_FIRST_BINDING + 5, scalar) readonly buffer MaterialBuffer { MirrorMaterial materials[]; };
+layout(set = 0, binding = BVH_FIRST_BINDING + 6, scalar) readonly buffer ImageBuffer { MirrorImage images[]; };
+layout(set = 0, binding = BVH_FIRST_BINDING + 7, std430) readonly buffer TexelBuffer { uint texels[]; };
 
 // The corners' vertices.
 uvec3 vertices_of(BvhTriangle t, BvhInstance instance) { return vertices_at(t.first_index, instance.vertex_offset); }

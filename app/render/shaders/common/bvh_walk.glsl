@@ -1,4 +1,4 @@
-// The first triangle that a ray meets. Each thread has a stack in shared memory: no array lies in slow private memory, and
+// The first triangle that a ray meets, or any. Each thread has a stack in shared memory: no array lies in slow private memory, and
 // nothing depends on the size of subgroups.
 // Based on: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2:1 (2013), which meets every edge from one
 // side at least.
@@ -55,18 +55,21 @@ bool meets(BvhRay ray, vec3 corner_a, vec3 corner_b, vec3 corner_c, out BvhMet m
   return true;
 }
 
-bool is_met(BvhTriangle t, BvhInstance instance, BvhMet met) {
-  const bool front = met.front != ((instance.kind & BVH_FLIPPED) != 0u);
-  if (!front && (instance.kind & BVH_DOUBLE_SIDED) == 0u) return false;
+// `any`: from either side. Holes are not there.
+bool is_met(BvhTriangle t, BvhInstance instance, BvhMet met, bool any) {
+  if (!any) {
+    const bool front = met.front != ((instance.kind & BVH_FLIPPED) != 0u);
+    if (!front && (instance.kind & BVH_DOUBLE_SIDED) == 0u) return false;
+  }
   return (instance.kind & BVH_MASKED) == 0u || !is_hole(t, instance, vec2(met.u, met.v));
 }
 
-// The triangle and instance that the ray meets first; MIRROR_SKY if none. Of two at one distance, the lesser.
-MirrorHit first_hit(MirrorRay of, uint root) {
+// The triangle and instance that the ray meets first up to `end`, m; MIRROR_SKY if none. Of two at one distance, the
+// lesser. `any`: one that it meets, from whichever side.
+MirrorHit walk_bvh(MirrorRay of, uint root, float end, bool any) {
   MirrorHit hit = MirrorHit(MIRROR_SKY, 0u, 0.0, 0.0);
   if (root == BVH_NOTHING) return hit;
   const uint mine = gl_LocalInvocationIndex;
-  float end = 1e30;
   BvhRay ray = bvh_ray(of.origin, of.direction);
   uint inside = OUTSIDE_INSTANCES;
   uint waiting = 0u;
@@ -101,7 +104,7 @@ MirrorHit first_hit(MirrorRay of, uint root) {
         BvhMet met;
         if (!meets(ray, t.a, t.b, t.c, met) || met.at <= 0.0 || met.at > end) continue;
         const bool is_nearer = met.at < end || inside < hit.instance || (inside == hit.instance && i < hit.triangle);
-        if (!is_nearer || !is_met(t, instance, met)) continue;
+        if (!is_nearer || !is_met(t, instance, met, any)) continue;
         end = met.at;
         hit = MirrorHit(i, inside, met.u, met.v);
       }
@@ -112,9 +115,17 @@ MirrorHit first_hit(MirrorRay of, uint root) {
       ray = bvh_ray(of.origin, of.direction);
     }
     if (waiting == 0u) break;
+    if (any) {
+      if (hit.triangle != MIRROR_SKY) break;
+    }
     code = s_codes[mine + BVH_THREADS * --waiting];
   }
   return hit;
 }
+
+MirrorHit first_hit(MirrorRay of, uint root) { return walk_bvh(of, root, 1e30, /*any*/ false); }
+
+// Whether anything lies on the ray up to `end`, m.
+bool is_stopped(MirrorRay of, uint root, float end) { return walk_bvh(of, root, end, /*any*/ true).triangle != MIRROR_SKY; }
 
 #endif

@@ -1,0 +1,32 @@
+// Draws letters and rectangles at the scale of a strip.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/legend_strip.h"
+
+namespace lamp::app {
+namespace {
+
+constexpr glm::u8vec4 PANEL{18, 18, 22, 255};
+
+}  // namespace
+
+std::int32_t text_width(std::string_view text, std::int32_t scale) {
+  return static_cast<std::int32_t>(text_size(text, static_cast<std::uint32_t>(scale)).x);
+}
+
+void LegendStrip::text(std::int32_t x, std::int32_t font_y, std::string_view what, glm::u8vec3 color) const {
+  draw_text(image, x, y(font_y), what, color, static_cast<std::uint32_t>(scale));
+}
+
+void LegendStrip::rect(std::int32_t x, std::int32_t font_y, glm::ivec2 size, glm::u8vec3 color) const {
+  fill_rect(image, {x, y(font_y)}, size, color);
+}
+
+LegendStrip append_strip(LdrImage& image, std::int32_t font_pixels) {
+  const LegendStrip strip{image, static_cast<std::int32_t>(image.height),
+                          static_cast<std::int32_t>(1 + image.width / 640)};
+  image.height += static_cast<std::uint32_t>(font_pixels * strip.scale);
+  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height, PANEL);
+  return strip;
+}
+
+}  // namespace lamp::app
