@@ -245,9 +245,10 @@ Overlaid make_overlay(Overlay overlay, Palette palette, const Walked& walked) {
       return app::missed(walked);
     case Overlay::difference:
       return difference(walked);
-    case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay, make_shadow_heat
+    case Overlay::shadow_atlas:  // of no walk: make_shadow_overlay, make_shadow_heat, make_shadow_leaks
     case Overlay::shadow_age:
     case Overlay::shadow_size:
+    case Overlay::shadow_leaks:
     case Overlay::slice:        // of another walk: make_slice
     case Overlay::light_cells:  // make_light_cells
     case Overlay::mask:         // make_mask_overlay

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands/view_state.h"
+#include "render/shadow_leaks.h"
 #include "render/visit.h"
 
 namespace lamp::app {
@@ -38,8 +39,9 @@ struct Legend {
                             ///< Overlay::missed, pixels that miss one, and `max` is of how many pairs; of
                             ///< Overlay::difference, pixels that differ, and `mean` is of the first less the second
   // Of Overlay::light_cells, whose `cells` list the light:
-  std::uint64_t reached = 0;  ///< of these cells, those in which it reaches a pixel
-  std::uint64_t lacking = 0;  ///< cells in which it does, and that do not list it
+  std::uint64_t reached = 0;      ///< of these cells, those in which it reaches a pixel
+  std::uint64_t lacking = 0;      ///< cells in which it does, and that do not list it
+  std::optional<LeakSums> leaks;  ///< of Overlay::shadow_leaks
 };
 
 /// RGBA of every pixel, eight bits each, red lowest. Alpha 0 leaves the picture as it is.

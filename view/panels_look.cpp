@@ -11,6 +11,7 @@
 #include "view/light_cells.h"
 #include "view/mask_overlay.h"
 #include "view/panels.h"
+#include "view/shadow_overlay.h"
 
 namespace lamp::app {
 namespace {
@@ -57,6 +58,11 @@ void shadow_heat_text(const char* what, const Legend& legend) {
                     "waits to be drawn anew (red)",
                     legend.cells)
             .c_str());
+}
+
+void shadow_leaks_text(const LeakSums& sums) {
+  for (const std::string& words : {leak_words(sums), lost_words(sums), left_out_words(sums)})
+    if (!words.empty()) ImGui::TextUnformatted(words.c_str());
 }
 
 /// What the overlays say that know of the whole frame.
@@ -117,6 +123,9 @@ void legend_text(const Shown& shown) {
     case Overlay::shadow_size:
       shadow_heat_text("texels a side of the smallest map that a pixel looks up", legend);
       break;
+    case Overlay::shadow_leaks:
+      shadow_leaks_text(legend.leaks.value());
+      break;
     case Overlay::slice:
       ImGui::TextUnformatted(fmt::format("lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} "
                                          "cells; fainter behind surfaces",
@@ -165,7 +174,7 @@ void look_panel(PanelFrame& p) {
       "overlay", p.state.overlay, overlay_names(),
       "What is laid over the picture: how many lights pixels walk, the cells, those that list one light, how deep they "
       "reach and what a mask of that leaves out, those that did not fit, what is missed, how two methods differ, how "
-      "old and how large shadow maps are, or a slice through the "
+      "old and how large shadow maps are, where shadows leak or are false by rays, or a slice through the "
       "clusters.",
       [&](std::string_view name) {
         const auto overlay = static_cast<Overlay>(std::ranges::find(overlay_names(), name) - overlay_names().begin());
@@ -214,6 +223,10 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
       draw_colors({{FIRST_WALKS_MORE, "A walks more"}, {SECOND_WALKS_MORE, "B walks more"}});
     if (legend.overlay == Overlay::light_cells && legend.refused.empty())
       draw_colors({{REACHES_A_PIXEL, "it reaches a pixel of the cell"}, {LISTED_IN_VAIN, "listed in vain"}});
+    if (legend.overlay == Overlay::shadow_leaks && legend.refused.empty()) {
+      const LeakColors colors = leak_colors(shown.state.palette);
+      draw_colors({{colors.leaked, "leaks"}, {colors.lost, "false shadow; full colour: all light of the pixel"}});
+    }
     if (shown.picture_difference)
       ImGui::TextUnformatted(
           fmt::format("largest difference of the two pictures: {:.3g}", *shown.picture_difference).c_str());

@@ -9,6 +9,7 @@
 #include "commands/pictures.h"
 #include "render/shaders/shadow_heat_data.h"
 #include "render/shadow_squares.h"
+#include "view/overlay_colors.h"
 
 namespace lamp::app {
 namespace {
@@ -149,6 +150,29 @@ Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std:
     return std::nullopt;
   });
   made.legend.overlay = overlay;
+  return made;
+}
+
+LeakColors leak_colors(Palette palette) {
+  switch (palette) {
+    case Palette::rainbow:
+      break;
+    case Palette::blue_yellow:
+      return {.leaked = palette_color(palette, 1.0),
+              .lost = {0, 80, 220}};  // brighter than the scale's, to show beside grey
+    case Palette::grey:
+      return {.leaked = glm::u8vec3(255), .lost = glm::u8vec3(0)};
+  }
+  return {};
+}
+
+Overlaid make_shadow_leaks(Palette palette, std::span<const gpu::ShadowLeak> pixels) {
+  const LeakColors colors = leak_colors(palette);
+  const std::vector<std::uint8_t> greys = grey_of(pixels);
+  Overlaid made{.pixels = {}, .legend = {.overlay = Overlay::shadow_leaks, .leaks = sum_of(pixels)}};
+  made.pixels.reserve(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    made.pixels.push_back(rgba(leak_color(pixels[i], greys[i], colors), 1.0F));
   return made;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lamplight/shared/shadow.h"
+#include "render/leak_map.h"
 #include "view/overlay.h"
 
 namespace lamp::app {
@@ -32,5 +33,10 @@ struct AtlasSeen {
 /// pixels with a light that has no shadow, or whose shadow waits.
 [[nodiscard]] Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst,
                                         double scale_max);
+
+/// Of Overlay::shadow_leaks, in place of the picture: the light of lights in grey, and what is wrong with it in the
+/// palette's colours.
+[[nodiscard]] Overlaid make_shadow_leaks(Palette palette, std::span<const gpu::ShadowLeak> pixels);
+[[nodiscard]] LeakColors leak_colors(Palette palette);
 
 }  // namespace lamp::app

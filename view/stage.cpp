@@ -194,6 +194,7 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
       visits_ = renderer_->visit_all(chosen.lighting);
     if (overlaid || state.list_lengths) {
       set_walked(made.stats, visits_);
+      if (made.stats.shadows) made.stats.shadows->leaks = made.legend.leaks;
       made.lengths = list_lengths(visits_);
       if (state.overlay == Overlay::cells) made.cells = cell_places(visits_, {width, first, end});
     }

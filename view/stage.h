@@ -66,6 +66,8 @@ class Stage {
   void make_renderer(const Request& request, const View& view, std::string key);
   void renew_probes(const ViewState& state, const View& view, Captures which);
   void need_lights(const ViewState& state);
+  /// The scene as rays read it, where its instances are: the mirrors', or made at the first call, in a while.
+  [[nodiscard]] const MirrorScene& rays();
   /// Lists of the lights that stand still, if the request asks for such.
   void need_still(const Request& request, const View& view);
   [[nodiscard]] std::size_t still_count(const Request& request) const;
@@ -106,6 +108,7 @@ class Stage {
   [[nodiscard]] Overlaid overlaid(const Overlaying& o);
   [[nodiscard]] Overlaid walk_overlay(const Overlaying& o);
   [[nodiscard]] Overlaid shadow_overlay(const Overlaying& o);
+  [[nodiscard]] Overlaid leaks_overlay(const Overlaying& o);
   [[nodiscard]] Overlaid slice_overlay(const Overlaying& o);
   [[nodiscard]] Overlaid light_cells_overlay(const Overlaying& o);
   [[nodiscard]] Overlaid mask_overlay(const Overlaying& o);

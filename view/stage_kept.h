@@ -21,6 +21,8 @@ struct Stage::KeptScene {
   std::optional<OpenAir> air;
   std::optional<Box> bounds;
   std::unique_ptr<GpuScene> gpu;
+  std::unique_ptr<MirrorScene> rays;  ///< null: none were asked for
+  bool rays_moved = false;            ///< instances have, since they were asked for last
 };
 
 struct Stage::KeptLights {

@@ -12,6 +12,7 @@
 #include "render/pass_uses.h"
 #include "render/pixel_lights.h"
 #include "render/shadow_heat.h"
+#include "render/shadow_leaks.h"
 #include "render/slice_walk.h"
 #include "view/depth_bins.h"
 #include "view/light_cells.h"
@@ -30,6 +31,7 @@ std::vector<Visit> Stage::visits_of_other(const Overlaying& o) {
 
 Overlaid Stage::shadow_overlay(const Overlaying& o) {
   const ViewState& state = o.state;
+  if (state.overlay == Overlay::shadow_leaks) return leaks_overlay(o);
   if (state.overlay != Overlay::shadow_atlas) {
     const ShadowHeat of = state.overlay == Overlay::shadow_age ? ShadowHeat::age : ShadowHeat::size;
     return make_shadow_heat(state.overlay, state.palette, shadow_heat(*renderer_, o.lighting, of), o.scale_max);
@@ -49,6 +51,12 @@ Overlaid Stage::shadow_overlay(const Overlaying& o) {
                                              .maps = shadows.maps(),
                                              .light = state.light,
                                              .picture = {renderer_->view().width(), renderer_->view().height()}});
+}
+
+Overlaid Stage::leaks_overlay(const Overlaying& o) {
+  if (std::string why = why_no_leaks(*renderer_, o.lighting, scene_->scene); !why.empty())
+    return refused_overlay(Overlay::shadow_leaks, visits_.size(), std::move(why));
+  return make_shadow_leaks(o.state.palette, shadow_leaks(*renderer_, o.lighting, rays()));
 }
 
 Overlaid Stage::slice_overlay(const Overlaying& o) {

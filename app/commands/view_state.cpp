@@ -16,9 +16,9 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::array<std::string_view, 13> OVERLAYS{
-    "none",   "heat",       "cells",        "light-cells", "depth-range", "mask", "overflow",
-    "missed", "difference", "shadow-atlas", "shadow-age",  "shadow-size", "slice"};
+constexpr std::array<std::string_view, 14> OVERLAYS{
+    "none",   "heat",       "cells",        "light-cells", "depth-range", "mask",         "overflow",
+    "missed", "difference", "shadow-atlas", "shadow-age",  "shadow-size", "shadow-leaks", "slice"};
 constexpr std::array<std::string_view, 3> PALETTES{"rainbow", "blue-yellow", "grey"};
 constexpr std::array<std::string_view, 3> LIGHT_MARKS{"none", "cell", "all"};
 constexpr std::array<std::string_view, 3> SHADOW_SHAPES{"none", "bound", "mesh"};

@@ -29,15 +29,16 @@ enum class Overlay : std::uint8_t {
   shadow_atlas,  ///< the shadow maps of all lights, or of the light that is looked at; where lights cast shadows
   shadow_age,    ///< frames since the oldest map that a pixel looks up was drawn; where lights cast shadows
   shadow_size,   ///< texels a side of the smallest of them
+  shadow_leaks,  ///< light that a shadow filter lets through although rays are stopped, or stops; likewise
   slice,         ///< lights that a point of each pixel's ray would walk, at one depth
 };
 /// "none", "heat", "cells", "light-cells", "depth-range", "mask", "overflow", "missed", "difference", "shadow-atlas",
-/// "shadow-age", "shadow-size", "slice", in the order of Overlay.
+/// "shadow-age", "shadow-size", "shadow-leaks", "slice", in the order of Overlay.
 [[nodiscard]] std::span<const std::string_view> overlay_names();
 
-/// Whether an overlay shows shadow maps: without a light that casts a shadow there is nothing to lay over.
+/// Whether an overlay shows shadows: without a light that casts one there is nothing to lay over.
 [[nodiscard]] inline bool is_of_shadows(Overlay overlay) {
-  return overlay == Overlay::shadow_atlas || overlay == Overlay::shadow_age || overlay == Overlay::shadow_size;
+  return overlay >= Overlay::shadow_atlas && overlay <= Overlay::shadow_leaks;
 }
 
 /// Colours of the heat map.

@@ -126,6 +126,26 @@ TEST(Overlays, ShadowHeatTellsNumbersFromWhatIsNone) {
   EXPECT_EQ(color(made.pixels[4]), WAITS_COLOR);
 }
 
+TEST(Overlays, ShadowLeaksHaveThePalettesColours) {
+  const std::vector<gpu::ShadowLeak> pixels{{.stopped = 2.0F, .leaked = 2.0F},
+                                            {.arriving = 6.0F, .lost = 3.0F},
+                                            {.arriving = 1.0F},
+                                            {.found = gpu::LEAK_SKY}};
+  for (const Palette palette : {Palette::rainbow, Palette::blue_yellow, Palette::grey}) {
+    const Overlaid made = make_shadow_leaks(palette, pixels);
+    const LeakColors colors = leak_colors(palette);
+    EXPECT_NE(colors.leaked, colors.lost);
+    EXPECT_EQ(made.legend.overlay, Overlay::shadow_leaks);
+    EXPECT_EQ(made.legend.leaks->light.leaks(), 1.0);
+    EXPECT_EQ(made.legend.leaks->light.false_shadows(), 3.0 / 7.0);
+    EXPECT_EQ(color(made.pixels[0]), colors.leaked);
+    EXPECT_EQ(color(made.pixels[2]).r, color(made.pixels[2]).b);
+    EXPECT_NE(color(made.pixels[1]).r, color(made.pixels[2]).r);
+    EXPECT_EQ(alpha(made.pixels[3]), 255U);
+  }
+  EXPECT_EQ(leak_colors(Palette::grey).leaked, glm::u8vec3(255));
+}
+
 TEST(ListLengthsTest, CountCells) {
   EXPECT_TRUE(list_lengths({}).empty());
   const std::vector<ListLengths> expected{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 4, 1}, {5, 8, 0}, {9, 16, 1}};
