@@ -28,7 +28,7 @@ void find_patches(SquareView square, ShadowTriangle t, ivec2 low, ivec2 high) {
     const ivec2 first = patch_at(low, i);
     const ivec2 last = min(first + PATCH - 1, high);
     const bool touches = all(lessThanEqual(first, high)) &&
-                         may_touch(t, texel_center(square, first), texel_center(square, last));
+                         may_touch(square, t, texel_center(square, first), texel_center(square, last));
     if (touches) atomicOr(s_touched[i / 32u], 1u << (i % 32u));
   }
 }

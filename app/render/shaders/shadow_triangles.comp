@@ -31,7 +31,7 @@ struct Blocks {
 bool touches_block(SquareView square, ShadowTriangle t, ivec2 block) {
   const ivec2 low = max(t.low, block * SHADOW_BLOCK);
   const ivec2 high = min(t.high, block * SHADOW_BLOCK + SHADOW_BLOCK - 1);
-  return may_touch(t, texel_center(square, low), texel_center(square, high));
+  return may_touch(square, t, texel_center(square, low), texel_center(square, high));
 }
 
 uint count_blocks(SquareView square, ShadowTriangle t, Blocks blocks) {

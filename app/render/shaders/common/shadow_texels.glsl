@@ -30,7 +30,7 @@ bool is_hole(ShadowTriangle t, vec3 edges) {
 void draw_texel(SquareView square, ShadowTriangle t, ivec2 at) {
   const vec3 s = texel_center(square, at);
   const vec3 edges = edges_at(t, s);
-  if (any(lessThan(edges, vec3(0.0))) || any(lessThan(s * square.folds, vec3(0.0)))) return;
+  if (any(lessThan(edges, vec3(0.0))) || (square.is_octant && any(lessThan(s * square.folds, vec3(0.0))))) return;
   // Nearer than the nearest distance is drawn at it.
   const float depth = min(square.near_m * dot(t.plane, s) / t.scale, 1.0);
   if (!(depth > 0.0)) return;

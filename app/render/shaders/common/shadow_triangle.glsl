@@ -9,12 +9,11 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "scene_data.h"
 #include "shadow_data.h"
+#include "common/shadow_square.glsl"
 #include "common/triangle_normal.glsl"
 
 layout(set = 0, binding = 2, scalar) readonly buffer InstanceBuffer { InstanceData instances[]; };
-layout(set = 0, binding = 10, scalar) readonly buffer ViewBuffer { ShadowView views[]; };
 layout(set = 0, binding = 11, scalar) readonly buffer CasterBuffer { ShadowCaster casters[]; };
-layout(set = 0, binding = 12, scalar) readonly buffer MapBuffer { ShadowMap maps[]; };
 layout(set = 0, binding = 13, scalar) readonly buffer DrawBuffer { ShadowDraw draws[]; };
 #define VERTEX_BINDING 14
 #define INDEX_BINDING 15
@@ -22,37 +21,6 @@ layout(set = 0, binding = 13, scalar) readonly buffer DrawBuffer { ShadowDraw dr
 
 const int SHADOW_BLOCK = 64;  // texels a side that one item is of
 const float SLACK_TEXELS = 1.0 / 64.0;
-
-// Of a square: (x, y, w) of a point, x / w and y / w in texels from the square's middle.
-struct SquareView {
-  mat3 rows;  // columns are x, y, w
-  vec3 position;
-  float near_m;
-  ivec2 corner;  // texel in the atlas
-  int side;
-  mat3 folds;  // columns: a texel belongs to the view where the dot products with (x, y, 1) are not negative
-};
-
-SquareView square_view(uint view, float atlas_size) {
-  const uint light = views[view].light;
-  const bool octant = maps[light].kind == SHADOW_OCTAHEDRON;
-  const uint at = maps[light].squares[maps[light].kind == SHADOW_FACES ? views[view].view : 0u];
-  SquareView square;
-  square.position = views[view].position;
-  square.near_m = views[view].near_m;
-  square.corner = ivec2(at & 0xffffu, at >> 16u) * int(LEAST_SQUARE);
-  square.side = int(maps[light].side);
-  const vec2 off_middle = 0.5 * atlas_size - (vec2(square.corner) + 0.5 * float(square.side));
-  const vec3 row_w = views[view].row_w;
-  square.rows = mat3(0.5 * atlas_size * views[view].row_x + off_middle.x * row_w,
-                     0.5 * atlas_size * views[view].row_y + off_middle.y * row_w, row_w);
-  square.folds = mat3(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
-  if (octant) {
-    const mat3 direction_of = inverse(transpose(square.rows));
-    square.folds = transpose(direction_of) * mat3(views[view].planes[0], views[view].planes[1], views[view].planes[2]);
-  }
-  return square;
-}
 
 struct ShadowTriangle {
   vec3 edge_x;  // of the three edges: edge_x * x + edge_y * y + edge_z is not negative inside
@@ -77,18 +45,27 @@ vec3 edge_of(vec3 a, vec3 b) {
   return edge;
 }
 
-// All of the square if a corner is beside or behind the light.
-void bound_texels(vec3 a, vec3 b, vec3 c, int side, inout ShadowTriangle t) {
-  t.low = ivec2(0);
-  t.high = ivec2(side - 1);
+// All of the view if a corner is beside or behind the light.
+void bound_texels(vec3 a, vec3 b, vec3 c, SquareView square, inout ShadowTriangle t) {
+  t.low = square.low;
+  t.high = square.high;
   if (min(a.z, min(b.z, c.z)) <= 0.0) return;
   const vec2 pa = a.xy / a.z;
   const vec2 pb = b.xy / b.z;
   const vec2 pc = c.xy / c.z;
-  const vec2 to_texel = vec2(0.5 * float(side) - 0.5);
-  const vec2 most = vec2(side);
+  const vec2 to_texel = vec2(0.5 * float(square.side) - 0.5);
+  const vec2 most = vec2(square.side);
   t.low = max(t.low, ivec2(ceil(clamp(min(pa, min(pb, pc)) + to_texel - SLACK_TEXELS, vec2(-1.0), most))));
   t.high = min(t.high, ivec2(floor(clamp(max(pa, max(pb, pc)) + to_texel + SLACK_TEXELS, vec2(-1.0), most))));
+}
+
+// Whether all corners are beyond one fold of the octant, by more than rounding.
+bool is_beyond_fold(SquareView square, vec3 a, vec3 b, vec3 c) {
+  if (!square.is_octant) return false;
+  const vec3 farthest = max(a * square.folds, max(b * square.folds, c * square.folds));
+  const vec3 size = max(abs(a), max(abs(b), abs(c)));
+  const mat3 folds = mat3(abs(square.folds[0]), abs(square.folds[1]), abs(square.folds[2]));
+  return any(lessThan(farthest, -1e-5 * (size * folds)));
 }
 
 ShadowTriangle shadow_triangle(SquareView square, uint caster, uint number) {
@@ -108,23 +85,26 @@ ShadowTriangle shadow_triangle(SquareView square, uint caster, uint number) {
   t.edge_x = of_edges[0];
   t.edge_y = of_edges[1];
   t.edge_z = of_edges[2];
-  bound_texels(a, b, c, square.side, t);
+  bound_texels(a, b, c, square, t);
   const bool seen_from_its_edge = !(t.scale > 0.0);
-  if (seen_from_its_edge || max(a.z, max(b.z, c.z)) <= 0.0) t.high = t.low - 1;
+  if (seen_from_its_edge || max(a.z, max(b.z, c.z)) <= 0.0 || is_beyond_fold(square, a, b, c)) t.high = t.low - 1;
   return t;
 }
 
 bool is_empty(ShadowTriangle t) { return any(greaterThan(t.low, t.high)); }
 
-// From the square's middle.
-vec3 texel_center(SquareView square, ivec2 at) { return vec3(vec2(at) + 0.5 - 0.5 * float(square.side), 1.0); }
+// Whether x * p.x + y * p.y + z may be as much as 0 in all three for a p between these two.
+bool may_be_inside(vec3 x, vec3 y, vec3 z, vec2 low, vec2 high) {
+  const vec3 most = max(x * low.x, x * high.x) + max(y * low.y, y * high.y) + z;
+  const vec2 farthest = max(abs(low), abs(high));
+  return all(greaterThanEqual(most, -1e-6 * (abs(x) * farthest.x + abs(y) * farthest.y + abs(z))));
+}
 
-// Whether it may cover a texel whose centre lies between these two.
-bool may_touch(ShadowTriangle t, vec3 low, vec3 high) {
-  const vec3 most = max(t.edge_x * low.x, t.edge_x * high.x) + max(t.edge_y * low.y, t.edge_y * high.y) + t.edge_z;
-  const vec3 rounding = 1e-6 * (abs(t.edge_x) * max(abs(low.x), abs(high.x)) +
-                                abs(t.edge_y) * max(abs(low.y), abs(high.y)) + abs(t.edge_z));
-  return all(greaterThanEqual(most, -rounding));
+// Whether it may cover a texel of the view whose centre lies between these two.
+bool may_touch(SquareView square, ShadowTriangle t, vec3 low, vec3 high) {
+  if (!may_be_inside(t.edge_x, t.edge_y, t.edge_z, low.xy, high.xy)) return false;
+  const mat3 folds = transpose(square.folds);
+  return !square.is_octant || may_be_inside(folds[0], folds[1], folds[2], low.xy, high.xy);
 }
 
 // Distances from the edges, each times a corner's weight over w.
