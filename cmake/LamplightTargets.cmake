@@ -38,6 +38,13 @@ function(lamplight_optimise target)
   endif()
 endfunction()
 
+# For tests, which no fuzzer runs: without what shows fuzzers their way, which takes a seventh of the time to compile.
+function(lamplight_without_fuzzers target)
+  if(PROJECT_IS_TOP_LEVEL AND LAMPLIGHT_SANITIZE MATCHES fuzzer)
+    target_compile_options(${target} PRIVATE -fno-sanitize=fuzzer-no-link)
+  endif()
+endfunction()
+
 # Compiles the target's sources in groups, if LAMPLIGHT_JOIN is one of those named.
 function(lamplight_join target)
   if(NOT LAMPLIGHT_JOIN IN_LIST ARGN)

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint32_t SIDE = 64;   // pixels: the picture does not matter
 constexpr std::size_t POINTS = 500;  // of each kind
-constexpr std::uint32_t LIGHTS = 300;
+constexpr std::uint32_t LIGHTS = 150;
 constexpr std::uint32_t WORDS = 11;  // of a pixel, in walks.comp
 
 using test::Points;
