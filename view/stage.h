@@ -66,8 +66,6 @@ class Stage {
   void make_renderer(const Request& request, const View& view, std::string key);
   void renew_probes(const ViewState& state, const View& view, Captures which);
   void need_lights(const ViewState& state);
-  /// The scene as rays read it, where its instances are: the mirrors', or made at the first call, in a while.
-  [[nodiscard]] const MirrorScene& rays();
   /// Lists of the lights that stand still, if the request asks for such.
   void need_still(const Request& request, const View& view);
   [[nodiscard]] std::size_t still_count(const Request& request) const;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/kept_rays.h"
 #include "render/light_mover.h"
 #include "render/probe_captures.h"
 #include "view/stage.h"
@@ -21,8 +22,7 @@ struct Stage::KeptScene {
   std::optional<OpenAir> air;
   std::optional<Box> bounds;
   std::unique_ptr<GpuScene> gpu;
-  std::unique_ptr<MirrorScene> rays;  ///< null: none were asked for
-  bool rays_moved = false;            ///< instances have, since they were asked for last
+  KeptRays rays;
 };
 
 struct Stage::KeptLights {

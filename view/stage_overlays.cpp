@@ -56,7 +56,8 @@ Overlaid Stage::shadow_overlay(const Overlaying& o) {
 Overlaid Stage::leaks_overlay(const Overlaying& o) {
   if (std::string why = why_no_leaks(*renderer_, o.lighting, scene_->scene); !why.empty())
     return refused_overlay(Overlay::shadow_leaks, visits_.size(), std::move(why));
-  return make_shadow_leaks(o.state.palette, shadow_leaks(*renderer_, o.lighting, rays()));
+  return make_shadow_leaks(o.state.palette,
+                           shadow_leaks(*renderer_, o.lighting, scene_->rays.of(context_, *scene_->gpu, *renderer_)));
 }
 
 Overlaid Stage::slice_overlay(const Overlaying& o) {

@@ -58,18 +58,7 @@ void Stage::move_scene(const Request& request) {
   scene_->moved_to = frame_of(request);
   const std::vector<shared::LightSphere> moved = scene_->gpu->move(context_);
   if (renderer_) renderer_->move_instances(moved);
-  scene_->rays_moved = true;
-}
-
-const MirrorScene& Stage::rays() {
-  if (renderer_->mirrored() != nullptr) return renderer_->mirrored()->scene();
-  const bool moved = std::exchange(scene_->rays_moved, false);
-  if (!scene_->rays)
-    scene_->rays = std::make_unique<MirrorScene>(context_, *scene_->gpu);
-  else if (moved)
-    scene_->rays->move(context_, scene_->scene);
-  renderer_->also([&](vulkan::Recorder& recorder) { scene_->rays->record_upload(recorder); });
-  return *scene_->rays;
+  scene_->rays.move();
 }
 
 void Stage::make_renderer(const Request& request, const View& view, std::string key) {

@@ -365,18 +365,7 @@ void Session::split_still(bool splits) {
 
 void Session::move_instances() {
   renderer_->move_instances(gpu_scene_->move(*context_));
-  rays_moved_ = true;
-}
-
-const MirrorScene& Session::rays() {
-  if (renderer_->mirrored() != nullptr) return renderer_->mirrored()->scene();
-  const bool moved = std::exchange(rays_moved_, false);
-  if (!rays_)
-    rays_ = std::make_unique<MirrorScene>(*context_, *gpu_scene_);
-  else if (moved)
-    rays_->move(*context_, setup_.scene);
-  renderer_->also([&](vulkan::Recorder& recorder) { rays_->record_upload(recorder); });
-  return *rays_;
+  rays_.move();
 }
 
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {

@@ -13,6 +13,7 @@
 #include "error.h"
 #include "lamplight/triangle_lists.h"
 #include "lamplight/world_tree.h"
+#include "render/kept_rays.h"
 #include "render/probe_captures.h"
 #include "render/renderer.h"
 #include "render/verification.h"
@@ -277,7 +278,7 @@ class Session {
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
   [[nodiscard]] const GpuScene& gpu_scene() const { return *gpu_scene_; }
   /// The scene as rays read it, where its instances are: the mirrors', or made at the first call, in a while.
-  [[nodiscard]] const MirrorScene& rays();
+  [[nodiscard]] const MirrorScene& rays() { return rays_.of(*context_, *gpu_scene_, *renderer_); }
   /// Null: all lights are the picture's.
   [[nodiscard]] const StillSetup* still() const { return still_ ? &*still_ : nullptr; }
   /// Whether the next frames look up still lights in their lists, which they do at first, or have all lights in the
@@ -305,8 +306,7 @@ class Session {
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<GpuScene> gpu_scene_;
-  std::unique_ptr<MirrorScene> rays_;  ///< null: none were asked for
-  bool rays_moved_ = false;            ///< instances have, since they were asked for last
+  KeptRays rays_;
   std::unique_ptr<StillLists> still_lists_;
   std::unique_ptr<ProbeAtlas> no_captures_;
   std::unique_ptr<ProbeSet> flat_probes_;
