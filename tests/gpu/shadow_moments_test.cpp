@@ -158,8 +158,8 @@ class BlurOfMoments : public GpuTest {
       }
   }
   static void expect_near(const glm::dvec2& found, const glm::dvec2& expected, const glm::ivec2& at) {
-    ASSERT_NEAR(found.x, expected.x, 2e-6 * expected.x) << at.x << ", " << at.y;
-    ASSERT_NEAR(found.y, expected.y, 4e-6 * expected.y) << at.x << ", " << at.y;
+    ASSERT_NEAR(found.x, expected.x, 1e-6 * expected.x) << at.x << ", " << at.y;
+    ASSERT_NEAR(found.y, expected.y, 1e-6 * expected.y) << at.x << ", " << at.y;
   }
 };
 
