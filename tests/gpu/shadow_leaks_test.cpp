@@ -4,6 +4,7 @@
 
 #include "gpu/hall.h"
 #include "gpu/test_scenes.h"
+#include "render/kept_rays.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
 
@@ -41,8 +42,13 @@ class Shadowed {
   void draw() { static_cast<void>(renderer_.render(*lighting_)); }
 
   [[nodiscard]] std::vector<gpu::ShadowLeak> leaks() {
-    rays_.emplace(test_context(), scene_);
-    return shadow_leaks(renderer_, *lighting_, *rays_);
+    return shadow_leaks(renderer_, *lighting_, rays_.of(test_context(), scene_, renderer_));
+  }
+  /// Instances have, from and to these places.
+  void move(std::span<const shared::LightSphere> moved) {
+    renderer_.move_instances(moved);
+    rays_.move();
+    renderer_.set_frame(view_of(scene_.scene().cameras.front(), WIDTH, HEIGHT, "perspective"), lights_);
   }
   [[nodiscard]] ShadowFindings truth() { return check_shadows(renderer_, shader_library(), scene_.scene(), lights_); }
   [[nodiscard]] std::string why_not() const { return why_no_leaks(renderer_, *lighting_, scene_.scene()); }
@@ -50,7 +56,7 @@ class Shadowed {
  private:
   const GpuScene& scene_;
   std::vector<shared::Light> lights_;
-  std::optional<MirrorScene> rays_;  // lives on while the renderer remembers its use
+  KeptRays rays_;  // lives on while the renderer remembers its use
   Renderer renderer_;
   std::optional<Lighting> lighting_;
 };
@@ -128,6 +134,29 @@ TEST_F(GpuTest, NothingLeaksWhereNothingIsStopped) {
     arriving += double{pixel.arriving};
   }
   EXPECT_GT(arriving, 0.0);
+}
+
+/// A light above a ceiling, which goes and comes back.
+TEST_F(GpuTest, RaysFollowAnInstanceThatMoves) {
+  Scene scene = hall(6.0F);
+  scene.materials[0] = {.roughness = 1.0F};
+  scene.materials[1].double_sided = true;
+  GpuScene on_gpu(test_context(), scene);
+  Shadowed shadowed(on_gpu, {.filter = ShadowFilter::hard},
+                    pack(std::vector<Light>{{.position = {0.0F, 5.0F, 0.0F}, .range = 40.0F}}));
+  const auto light_at = [&](float x) {
+    scene.instances[1].world_from_object[3].x = x;
+    shadowed.move(on_gpu.move(test_context()));
+    shadowed.draw();
+    return sum_of(shadowed.leaks());
+  };
+  const LeakSums below = light_at(0.0F);
+  EXPECT_GT(below.light.stopped, 0.0);
+  EXPECT_EQ(below.light.arriving, 0.0);
+  const LeakSums open = light_at(40.0F);
+  EXPECT_EQ(open.light.stopped, 0.0);
+  EXPECT_GT(open.light.arriving, 0.0);
+  EXPECT_EQ(light_at(0.0F), below);
 }
 
 TEST_F(GpuTest, ListsThatShadowMapsCutSayNothingOfLeaks) {
