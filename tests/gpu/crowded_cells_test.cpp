@@ -92,7 +92,7 @@ TEST_F(ManyPieces, AllComeToTheirEnd) {
 // Pixels with more lights than a software device walks one by one.
 TEST_F(LongWalks, BringTheirLastLights) {
   constexpr std::uint32_t COUNT = 40'000;
-  constexpr glm::uvec2 SIZE{64, 36};
+  constexpr glm::uvec2 SIZE{32, 18};
   const TestScene& scene = builtin_test_scene("one-tile");
   const View view = view_of(find_camera(scene.scene, ""), SIZE.x, SIZE.y, "camera");
   Renderer renderer(test_context(), shader_library(), scene.gpu, SIZE.x, SIZE.y, COUNT);
