@@ -174,7 +174,7 @@ TEST_F(Capture, FromAnotherProgramMissesNothing) {
   EXPECT_EQ(files(), in_folder("court", {"depth.exr", "frame.json", "lights.npy"}));
   const nlohmann::json rows =
       json_of({"verify", "court", "--json", "--method", "all", "--method", "tiled", "--method", "clustered", "--method",
-               "tile-zbin", "--method", "lamplight", "--method", "drobot-raster-cluster", "--method", "world-cells"});
+               "drobot-zbin", "--method", "lamplight", "--method", "drobot-raster-cluster", "--method", "world-cells"});
   EXPECT_EQ(rows.size(), 7);
   for (const nlohmann::json& stats : rows) {
     SCOPED_TRACE(stats.at("method").get<std::string>());
