@@ -27,6 +27,11 @@ struct LdrImage {
   std::vector<glm::u8vec4> pixels;
 };
 
+/// A colour's grey, 0 .. 255. ITU-R BT.709.
+[[nodiscard]] inline float luma(glm::u8vec4 color) {
+  return glm::dot(glm::vec3(color), glm::vec3(0.2126F, 0.7152F, 0.0722F));
+}
+
 /// Pictures of one height, from left to right.
 [[nodiscard]] HdrImage side_by_side(std::span<const HdrImage> images);
 

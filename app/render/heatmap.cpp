@@ -42,7 +42,7 @@ constexpr std::array<glm::u8vec3, 13> RAMP{{{12, 4, 122},
 
 /// The map's colour over a picture: the picture in grey shows what is where.
 glm::u8vec4 lay_over(glm::u8vec3 heat, glm::u8vec4 below) {
-  const float grey = glm::dot(glm::vec3(below), glm::vec3(0.2126F, 0.7152F, 0.0722F));
+  const float grey = luma(below);
   return {glm::u8vec3(glm::mix(glm::vec3(grey), glm::vec3(heat), OVERLAY_ALPHA) + 0.5F), 255};
 }
 

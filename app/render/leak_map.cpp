@@ -29,8 +29,7 @@ double shown(const gpu::ShadowLeak& pixel) {
 }
 
 std::uint8_t grey_of(glm::u8vec4 color) {
-  const float luma = glm::dot(glm::vec3(color), glm::vec3(0.2126F, 0.7152F, 0.0722F)) / 255.0F;
-  return static_cast<std::uint8_t>(std::lround(DARKEST + (BRIGHTEST - DARKEST) * luma));
+  return static_cast<std::uint8_t>(std::lround(DARKEST + (BRIGHTEST - DARKEST) * (luma(color) / 255.0F)));
 }
 
 /// A bar from no light to all of it, as its shares are coloured, and what it means.

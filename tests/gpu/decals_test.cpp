@@ -274,8 +274,9 @@ TEST_F(DecoratedWall, LaterOnesLieOnTop) {
   for (const Method& method : methods()) {
     SCOPED_TRACE(method.name);
     std::vector<Decal> decals{on_wall({}, 0.0F, red), on_wall({}, 0.0F, blue)};
-    for (std::size_t i = number++; i < number + 1; ++i, std::swap(decals[0], decals[1])) {
-      if (!has_turn(i, 2)) continue;
+    ++number;
+    for (std::size_t order = 0; order < 2; ++order, std::swap(decals[0], decals[1])) {
+      if (!has_turn(number + order, 2)) continue;
       const CapturedFrame frame = surfaces(decals, method.name);
       const glm::vec3 middle = frame.albedo[std::size_t{HEIGHT / 2} * WIDTH + WIDTH / 2];
       EXPECT_LT(glm::length(middle - decals[1].color_a), 0.02F);

@@ -1,6 +1,8 @@
 // From radiance to what a screen shows: tone_map() of image/tone_map.cpp, and what is laid over the picture.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/luminance.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D hdr_image;
@@ -31,6 +33,6 @@ void main() {
   const vec3 radiance = imageLoad(hdr_image, ivec2(pixel)).rgb;
   vec3 shown = any(isnan(radiance)) ? vec3(1.0, 0.0, 1.0) : srgb(filmic(exposure * radiance));
   const vec4 over = overlaid != 0u ? unpackUnorm4x8(overlay[pixel.x + size.x * pixel.y]) : vec4(0.0);
-  if (over.a > 0.0) shown = mix(vec3(dot(shown, vec3(0.2126, 0.7152, 0.0722))), over.rgb, over.a);
+  if (over.a > 0.0) shown = mix(vec3(luminance_of(shown)), over.rgb, over.a);
   imageStore(shown_image, ivec2(pixel), vec4(shown, 1.0));
 }

@@ -2,6 +2,8 @@
 // pixels. One thread adds them up, in the same order in every run.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/luminance.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D hdr_image;
@@ -14,7 +16,7 @@ void main() {
   vec2 part = vec2(0.0);
   if (all(lessThan(pixel, imageSize(hdr_image)))) {
     const vec4 color = imageLoad(hdr_image, pixel);
-    const float luminance = dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
+    const float luminance = luminance_of(color.rgb);
     if (color.a > 0.0 && luminance > 0.0 && !isinf(luminance)) part = color.a * vec2(log(luminance), 1.0);
   }
   s_parts[gl_LocalInvocationIndex] = part;

@@ -20,12 +20,11 @@ layout(push_constant, scalar) uniform Push { ShadowLeakAsked asked; };
 #include "lookup/parts/each.glsl"
 #include "common/deferred_surface.glsl"
 #include "common/lights.glsl"
+#include "common/unshadowed.glsl"
 #include "common/bvh_scene.glsl"
 #include "common/loops_ended.glsl"
 #include "common/mirror.glsl"
 #include "common/bvh_walk.glsl"
-
-const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 // How many of the two rays to the light are stopped: none, the longer one alone, or both. The shorter lies in it.
 uint stopped_rays(vec3 from, vec3 offset) {
@@ -41,11 +40,8 @@ uint stopped_rays(vec3 from, vec3 offset) {
 }
 
 void add_leak(inout ShadowLeak sum, Reflector r, uint light) {
-  const Emitter e = emitter_at(light);
-  vec3 radiance = vec3(0.0);
   Way way;
-  if (way_to(r, e.position, e.inverse_range2, way)) add_light_along(radiance, r, way, e, is_spot(e));
-  const float whole = dot(radiance, LUMINANCE);
+  const float whole = unshadowed_luminance(r, emitter_at(light), way);
   if (!(whole > 0.0)) return;
   const uint stopped = stopped_rays(r.position, way.offset);
   if (stopped == 1u) {

@@ -14,13 +14,12 @@ layout(set = 0, binding = 8, scalar) writeonly buffer AnswerBuffer { ShadowAnswe
 layout(push_constant, scalar) uniform Push { ShadowQuestion question; };
 #include "common/deferred_surface.glsl"
 #include "common/lights.glsl"
+#include "common/unshadowed.glsl"
 #define RADIAL_BINDING 9
 #include "common/radial_bounds.glsl"
 #define MESH_BINDING 10
 #include "common/light_mesh_holds.glsl"
 #include "shadow/parts/radial_reach.glsl"
-
-const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 bool radial_reaches_point(uint light, vec3 position) {
   if (radial_bounds[light].kind == RADIAL_NONE) return true;
@@ -85,12 +84,9 @@ void main() {
   const uint light = pairs[i].light;
   shadow_seed = seed_of_pixel(pixel);
   const Surface s = read_surface(ivec2(pixel), z_view_of(frame, texelFetch(depth_image, ivec2(pixel), 0).x));
-  const Emitter e = emitter_at(light);
-  vec3 sum = vec3(0.0);
   Way way;
-  if (way_to(reflector(s), e.position, e.inverse_range2, way)) add_light_along(sum, reflector(s), way, e, is_spot(e));
+  answers[i].light = unshadowed_luminance(reflector(s), emitter_at(light), way);
   const float share = shadow_of(light, s.position, s.normal, shadow_seed);
-  answers[i].light = dot(sum, LUMINANCE);
   answers[i].share = share;
   const bool texels = question.texels != 0u;
   answers[i].compared = !texels ? share : compared_by_taps(light, s.position, s.normal, share);

@@ -34,7 +34,6 @@ SquareView square_view(uint view, float atlas_size) {
   const vec3 row_w = views[view].row_w;
   square.rows = mat3(0.5 * atlas_size * views[view].row_x + off_middle.x * row_w,
                      0.5 * atlas_size * views[view].row_y + off_middle.y * row_w, row_w);
-  square.folds = mat3(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
   square.low = ivec2(0);
   square.high = ivec2(square.side - 1);
   if (square.is_octant) {
