@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "gpu/flying.h"
+#include "gpu/in_turn.h"
 #include "render/sample_depth.h"
 
 namespace lamp::app {
