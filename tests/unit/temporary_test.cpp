@@ -112,6 +112,7 @@ TEST_F(Temporaries, NewFoldersGoUnlessTheyAreKeptOrUsed) {
 int signal_that_ended(const std::function<void()>& what) {
   const pid_t child = fork();
   if (child == 0) {
+    for (const int ended_by : {SIGHUP, SIGINT, SIGTERM}) std::signal(ended_by, SIG_DFL);  // nohup ignores one
     watch_signals();
     what();
     _exit(0);
