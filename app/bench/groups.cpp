@@ -198,7 +198,7 @@ std::string shadow_words(const Group& group) {
   return (group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas)) +
          (group.point_shadows == "faces" ? "" : fmt::format(" point_shadows={}", group.point_shadows)) +
          (group.shadow_raster == "auto" ? "" : fmt::format(" shadow_raster={}", group.shadow_raster)) +
-         (group.shadow_blur == "lines" ? "" : fmt::format(" shadow_blur={}", group.shadow_blur)) +
+         (group.shadow_blur == "fused" ? "" : fmt::format(" shadow_blur={}", group.shadow_blur)) +
          (group.mirror == 0.0 ? "" : fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists));
 }
 

@@ -30,7 +30,7 @@ struct Group {
   std::string shadows = "off";
   std::string point_shadows = "faces";
   std::string shadow_raster = "auto";
-  std::string shadow_blur = "lines";
+  std::string shadow_blur = "fused";
   std::uint32_t atlas = 4096;
   double mirror = 0.0;
   std::string mirror_lists = "world-cells";

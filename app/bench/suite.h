@@ -75,7 +75,7 @@ struct Series {
   std::string shadows = "off";               ///< or a filter
   std::string point_shadows = "faces";       ///< or "octahedron"
   std::string shadow_raster = "auto";        ///< what draws shadow maps
-  std::string shadow_blur = "lines";         ///< how vsm and evsm are blurred
+  std::string shadow_blur = "fused";         ///< how vsm and evsm are blurred
   std::uint32_t atlas = 4096;                ///< of shadow maps, texels a side
   double mirror = 0.0;                       ///< as `--mirror`
   std::string mirror_lists = "world-cells";  ///< as `--mirror-lists`

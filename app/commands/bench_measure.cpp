@@ -112,7 +112,7 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (group.shadows != "off") parameters["atlas"] = group.atlas;
   if (group.point_shadows != "faces") parameters["point_shadows"] = group.point_shadows;
   if (group.shadow_raster != "auto") parameters["shadow_raster"] = group.shadow_raster;
-  if (group.shadow_blur != "lines") parameters["shadow_blur"] = group.shadow_blur;
+  if (group.shadow_blur != "fused") parameters["shadow_blur"] = group.shadow_blur;
   if (group.mirror != 0.0) parameters["mirror"] = group.mirror;
   if (group.mirror != 0.0) parameters["mirror_lists"] = group.mirror_lists;
   if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];

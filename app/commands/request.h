@@ -56,7 +56,7 @@ struct Request {
   std::string shadows = "off";               ///< filter
   std::string point_shadows = "faces";       ///< or octahedron
   std::string shadow_raster = "auto";        ///< what draws maps
-  std::string shadow_blur = "lines";         ///< how moments are blurred
+  std::string shadow_blur = "fused";         ///< how moments are blurred
   std::string shadow_lights = "all";         ///< how many of the first lights
   std::string shadow_budget = "all";         ///< texels drawn in a frame
   std::uint32_t atlas = 4096;                ///< texels a side

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 5> FILTERS{"off", "hard", "pcf", "vsm",
                                                   "evsm"};                         // then in the order of ShadowFilter
 constexpr std::array<std::string_view, 2> POINTS{"faces", "octahedron"};           // in the order of PointShadows
 constexpr std::array<std::string_view, 3> RASTERS{"auto", "hardware", "compute"};  // in the order of ShadowRaster
-constexpr std::array<std::string_view, 2> BLURS{"lines", "listing"};               // in the order of ShadowBlur
+constexpr std::array<std::string_view, 3> BLURS{"fused", "lines", "listing"};      // in the order of ShadowBlur
 
 /// A whole number, or all.
 template <class Number>
@@ -44,7 +44,7 @@ void check_cuts(const Request& request, const ShadowSettings& settings) {
     if (std::ranges::find(request.options, cut) != request.options.end())
       throw Error(
           fmt::format("--option {}: the taps of --shadow-blur listing lie anywhere, so that nothing can be cut; "
-                      "expected --shadow-blur lines",
+                      "expected --shadow-blur fused or lines",
                       cut));
 }
 
@@ -107,8 +107,8 @@ void add_shadow_options(CLI::App& command, Request& r) {
   command
       .add_option(
           "--shadow-blur", r.shadow_blur,
-          "how vsm and evsm are blurred: line by line (lines), or by the indices of the article's listing, which "
-          "mix lines (listing)")
+          "how vsm and evsm are blurred: both ways in one pass (fused); in two passes, line by line (lines), or by the "
+          "indices of the article's listing, which mix lines (listing)")
       ->type_name("NAME")
       ->group("Shadows")
       ->capture_default_str();

@@ -14,8 +14,9 @@
 namespace lamp::app {
 namespace {
 
-/// Texels that a work group blurs, at most (blur_lines.glsl).
+/// Texels that a work group blurs, at most (blur_fused.glsl, blur_lines.glsl).
 glm::uvec2 most_of_group(ShadowBlur blur) {
+  if (blur == ShadowBlur::fused) return {64, 128};
   if (blur == ShadowBlur::lines) return {64, shared::LEAST_SQUARE};
   return {shared::LEAST_SQUARE, shared::LEAST_SQUARE};
 }
@@ -61,7 +62,6 @@ ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shader
                  .format = format,
                  .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
   };
-  between_ = make("shadow moments, blurred along x");
   blurred_ = make("shadow moments");
   blocks_ = take(vulkan::Buffer::create(
       device,
@@ -69,20 +69,27 @@ ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shader
        .bytes = std::max<std::uint64_t>(1, std::uint64_t{atlas_size} * atlas_size / LEAST_GROUP_TEXELS) * sizeof(Block),
        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
        .memory = vulkan::MemoryUse::records}));
-  const auto pass = [&](const char* name, std::uint32_t source, const char* shader) {
+  const auto pass = [&](const char* name, std::uint32_t source, const char* directions) {
+    std::vector<vulkan::Constant> constants{{0, static_cast<std::uint32_t>(filter)}};
+    if (blur != ShadowBlur::fused) constants.push_back({1, blur == ShadowBlur::listing ? 1U : 0U});
     return take(vulkan::Pipeline::compute(
         device,
         {.name = name,
-         .constants = {{0, static_cast<std::uint32_t>(filter)}, {1, blur == ShadowBlur::listing ? 1U : 0U}},
+         .constants = constants,
          .bindings = {{0},
                       {source, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                       {BINDING_BLOCKS},
                       {BINDING_BLURRED, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}},
          .push_constant_bytes = sizeof(std::uint32_t)},
-        shaders.spirv(shader)));
+        shaders.spirv(fmt::format("shadow/blur_{}{}", exponential ? "evsm" : "vsm", directions))));
   };
-  along_x_ = pass("shadow blur along x", BINDING_DEPTHS, exponential ? "shadow/blur_evsm_x" : "shadow/blur_vsm_x");
-  along_y_ = pass("shadow blur along y", BINDING_BETWEEN, exponential ? "shadow/blur_evsm_y" : "shadow/blur_vsm_y");
+  if (blur == ShadowBlur::fused) {
+    from_depths_ = pass("shadow blur", BINDING_DEPTHS, "");
+    return;
+  }
+  between_ = make("shadow moments, blurred along x");
+  from_depths_ = pass("shadow blur along x", BINDING_DEPTHS, "_x");
+  from_between_ = pass("shadow blur along y", BINDING_BETWEEN, "_y");
 }
 
 void ShadowMoments::set(std::span<const shared::ShadowMap> maps, std::span<const ShadowRedraw> redraws) {
@@ -119,10 +126,12 @@ void ShadowMoments::record_pass(vulkan::Recorder& recorder, const vulkan::Pipeli
 void ShadowMoments::record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) const {
   if (block_count_ == 0) return;
   recorder.begin_pass("shadow blur", {});
-  record_pass(recorder, along_x_,
-              {{0, maps}, {BINDING_DEPTHS, atlas.sampled()}, {BINDING_BLURRED, between_.storage()}});
-  record_pass(recorder, along_y_,
-              {{0, maps}, {BINDING_BETWEEN, between_.sampled()}, {BINDING_BLURRED, blurred_.storage()}});
+  const GpuImage& first = blur_ == ShadowBlur::fused ? blurred_ : between_;
+  record_pass(recorder, from_depths_,
+              {{0, maps}, {BINDING_DEPTHS, atlas.sampled()}, {BINDING_BLURRED, first.storage()}});
+  if (blur_ != ShadowBlur::fused)
+    record_pass(recorder, from_between_,
+                {{0, maps}, {BINDING_BETWEEN, between_.sampled()}, {BINDING_BLURRED, blurred_.storage()}});
   recorder.end_pass();
 }
 

@@ -1,5 +1,5 @@
-// Moments of shadow maps for vsm and evsm: two images as large as the atlas, and the two passes that blur what was
-// drawn. SPDX-License-Identifier: Apache-2.0
+// Moments of shadow maps for vsm and evsm: an image as large as the atlas, and what blurs into it what was drawn.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -11,8 +11,9 @@
 
 namespace lamp::app {
 
-/// How moments are blurred: line by line, or by the indices of the OpenGL article's listing, which mix lines.
-enum class ShadowBlur : std::uint8_t { lines, listing };
+/// How moments are blurred: in one pass; in two passes, line by line, with an image between them; or likewise by the
+/// indices of the OpenGL article's listing, which mix lines.
+enum class ShadowBlur : std::uint8_t { fused, lines, listing };
 
 class ShadowMoments {
  public:
@@ -41,11 +42,11 @@ class ShadowMoments {
     std::uint32_t block = 0;
   };
   ShadowBlur blur_;
-  GpuImage between_;  ///< blurred along x
+  GpuImage between_;  ///< of two passes: blurred along x
   GpuImage blurred_;
   vulkan::Buffer blocks_;
-  vulkan::Pipeline along_x_;
-  vulkan::Pipeline along_y_;
+  vulkan::Pipeline from_depths_;   ///< along x, or both ways
+  vulkan::Pipeline from_between_;  ///< of two passes: along y
   std::uint32_t block_count_ = 0;
 };
 

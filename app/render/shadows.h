@@ -28,7 +28,7 @@ struct ShadowSettings {
   ShadowFilter filter = ShadowFilter::pcf;
   PointShadows points = PointShadows::faces;
   ShadowRaster raster = ShadowRaster::automatic;
-  ShadowBlur blur = ShadowBlur::lines;       ///< of vsm and evsm
+  ShadowBlur blur = ShadowBlur::fused;       ///< of vsm and evsm
   std::uint32_t raster_items = 1U << 22;     ///< in compute: room for blocks of large triangles, 8 bytes each
   std::uint32_t atlas_size = 4096;           ///< texels
   std::uint32_t lights = ~0U;                ///< so many of the first have shadows, at most

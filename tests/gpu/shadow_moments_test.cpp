@@ -163,18 +163,25 @@ class BlurOfMoments : public GpuTest {
   }
 };
 
-class SquareBlur : public BlurOfMoments, public ::testing::WithParamInterface<PointShadows> {};
+class SquareBlur : public BlurOfMoments, public ::testing::WithParamInterface<std::tuple<PointShadows, ShadowBlur>> {};
 
 TEST_P(SquareBlur, IsThatOfTheSquareAlone) {
-  blur({.filter = ShadowFilter::vsm, .points = GetParam(), .atlas_size = ATLAS},
+  const auto [points, how] = GetParam();
+  blur({.filter = ShadowFilter::vsm, .points = points, .blur = how, .atlas_size = ATLAS},
        [&](const CpuBlur& blur, int side, const auto& found) {
          for (int y = 0; y < side; y += y < 16 ? 1 : 13)
            for (int x = 0; x < side; x += x < 16 ? 3 : 11) expect_near(found({x, y}), blur.at({x, y}), {x, y});
        });
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, SquareBlur, ::testing::Values(PointShadows::faces, PointShadows::octahedron),
-                         [](const auto& test) { return test.param == PointShadows::faces ? "faces" : "octahedron"; });
+INSTANTIATE_TEST_SUITE_P(Of, SquareBlur,
+                         ::testing::Combine(::testing::Values(PointShadows::faces, PointShadows::octahedron),
+                                            ::testing::Values(ShadowBlur::fused, ShadowBlur::lines)),
+                         [](const auto& test) {
+                           const bool faces = std::get<PointShadows>(test.param) == PointShadows::faces;
+                           const bool fused = std::get<ShadowBlur>(test.param) == ShadowBlur::fused;
+                           return std::string(faces ? "faces" : "octahedron") + (fused ? "_fused" : "_lines");
+                         });
 
 // What the article's listing does, so that its picture can be shown: lines of a block run into one another.
 TEST_F(BlurOfMoments, ByTheListingMixesLines) {

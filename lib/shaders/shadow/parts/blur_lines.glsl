@@ -4,32 +4,19 @@
 // as if it lay along that line.
 // Based on: Adventures in Deferred Rendering: Tiled Deferred Shading and Compute Shaders: weights, taps three texels apart.
 // Promise: no texel of another square is read: taps end at the edge of a square, or fold across that of an octahedron.
-// Needs: BLUR_ALONG_X (bool), BLUR_FORMAT, BLUR_VECTOR (vec2 or vec4, moments of a texel),
-// vec4 blur_source(uint light, ivec2 texel of the atlas).
+// Needs: BLUR_ALONG_X (bool), BLUR_FORMAT, BLUR_VECTOR, vec4 blur_source(ShadowDepths, ivec2 texel of the atlas).
 // SPDX-License-Identifier: Apache-2.0
-#extension GL_EXT_control_flow_attributes : require
-#include "shadow/parts/blur_step.glsl"
-#include "shadow/parts/moments.glsl"
+#include "shadow/parts/blur_block.glsl"
 
 const int THREADS = 256;
 layout(local_size_x = THREADS) in;
 
-// A part of a square, for a work group: those of a square are counted line by line (app/render/shadow_moments.cpp).
-struct BlurBlock {
-  uint light;
-  uint square;
-  uint block;
-};
-layout(set = 0, binding = 3, scalar) readonly buffer BlockBuffer { BlurBlock blocks[]; };
-layout(set = 0, binding = 4, BLUR_FORMAT) uniform writeonly image2D blurred;
-layout(push_constant) uniform Push { uint block_count; };
 layout(constant_id = 1) const bool BY_LISTING = false;
 
-const int TAPS = 9;
-const int MOST_REACH = 12;  // texels, to the farthest tap
 const int LINES = int(LEAST_SQUARE);
 const int MOST_WIDTH = 64;
 const int MOST_WIDE = MOST_WIDTH + 2 * MOST_REACH;
+const int TEXELS_A_THREAD = (MOST_WIDE + LINES - 1) / LINES;
 shared BLUR_VECTOR s_texels[LINES * MOST_WIDE];
 
 ivec2 texel_at(int along, int across) { return BLUR_ALONG_X ? ivec2(along, across) : ivec2(across, along); }
@@ -38,26 +25,26 @@ ivec2 texel_at(int along, int across) { return BLUR_ALONG_X ? ivec2(along, acros
 int place_of(int along, int across) { return BLUR_ALONG_X ? across * MOST_WIDE + along : along * LINES + across; }
 
 BLUR_VECTOR source_at(BlurBlock block, ivec2 texel) {
-  return BLUR_VECTOR(blur_source(block.light, shadow_texel(block.light, block.square, texel)));
+  return BLUR_VECTOR(blur_source(block.depths, shadow_texel_of(block.square, texel)));
 }
 
-void blur_store(BlurBlock block, ivec2 texel, BLUR_VECTOR moments) {
-  vec4 stored = vec4(0.0);
-  [[unroll]] for (int i = 0; i < moments.length(); ++i) stored[i] = moments[i];
-  imageStore(blurred, shadow_texel(block.light, block.square, texel), stored);
-}
-
-void blur_block(BlurBlock block, int side) {
+void blur_by_line(BlurBlock block) {
+  const int side = block.square.side;
   const int width = min(side, MOST_WIDTH);
   const int blocks_a_line = side / width;
-  const int first_along = int(block.block) % blocks_a_line * width;
-  const int first_across = int(block.block) / blocks_a_line * LINES;
+  const int first_along = block.number % blocks_a_line * width;
+  const int first_across = block.number / blocks_a_line * LINES;
   const int step = blur_step(side);
   const ivec2 thread = texel_at(int(gl_LocalInvocationIndex) % LINES, int(gl_LocalInvocationIndex) / LINES);
   const int reach = 4 * step;
-  for (int along = thread.x; along < width + 2 * reach; along += LINES)
-    s_texels[place_of(along, thread.y)] =
-        source_at(block, texel_at(first_along + along - reach, first_across + thread.y));
+  const int wide = width + 2 * reach;
+  // All texels of a thread are asked for before the first is waited for.
+  BLUR_VECTOR texels[TEXELS_A_THREAD];
+  [[unroll]] for (int i = 0; i < TEXELS_A_THREAD; ++i)
+    if (thread.x + i * LINES < wide)
+      texels[i] = source_at(block, texel_at(first_along + thread.x + i * LINES - reach, first_across + thread.y));
+  [[unroll]] for (int i = 0; i < TEXELS_A_THREAD; ++i)
+    if (thread.x + i * LINES < wide) s_texels[place_of(thread.x + i * LINES, thread.y)] = texels[i];
   barrier();  // all lines are there
   for (int along = thread.x; along < width; along += LINES) {
     BLUR_VECTOR sum = BLUR_VECTOR(0.0);
@@ -69,10 +56,11 @@ void blur_block(BlurBlock block, int side) {
 
 // The line's texels are those of 16 lines of the square, one behind the other, so a tap beyond the 16th is in the next. A
 // thread begins as far before its texel as the first tap, along the direction of the pass.
-void blur_by_listing(BlurBlock block, int side) {
+void blur_by_listing(BlurBlock block) {
+  const int side = block.square.side;
   const int thread = int(gl_LocalInvocationIndex);
   const int groups_a_line = side / LINES;
-  const ivec2 group = ivec2(int(block.block) % groups_a_line, int(block.block) / groups_a_line);
+  const ivec2 group = ivec2(block.number % groups_a_line, block.number / groups_a_line);
   const ivec2 texel = LINES * group + ivec2(thread % LINES, thread / LINES);
   const int step = blur_step(side);
   const ivec2 start = texel - texel_at(4 * step, 0);
@@ -85,13 +73,9 @@ void blur_by_listing(BlurBlock block, int side) {
   blur_store(block, texel, sum);
 }
 
-void main() {
-  const uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-  if (number >= block_count) return;
-  const BlurBlock block = blocks[number];
-  const int side = int(shadow_maps[block.light].side);
+void blur_block(BlurBlock block) {
   if (BY_LISTING)
-    blur_by_listing(block, side);
+    blur_by_listing(block);
   else
-    blur_block(block, side);
+    blur_by_line(block);
 }

@@ -2,6 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/parts/moments.glsl"
 
-vec4 blur_source(uint light, ivec2 texel) {
-  return shadow_moments_of_depth(shadow_unit_depth_of_stored(light, SHADOW_TEXEL(shadow_atlas, texel).x));
+vec4 blur_source(ShadowDepths depths, ivec2 texel) {
+  return shadow_moments_of_depth(shadow_unit_depth_of_stored(depths, SHADOW_TEXEL(shadow_atlas, texel).x));
 }

@@ -2,4 +2,4 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/parts/moments.glsl"
 
-vec4 blur_source(uint light, ivec2 texel) { return SHADOW_TEXEL(shadow_moments, texel); }
+vec4 blur_source(ShadowDepths depths, ivec2 texel) { return SHADOW_TEXEL(shadow_moments, texel); }

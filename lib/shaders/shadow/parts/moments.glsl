@@ -29,10 +29,27 @@ float shadow_unit_depth(uint light, float w) {
   return clamp(share, 0.0, 1.0);
 }
 
-float shadow_unit_depth_of_stored(uint light, float stored) {
+// What the atlas stores, near / w, as the same: near / (per_stored * stored + more).
+struct ShadowDepths {
+  float near_m;
+  float per_stored;  // m
+  float more;        // m
+};
+
+ShadowDepths shadow_depths(uint light) {
+  const float range = shadow_maps[light].range_m;
+  const float longest = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? range * 1.7320508 : range;
+  ShadowDepths depths;
+  depths.near_m = shadow_maps[light].near_m;
+  depths.per_stored = longest < 1e18 ? longest : SHADOW_MIDDLE_M;
+  depths.more = longest < 1e18 ? 0.0 : depths.near_m;
+  return depths;
+}
+
+float shadow_unit_depth_of_stored(ShadowDepths depths, float stored) {
   if (!(stored > 0.0)) return 1.0;
-  precise const float w = shadow_maps[light].near_m / stored;
-  return shadow_unit_depth(light, w);
+  precise const float share = depths.near_m / LAMP_FMA(depths.per_stored, stored, depths.more);
+  return clamp(share, 0.0, 1.0);
 }
 
 // -1 .. 1

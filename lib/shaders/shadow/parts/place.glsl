@@ -86,18 +86,34 @@ ShadowPlace shadow_place(uint light, vec3 rel) {
   return shadow_place_octahedron(light, rel);
 }
 
+// Of a light, where texels lie in the atlas. Who asks for many keeps it.
+struct ShadowSquare {
+  ivec2 corner;  // texel of the atlas
+  int side;      // texels
+  bool folds;    // an octahedron
+};
+
+ShadowSquare shadow_square(uint light, uint square) {
+  const uint corner = shadow_maps[light].squares[square];
+  ShadowSquare s;
+  s.corner = ivec2(int(corner & 0xffffu), int(corner >> 16u)) * int(LEAST_SQUARE);
+  s.side = int(shadow_maps[light].side);
+  s.folds = shadow_maps[light].kind == SHADOW_OCTAHEDRON;
+  return s;
+}
+
 // A texel around a place, in the atlas: beyond the edge of an octahedron the map goes on beside the middle of that edge,
 // turned around; other squares have a border, and end.
-ivec2 shadow_texel(uint light, uint square, ivec2 texel) {
-  const int side = int(shadow_maps[light].side);
+ivec2 shadow_texel_of(ShadowSquare square, ivec2 texel) {
+  const int side = square.side;
   ivec2 t = texel;
-  if (shadow_maps[light].kind == SHADOW_OCTAHEDRON) {
+  if (square.folds) {
     if (t.x < 0 || t.x >= side) t = ivec2(t.x < 0 ? -1 - t.x : 2 * side - 1 - t.x, side - 1 - t.y);
     if (t.y < 0 || t.y >= side) t = ivec2(side - 1 - t.x, t.y < 0 ? -1 - t.y : 2 * side - 1 - t.y);
   }
-  t = ivec2(clamp(t.x, 0, side - 1), clamp(t.y, 0, side - 1));
-  const uint corner = shadow_maps[light].squares[square];
-  return ivec2(int(corner & 0xffffu), int(corner >> 16u)) * int(LEAST_SQUARE) + t;
+  return square.corner + ivec2(clamp(t.x, 0, side - 1), clamp(t.y, 0, side - 1));
 }
+
+ivec2 shadow_texel(uint light, uint square, ivec2 texel) { return shadow_texel_of(shadow_square(light, square), texel); }
 
 #endif
