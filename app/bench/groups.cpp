@@ -82,10 +82,6 @@ Group base_of(const Series& series, const Limits& limits) {
             .depth_samples = series.depth_samples,
             .stereo_m = series.stereo_m,
             .shadows = series.shadows,
-            .point_shadows = series.point_shadows,
-            .shadow_raster = series.shadow_raster,
-            .shadow_blur = series.shadow_blur,
-            .atlas = series.atlas,
             .mirror = series.mirror,
             .mirror_lists = series.mirror_lists,
             .still = series.still,
@@ -102,10 +98,6 @@ Group base_of(const Series& series, const Limits& limits) {
           .depth_samples = series.depth_samples,
           .stereo_m = series.stereo_m,
           .shadows = series.shadows,
-          .point_shadows = series.point_shadows,
-          .shadow_raster = series.shadow_raster,
-          .shadow_blur = series.shadow_blur,
-          .atlas = series.atlas,
           .mirror = series.mirror,
           .mirror_lists = series.mirror_lists,
           .still = series.still,
@@ -130,7 +122,7 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
   const std::uint64_t pairs = std::uint64_t{width} * rows * series.depth_samples * group.lights;
   const std::uint64_t all_pairs = std::uint64_t{width} * height * group.lights;
-  const bool oracle_only = series.depth_samples > 1 || series.stereo_m > 0.0 || series.shadows != "off";
+  const bool oracle_only = series.depth_samples > 1 || series.stereo_m > 0.0 || series.shadows.filter != "off";
   group.verify.verifier = oracle_only  // which it alone knows of
                               ? Verifier::oracle
                               : chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
@@ -195,10 +187,15 @@ std::string depth_words(const Group& group) {
 
 /// Likewise.
 std::string shadow_words(const Group& group) {
-  return (group.shadows == "off" ? "" : fmt::format(" shadows={} atlas={}", group.shadows, group.atlas)) +
-         (group.point_shadows == "faces" ? "" : fmt::format(" point_shadows={}", group.point_shadows)) +
-         (group.shadow_raster == "auto" ? "" : fmt::format(" shadow_raster={}", group.shadow_raster)) +
-         (group.shadow_blur == "fused" ? "" : fmt::format(" shadow_blur={}", group.shadow_blur)) +
+  const ShadowChoice& of = group.shadows;
+  const ShadowChoice usual;
+  const auto word = [](const char* name, const std::string& value, const std::string& left_out) {
+    return value == left_out ? "" : fmt::format(" {}={}", name, value);
+  };
+  return (of.filter == usual.filter ? "" : fmt::format(" shadows={} atlas={}", of.filter, of.atlas)) +
+         word("point_shadows", of.points, usual.points) + word("shadow_raster", of.raster, usual.raster) +
+         word("shadow_blur", of.blur, usual.blur) + word("shadow_lights", of.lights, usual.lights) +
+         word("shadow_budget", of.budget, usual.budget) +
          (group.mirror == 0.0 ? "" : fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists));
 }
 

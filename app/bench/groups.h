@@ -27,11 +27,7 @@ struct Group {
   std::string scene, size, range, camera, projection, brdf, depth;
   std::uint32_t depth_samples = 1;
   double stereo_m = 0.0;
-  std::string shadows = "off";
-  std::string point_shadows = "faces";
-  std::string shadow_raster = "auto";
-  std::string shadow_blur = "fused";
-  std::uint32_t atlas = 4096;
+  ShadowChoice shadows;
   double mirror = 0.0;
   std::string mirror_lists = "world-cells";
   std::uint32_t lights = 0;  ///< the most, in a flight

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/shadow_choice.h"
 #include "render/lighting_pipelines.h"
 #include "render/verification.h"
 
@@ -69,14 +70,10 @@ struct Series {
   std::vector<std::string> projections{"camera"};
   std::vector<std::string> paths{"deferred"};
   std::string brdf = "ggx";
-  std::string depth = "reversed";            ///< or "standard"
-  std::uint32_t depth_samples = 1;           ///< a pixel, of the depth that lights are culled with
-  double stereo_m = 0.0;                     ///< between two eyes, each with half of the size's width; 0: one eye
-  std::string shadows = "off";               ///< or a filter
-  std::string point_shadows = "faces";       ///< or "octahedron"
-  std::string shadow_raster = "auto";        ///< what draws shadow maps
-  std::string shadow_blur = "fused";         ///< how vsm and evsm are blurred
-  std::uint32_t atlas = 4096;                ///< of shadow maps, texels a side
+  std::string depth = "reversed";   ///< or "standard"
+  std::uint32_t depth_samples = 1;  ///< a pixel, of the depth that lights are culled with
+  double stereo_m = 0.0;            ///< between two eyes, each with half of the size's width; 0: one eye
+  ShadowChoice shadows;
   double mirror = 0.0;                       ///< as `--mirror`
   std::string mirror_lists = "world-cells";  ///< as `--mirror-lists`
   std::uint64_t seed = 1;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -68,6 +69,8 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   series.brdf = r.brdf;
   series.seed = r.seed;
   series.frame = r.frame;
+  series.still = r.still;
+  series.shadows = r.shadows;
   series.pictures = true;
   series.chart.x = "method";
   check_once("--method", o.methods);
@@ -223,13 +226,18 @@ Exit bench(const BenchOptions& o) {
 /// Options that speak of a scene: a suite says its own.
 void refuse_with_suite(const CLI::App& command, const std::string& name) {
   if (!is_suite(name)) return;
-  for (const char* option : {"--size", "--lights", "--spots", "--range", "--seed", "--camera", "--frame",
-                             "--projection", "--depth", "--depth-samples", "--brdf", "--method", "--option", "--path"})
-    if (command.count(option) != 0)
+  const auto is_of_scene = [](const CLI::Option& option) {
+    constexpr std::array GROUPS{"View", "Lights", "Shadows"};
+    constexpr std::array OPTIONS{"--method", "--option", "--path"};
+    return std::ranges::find(GROUPS, option.get_group()) != GROUPS.end() ||
+           std::ranges::find(OPTIONS, option.get_name()) != OPTIONS.end();
+  };
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() != 0 && is_of_scene(*option))
       throw Error(
           fmt::format("{}: belongs to a scene, and {} is a suite, which says its own; a suite takes --max-lights, "
                       "--max-size, --scale, --frames and --warm-up",
-                      option, name));
+                      option->get_name(), name));
 }
 
 std::string shell_quoted(const std::string& word) {
@@ -256,6 +264,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add_option_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_path_option(*command, o->request);
+  add_shadow_options(*command, o->request);
   add_out_option(*command, o->out, "write to this folder; what it has results of is not measured again")
       .type_name("FOLDER");
   const auto add = [&](const char* name, auto& value, const char* help) {

@@ -108,11 +108,17 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (entry.still_lists != "off") parameters["still_lists"] = entry.still_lists;
   if (entry.still_occlusion != 0) parameters["still_occlusion"] = entry.still_occlusion;
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
-  if (group.shadows != "off") parameters["shadows"] = group.shadows;
-  if (group.shadows != "off") parameters["atlas"] = group.atlas;
-  if (group.point_shadows != "faces") parameters["point_shadows"] = group.point_shadows;
-  if (group.shadow_raster != "auto") parameters["shadow_raster"] = group.shadow_raster;
-  if (group.shadow_blur != "fused") parameters["shadow_blur"] = group.shadow_blur;
+  const ShadowChoice& shadows = group.shadows;
+  const ShadowChoice usual;
+  if (shadows.filter != usual.filter) {
+    parameters["shadows"] = shadows.filter;
+    parameters["atlas"] = shadows.atlas;
+  }
+  if (shadows.points != usual.points) parameters["point_shadows"] = shadows.points;
+  if (shadows.raster != usual.raster) parameters["shadow_raster"] = shadows.raster;
+  if (shadows.blur != usual.blur) parameters["shadow_blur"] = shadows.blur;
+  if (shadows.lights != usual.lights) parameters["shadow_lights"] = shadows.lights;
+  if (shadows.budget != usual.budget) parameters["shadow_budget"] = shadows.budget;
   if (group.mirror != 0.0) parameters["mirror"] = group.mirror;
   if (group.mirror != 0.0) parameters["mirror_lists"] = group.mirror_lists;
   if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];

@@ -177,7 +177,7 @@ void write_leaks(const RenderOptions& o, const Drawing& drawing, const Drawn& dr
         {.width = drawn.toned.width,
          .height = drawn.toned.height,
          .pixels = leaks,
-         .title = fmt::format("{} shadows against rays; full colour: all light of the pixel", o.state.request.shadows),
+         .title = fmt::format("{} shadows against rays; full colour: all light of the pixel", o.state.request.shadows.filter),
          .overlay = below});
   });
 }
@@ -194,7 +194,7 @@ void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& dra
   const std::string title =
       of == HeatOf::lights
           ? fmt::format("{}, {} lights", drawn.stats.method, drawn.stats.lights)
-          : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest", o.state.request.shadows);
+          : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest", o.state.request.shadows.filter);
   write_both(o, drawn.toned, [&](const LdrImage* below) {
     return heatmap_of(session, counts, {.title = title, .overlay = below, .of = of});
   });

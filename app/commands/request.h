@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/shadow_choice.h"
 #include "error.h"
 #include "lamplight/triangle_lists.h"
 #include "lamplight/world_tree.h"
@@ -53,13 +54,7 @@ struct Request {
   bool moving = false;                       ///< small instances move with the frames
   float mirror = 0.0F;                       ///< roughness from which on surfaces mirror nothing; 0: none does
   std::string mirror_lists = "world-cells";  ///< of what mirror rays meet
-  std::string shadows = "off";               ///< filter
-  std::string point_shadows = "faces";       ///< or octahedron
-  std::string shadow_raster = "auto";        ///< what draws maps
-  std::string shadow_blur = "fused";         ///< how moments are blurred
-  std::string shadow_lights = "all";         ///< how many of the first lights
-  std::string shadow_budget = "all";         ///< texels drawn in a frame
-  std::uint32_t atlas = 4096;                ///< texels a side
+  ShadowChoice shadows;
   std::string camera;
   int frame = -1;                         ///< of the flight; -1: the camera
   int light_frame = -1;                   ///< of the generated lights' paths; -1: as the flight's

@@ -58,47 +58,48 @@ std::span<const std::string_view> shadow_blur_names() { return BLURS; }
 std::string_view shadow_filter_name(ShadowFilter filter) { return FILTERS[static_cast<std::size_t>(filter) + 1]; }
 
 std::optional<ShadowSettings> requested_shadows(const Request& request) {
-  const std::size_t filter = parse_name("--shadows", request.shadows, FILTERS);
+  const std::size_t filter = parse_name("--shadows", request.shadows.filter, FILTERS);
   const ShadowSettings settings{
       .filter = filter == 0 ? ShadowFilter::hard : static_cast<ShadowFilter>(filter - 1),
-      .points = static_cast<PointShadows>(parse_name("--point-shadows", request.point_shadows, POINTS)),
-      .raster = static_cast<ShadowRaster>(parse_name("--shadow-raster", request.shadow_raster, RASTERS)),
-      .blur = static_cast<ShadowBlur>(parse_name("--shadow-blur", request.shadow_blur, BLURS)),
-      .atlas_size = request.atlas,
-      .lights = parse_count("--shadow-lights", request.shadow_lights, ~0U),
-      .budget_texels = parse_count("--shadow-budget", request.shadow_budget, ALL_TEXELS)};
+      .points = static_cast<PointShadows>(parse_name("--point-shadows", request.shadows.points, POINTS)),
+      .raster = static_cast<ShadowRaster>(parse_name("--shadow-raster", request.shadows.raster, RASTERS)),
+      .blur = static_cast<ShadowBlur>(parse_name("--shadow-blur", request.shadows.blur, BLURS)),
+      .atlas_size = request.shadows.atlas,
+      .lights = parse_count("--shadow-lights", request.shadows.lights, ~0U),
+      .budget_texels = parse_count("--shadow-budget", request.shadows.budget, ALL_TEXELS)};
   if (filter == 0) return std::nullopt;
   check_cuts(request, settings);
   return settings;
 }
 
 void add_shadow_options(CLI::App& command, Request& r) {
-  command.add_option("--shadows", r.shadows, "how shadows are filtered: off, hard, pcf, vsm or evsm")
+  command.add_option("--shadows", r.shadows.filter, "how shadows are filtered: off, hard, pcf, vsm or evsm")
       ->type_name("FILTER")
       ->group("Shadows")
       ->capture_default_str();
-  command.add_option("--shadow-lights", r.shadow_lights, "how many lights cast shadows, the first so many, or all")
+  command.add_option("--shadow-lights", r.shadows.lights, "how many lights cast shadows, the first so many, or all")
       ->type_name("N")
       ->group("Shadows")
       ->capture_default_str();
   command
-      .add_option("--shadow-budget", r.shadow_budget,
+      .add_option("--shadow-budget", r.shadows.budget,
                   "texels of shadow maps that are drawn in a frame, or all; what waits is counted")
       ->type_name("TEXELS")
       ->group("Shadows")
       ->capture_default_str();
-  command.add_option("--atlas", r.atlas, "side of the image that holds all shadow maps, texels, a power of two")
+  command
+      .add_option("--atlas", r.shadows.atlas, "side of the image that holds all shadow maps, texels, a power of two")
       ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()))
       ->type_name("SIZE")
       ->group("Shadows")
       ->capture_default_str();
-  command.add_option("--point-shadows", r.point_shadows, "a point light's map: six faces or one octahedron")
+  command.add_option("--point-shadows", r.shadows.points, "a point light's map: six faces or one octahedron")
       ->type_name("NAME")
       ->group("Shadows")
       ->capture_default_str();
   command
       .add_option(
-          "--shadow-raster", r.shadow_raster,
+          "--shadow-raster", r.shadows.raster,
           "what draws shadow maps: the GPU's rasterizer (hardware) or compute shaders (compute); auto takes compute, "
           "but not on Mesa's llvmpipe")
       ->type_name("NAME")
@@ -106,7 +107,7 @@ void add_shadow_options(CLI::App& command, Request& r) {
       ->capture_default_str();
   command
       .add_option(
-          "--shadow-blur", r.shadow_blur,
+          "--shadow-blur", r.shadows.blur,
           "how vsm and evsm are blurred: both ways in one pass (fused); in two passes, line by line (lines), or by the "
           "indices of the article's listing, which mix lines (listing)")
       ->type_name("NAME")

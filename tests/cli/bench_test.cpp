@@ -152,6 +152,18 @@ TEST_F(Bench, ASceneWithOptionsOfTheCommandLine) {
   EXPECT_EQ(all.at("results")[0].at("stats").at("frames"), 2);
 }
 
+TEST_F(Bench, ASceneWithShadowsAndLightsThatStandStill) {
+  (void)output_of({"bench",    "posts", "--size",    "32x18", "--lights",        "8",  "--still",         "0.5",
+                   "--method", "tiled", "--shadows", "pcf",   "--shadow-lights", "3",  "--shadow-budget", "65536",
+                   "--atlas",  "256",   "--frames",  "1",     "--out",           "out"});
+  const json parameters = results().at("results").at(0).at("parameters");
+  EXPECT_EQ(parameters.at("still"), 0.5);
+  EXPECT_EQ(parameters.at("shadows"), "pcf");
+  EXPECT_EQ(parameters.at("shadow_lights"), "3");
+  EXPECT_EQ(parameters.at("shadow_budget"), "65536");
+  EXPECT_EQ(parameters.at("atlas"), 256);
+}
+
 TEST_F(Bench, HostPassesHaveATimeOfTheirOwn) {
   (void)output_of({"bench", "plane", "--size", "32x18", "--lights", "3000", "--method", "drobot-zbin", "--option",
                    "sort=cpu", "--frames", "3", "--out", "out"});
@@ -257,6 +269,10 @@ TEST_F(Bench, BadInput) {
   expect_error(BAD_INPUT, {"bench", "quik"}, {"'quik'", "nearest are quick"});
   expect_error(BAD_INPUT, {"bench", "nowhere.json"}, {"nowhere.json: is not there"});
   expect_error(BAD_INPUT, {"bench", "quick", "--size", "8x8"}, {"--size", "quick is a suite", "--max-size"});
+  for (const Arguments& of_scene :
+       {Arguments{"--still", "0.5"}, Arguments{"--shadows", "pcf"}, Arguments{"--path", "forward"}})
+    expect_error(BAD_INPUT, {"bench", "quick", of_scene[0], of_scene[1]}, {of_scene[0] + ": belongs to a scene"});
+  expect_error(BAD_INPUT, {"bench", "plane", "--shadows", "soft"}, {"--shadows 'soft'", "pcf"});
   expect_error(BAD_INPUT, {"bench", "plane", "--method", "tild"}, {"method 'tild'", "tiled"});
   expect_error(BAD_INPUT, {"bench", "plane", "--option", "tile=8"}, {"--option", "--method"});
   expect_error(BAD_INPUT, {"bench", "plane", "--frames", "0"}, {"--frames", "from 1"});

@@ -49,7 +49,7 @@ TEST(Shapes, OfShadowsLieWithinTheRange) {
   const ShaderLibrary shaders("");
   Stage stage(view_context(), shaders, "");
   ViewState state = state_with("drobot-raster-tile");
-  state.request.shadows = "hard";
+  state.request.shadows.filter = "hard";
   state.light = 1;
   for (const ShadowShape kind : {ShadowShape::bound, ShadowShape::mesh}) {
     state.shadow_shape = kind;

@@ -44,13 +44,13 @@ ViewState full_state() {
                             .inner_angle = 0.1F,
                             .outer_angle = 0.2F}},
                  {.light = 1, .value = {.position = {1.0F, 2.0F, 3.0F}}}};
-  state.request.shadows = "pcf";
-  state.request.point_shadows = "octahedron";
-  state.request.shadow_raster = "compute";
-  state.request.shadow_blur = "listing";
-  state.request.shadow_lights = "5";
-  state.request.shadow_budget = "65536";
-  state.request.atlas = 1024;
+  state.request.shadows.filter = "pcf";
+  state.request.shadows.points = "octahedron";
+  state.request.shadows.raster = "compute";
+  state.request.shadows.blur = "listing";
+  state.request.shadows.lights = "5";
+  state.request.shadows.budget = "65536";
+  state.request.shadows.atlas = 1024;
   state.request.still = 0.5F;
   state.request.still_lists = "world-tree";
   state.request.still_occlusion = 16;
