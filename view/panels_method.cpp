@@ -137,15 +137,15 @@ void method_panel(PanelFrame& p) {
 void shadow_panel(PanelFrame& p) {
   if (!p.widgets.header("Shadows and depth", false)) return;
   Request& r = p.state.request;
-  p.widgets.choose("shadows", r.shadows, shadow_names(), "How shadows are filtered.");
-  if (r.shadows != shadow_names().front()) {
-    p.widgets.choose("point shadows", r.point_shadows, point_shadow_names(), "A point light's map.");
-    p.widgets.choose("shadow raster", r.shadow_raster, shadow_raster_names(),
+  p.widgets.choose("shadows", r.shadows.filter, shadow_names(), "How shadows are filtered.");
+  if (r.shadows.filter != shadow_names().front()) {
+    p.widgets.choose("point shadows", r.shadows.points, point_shadow_names(), "A point light's map.");
+    p.widgets.choose("shadow raster", r.shadows.raster, shadow_raster_names(),
                      "What draws shadow maps: the GPU's rasterizer or compute shaders.");
-    p.widgets.choose("shadow blur", r.shadow_blur, shadow_blur_names(),
-                     "How vsm and evsm are blurred: line by line, or as the article's listing does.");
-    p.widgets.write("shadow lights", r.shadow_lights, "How many of the first lights cast shadows, or all.");
-    p.widgets.write("shadow budget", r.shadow_budget, "Texels of shadow maps that are drawn in a frame, or all.");
+    p.widgets.choose("shadow blur", r.shadows.blur, shadow_blur_names(),
+                     "How vsm and evsm are blurred: in one pass, in two, or in two as the article's listing does.");
+    p.widgets.write("shadow lights", r.shadows.lights, "How many of the first lights cast shadows, or all.");
+    p.widgets.write("shadow budget", r.shadows.budget, "Texels of shadow maps that are drawn in a frame, or all.");
     Widgets::steady(3, [&] {
       const std::optional<ShadowStats>& drawn = p.shown.first.stats.shadows;
       Widgets::note(drawn ? shadow_words(*drawn) : "");

@@ -13,9 +13,8 @@
 namespace lamp::app {
 namespace {
 
-std::string shadows_key(const Request& r) {
-  return fmt::format("{} {} {} {} {} {} {}", r.shadows, r.point_shadows, r.shadow_raster, r.shadow_blur,
-                     r.shadow_lights, r.shadow_budget, r.atlas);
+std::string shadows_key(const ShadowChoice& of) {
+  return fmt::format("{} {} {} {} {} {} {}", of.filter, of.points, of.raster, of.blur, of.lights, of.budget, of.atlas);
 }
 
 /// What probes and mirrors of a renderer follow from.
@@ -120,8 +119,8 @@ void Stage::need_frame(const ViewState& state, Captures which) {
   need_still(request, view);
   move_scene(request);
   std::string key = fmt::format("{}x{} {} {} {} {} {} {} {}", view.width(), view.height(), lights_->lights->size(),
-                                lights_->decals.size(), request.depth_samples, request.depth, shadows_key(request),
-                                reflections_key(request), static_cast<bool>(still_));
+                                lights_->decals.size(), request.depth_samples, request.depth,
+                                shadows_key(request.shadows), reflections_key(request), static_cast<bool>(still_));
   if (key != renderer_key_) make_renderer(request, view, std::move(key));
   renderer_->light_still(still_ ? still_->lists.get() : nullptr);
   renew_probes(state, view, which);
