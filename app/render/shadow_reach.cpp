@@ -3,6 +3,7 @@
 #include "render/shadow_reach.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -26,13 +27,21 @@ Made made(ShadowReach::Kind kind) {
   return {"radial bounds", "shadow/radial_bounds", sizeof(shared::RadialBound)};
 }
 
+/// Of a group that makes a light's bound: large ones are soon done with a large map, and idle with a small one.
+std::uint32_t bound_threads(const vulkan::Device& device, std::uint64_t texels_a_light) {
+  constexpr std::uint64_t TEXELS_A_THREAD = 64;
+  const std::uint64_t wanted = std::clamp<std::uint64_t>(std::bit_floor(texels_a_light / TEXELS_A_THREAD), 256, 1024);
+  return std::min(static_cast<std::uint32_t>(wanted), std::bit_floor(device.traits.max_group_invocations));
+}
+
 /// Meshes are fitted on a finer lattice where shared memory has room for it.
-std::vector<vulkan::Constant> constants_of(const vulkan::Device& device, ShadowReach::Kind kind, ShadowFilter filter) {
+std::vector<vulkan::Constant> constants_of(const vulkan::Device& device, ShadowReach::Kind kind, ShadowFilter filter,
+                                           std::uint64_t texels_a_light) {
   constexpr std::uint32_t FINE_BYTES = 24576;
-  std::vector<vulkan::Constant> constants{{0, static_cast<std::uint32_t>(filter)}};
-  if (kind == ShadowReach::Kind::meshes)
-    constants.push_back({1, device.traits.shared_memory_bytes >= FINE_BYTES ? 6U : 4U});
-  return constants;
+  const std::uint32_t second = kind == ShadowReach::Kind::radial                 ? bound_threads(device, texels_a_light)
+                               : device.traits.shared_memory_bytes >= FINE_BYTES ? 6U
+                                                                                 : 4U;
+  return {{0, static_cast<std::uint32_t>(filter)}, {1, second}};
 }
 
 /// Squares belong to one map, which changes only where it is redrawn.
@@ -43,7 +52,7 @@ bool same(const shared::ShadowMap& a, const shared::ShadowMap& b) {
 }  // namespace
 
 ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
-                         std::uint32_t light_capacity)
+                         std::uint32_t light_capacity, std::uint32_t atlas_size)
     : name_(made(kind).name), maps_(light_capacity), shows_all_(light_capacity), pending_(light_capacity) {
   const auto [name, shader, bytes] = made(kind);
   const std::uint64_t lights = std::max(1U, light_capacity);
@@ -56,12 +65,13 @@ ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shad
                                                .bytes = lights * sizeof(shared::RadialJob),
                                                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                                .memory = vulkan::MemoryUse::upload}));
-  pipeline_ = take(vulkan::Pipeline::compute(device,
-                                             {.name = name,
-                                              .constants = constants_of(device, kind, filter),
-                                              .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {3}, {4}},
-                                              .push_constant_bytes = sizeof(std::uint32_t)},
-                                             shaders.spirv(shader)));
+  pipeline_ = take(vulkan::Pipeline::compute(
+      device,
+      {.name = name,
+       .constants = constants_of(device, kind, filter, std::uint64_t{atlas_size} * atlas_size / lights),
+       .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {3}, {4}},
+       .push_constant_bytes = sizeof(std::uint32_t)},
+      shaders.spirv(shader)));
 }
 
 void ShadowReach::set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,

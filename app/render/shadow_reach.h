@@ -19,7 +19,7 @@ class ShadowReach {
 
   /// At first nothing is known of any light.
   ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
-              std::uint32_t light_capacity);
+              std::uint32_t light_capacity, std::uint32_t atlas_size);
 
   /// Of the next `record`: lights that were redrawn, and those of another map or place than the last time.
   void set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,

@@ -125,7 +125,7 @@ void Shadows::record(vulkan::Recorder& recorder) {
 void Shadows::need(ShadowReach::Kind kind) {
   std::optional<ShadowReach>& reach = reaches_[static_cast<std::size_t>(kind)];
   if (reach) return;
-  reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_);
+  reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_, settings_.atlas_size);
   set_reaches({});
 }
 

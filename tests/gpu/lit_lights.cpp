@@ -77,7 +77,7 @@ std::vector<float> shadows_of(const std::vector<shared::ShadowCase>& cases, cons
 ShadowReach reach_of(ShadowReach::Kind kind, const LitLights& lit, const GpuImage& atlas, ShadowFilter filter) {
   const auto count = static_cast<std::uint32_t>(lit.lights.size());
   const vulkan::Buffer map_buffer = host_buffer_of("maps", lit.maps);
-  ShadowReach reach(test_context().device(), shader_library(), kind, filter, count);
+  ShadowReach reach(test_context().device(), shader_library(), kind, filter, count, LIT_ATLAS);
   std::vector<ShadowRedraw> redraws;
   for (std::uint32_t i = 0; i < count; ++i) redraws.push_back({.light = i});
   reach.set(lit.maps, lit.lights, redraws);

@@ -11,7 +11,7 @@
 #include "common/radial_cells.glsl"
 #include "shadow/parts/radial_reach.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x_id = 1, local_size_x = 256) in;  // many threads are fast where few lights have large maps
 
 layout(set = 0, binding = 3, scalar) readonly buffer JobBuffer { RadialJob jobs[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer BoundBuffer { RadialBound bounds[]; };
@@ -20,7 +20,8 @@ layout(push_constant) uniform Push { uint job_count; };
 const uint CELLS = RADIAL_SIDE * RADIAL_SIDE;
 const uint BLOCKS = 16u;             // a side of a square, a quarter of a cell's angle and less
 const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
-const uint MOST_BLOCKS = OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS;
+const uint MOST_BLOCKS = max(OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS, SQUARES_A_LIGHT * BLOCKS * BLOCKS);
+const int COLUMN_BATCH = 8;  // texels
 shared uint s_bytes[CELLS];
 shared uint s_nearest_stored[MOST_BLOCKS];  // bits of near / w of a block's farthest texel
 
@@ -30,21 +31,28 @@ void reach(RadialCells cells, uint value) {
     for (uint x = cells.first.x; x <= cells.last.x; ++x) atomicMax(s_bytes[y * RADIAL_SIDE + x], value);
 }
 
-// Threads go along rows, which lie together in memory; each finds the farthest of its texels in a row of blocks.
-void farthest_of_blocks(uint light, uint square, uint side, uint blocks) {
+// The nearest of what a column of texels stores; all of a batch are asked for before the first is waited for.
+float least_of_column(ShadowSquare square, ivec2 first, int size) {
+  float least = 1.0;
+  for (int y = 0; y < size; y += COLUMN_BATCH) {
+    float stored[COLUMN_BATCH];
+    [[unroll]] for (int i = 0; i < COLUMN_BATCH; ++i)
+      stored[i] = SHADOW_TEXEL(shadow_atlas, square.corner + first + ivec2(0, min(y + i, size - 1))).x;
+    [[unroll]] for (int i = 0; i < COLUMN_BATCH; ++i) least = min(least, stored[i]);
+  }
+  return least;
+}
+
+// A thread takes a column of a block; those of a row of blocks lie together in memory.
+void farthest_of_blocks(uint light, uint squares, uint side, uint blocks) {
   const uint size = side / blocks;
-  const uint columns = min(side, gl_WorkGroupSize.x);
-  const uint rows = gl_WorkGroupSize.x / columns;
-  const uint first_row = gl_LocalInvocationIndex / columns;
-  for (uint x = gl_LocalInvocationIndex % columns; x < side; x += columns)
-    for (uint block = 0u; block < blocks; ++block) {
-      float stored = 1.0;
-      for (uint y = first_row; y < size; y += rows) {
-        const ivec2 texel = ivec2(x, block * size + y);
-        stored = min(stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
-      }
-      atomicMin(s_nearest_stored[block * blocks + x / size], floatBitsToUint(max(stored, 0.0)));
-    }
+  for (uint column = gl_LocalInvocationIndex; column < squares * blocks * side; column += gl_WorkGroupSize.x) {
+    const uint row = column / side;  // of blocks, in all squares
+    const uint x = column % side;
+    const ivec2 first = ivec2(x, row % blocks * size);
+    const float stored = least_of_column(shadow_square(light, row / blocks), first, int(size));
+    atomicMin(s_nearest_stored[row * blocks + x / size], floatBitsToUint(max(stored, 0.0)));
+  }
 }
 
 void reach_of_block(uint light, uint square, uvec2 first, uint size, float stored, float unit_m, float scale) {
@@ -83,16 +91,15 @@ void main() {
   const uint side = shadow_maps[light].side;
   const uint blocks = min(side, kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
   const uint squares = !known ? 0u : kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
-  for (uint square = 0u; square < squares; ++square) {
-    for (uint i = thread; i < blocks * blocks; i += gl_WorkGroupSize.x) s_nearest_stored[i] = floatBitsToUint(1.0);
-    barrier();  // initial values before texels are nearer
-    farthest_of_blocks(light, square, side, blocks);
-    barrier();  // all texels before blocks reach
-    for (uint i = thread; i < blocks * blocks; i += gl_WorkGroupSize.x)
-      reach_of_block(light, square, uvec2(i % blocks, i / blocks) * (side / blocks), side / blocks,
-                     uintBitsToFloat(s_nearest_stored[i]), bound.unit_m, bound.scale);
-    barrier();  // all blocks before the next square's, and before bytes are packed
-  }
+  const uint all_blocks = squares * blocks * blocks;
+  for (uint i = thread; i < all_blocks; i += gl_WorkGroupSize.x) s_nearest_stored[i] = floatBitsToUint(1.0);
+  barrier();  // initial values before texels are nearer
+  farthest_of_blocks(light, squares, side, blocks);
+  barrier();  // all texels before blocks reach
+  for (uint i = thread; i < all_blocks; i += gl_WorkGroupSize.x)
+    reach_of_block(light, i / (blocks * blocks), uvec2(i % blocks, i / blocks % blocks) * (side / blocks), side / blocks,
+                   uintBitsToFloat(s_nearest_stored[i]), bound.unit_m, bound.scale);
+  barrier();  // all blocks before bytes are packed
   if (thread == 0u) {
     bounds[light].position = bound.position;
     bounds[light].kind = bound.kind;

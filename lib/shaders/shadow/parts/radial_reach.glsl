@@ -12,6 +12,7 @@
 #include "shadow/parts/offset.glsl"
 #include "shadow/parts/taps.glsl"
 
+LAMP_CONST RADIAL_BATCH = 4u;  // texels
 LAMP_CONST_FLOAT RADIAL_UNBOUNDED = 3e38;
 // Texels: where rounding may take a place.
 LAMP_CONST_FLOAT RADIAL_PLACE_ROUNDING = 0.02;
@@ -60,12 +61,17 @@ float radial_depth_of(uint light, float stored) {
   return stored > 0.0 ? shadow_maps[light].near_m / stored : RADIAL_UNBOUNDED;
 }
 
-// The greatest depth of a block's texels.
+// The greatest depth of a block's texels. All of a batch are asked for before the first is waited for.
 float radial_farthest_of_block(uint light, uint square, uvec2 first, uint size) {
+  const ivec2 corner = shadow_square(light, square).corner + ivec2(first);
   float nearest_stored = 1.0;  // near / w
-  for (uint i = 0u; i < size * size; ++i) {
-    const ivec2 texel = ivec2(first + uvec2(i % size, i / size));
-    nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, shadow_texel(light, square, texel)).x);
+  for (uint at = 0u; at < size * size; at += RADIAL_BATCH) {
+    float stored[RADIAL_BATCH];
+    [[unroll]] for (uint i = 0u; i < RADIAL_BATCH; ++i) {
+      const uint texel = min(at + i, size * size - 1u);
+      stored[i] = SHADOW_TEXEL(shadow_atlas, corner + ivec2(texel % size, texel / size)).x;
+    }
+    [[unroll]] for (uint i = 0u; i < RADIAL_BATCH; ++i) nearest_stored = min(nearest_stored, stored[i]);
   }
   return radial_depth_of(light, nearest_stored);
 }
