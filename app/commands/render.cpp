@@ -173,12 +173,12 @@ void write_leaks(const RenderOptions& o, const Drawing& drawing, const Drawn& dr
   const std::vector<gpu::ShadowLeak> leaks = shadow_leaks(drawing.session, drawing.lighting);
   drawn.stats.shadows->leaks = sum_of(leaks);
   write_both(o, drawn.toned, [&](const LdrImage* below) {
-    return draw_leak_map(
-        {.width = drawn.toned.width,
-         .height = drawn.toned.height,
-         .pixels = leaks,
-         .title = fmt::format("{} shadows against rays; full colour: all light of the pixel", o.state.request.shadows.filter),
-         .overlay = below});
+    return draw_leak_map({.width = drawn.toned.width,
+                          .height = drawn.toned.height,
+                          .pixels = leaks,
+                          .title = fmt::format("{} shadows against rays; full colour: all light of the pixel",
+                                               o.state.request.shadows.filter),
+                          .overlay = below});
   });
 }
 
@@ -191,10 +191,10 @@ void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& dra
   std::vector<std::uint32_t> counts =
       of == HeatOf::lights ? walked_lights(drawn.visits) : shadow_heat(session, drawing.lighting, of);
   if (session.still() != nullptr && !session.renderer().depth().several()) add_still_walks(session, counts);
-  const std::string title =
-      of == HeatOf::lights
-          ? fmt::format("{}, {} lights", drawn.stats.method, drawn.stats.lights)
-          : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest", o.state.request.shadows.filter);
+  const std::string title = of == HeatOf::lights
+                                ? fmt::format("{}, {} lights", drawn.stats.method, drawn.stats.lights)
+                                : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest",
+                                              o.state.request.shadows.filter);
   write_both(o, drawn.toned, [&](const LdrImage* below) {
     return heatmap_of(session, counts, {.title = title, .overlay = below, .of = of});
   });
