@@ -11,6 +11,6 @@
 #include "shadow/parts/moments.glsl"
 
 vec2 blur_source(float unit_depth) { return shadow_warped(unit_depth); }
-vec4 blur_moments(vec2 warped) { return vec4(warped.x, warped.x * warped.x, warped.y, warped.y * warped.y); }
+vec4 blur_moments(vec2 warped) { return shadow_moments_of_warped(warped); }
 
 #include "shadow/parts/blur_fused.glsl"

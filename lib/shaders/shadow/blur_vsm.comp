@@ -11,6 +11,6 @@
 #include "shadow/parts/moments.glsl"
 
 float blur_source(float unit_depth) { return unit_depth; }
-vec2 blur_moments(float unit_depth) { return vec2(unit_depth, unit_depth * unit_depth); }
+vec2 blur_moments(float unit_depth) { return shadow_moments_of_depth(unit_depth).xy; }
 
 #include "shadow/parts/blur_fused.glsl"

@@ -21,10 +21,15 @@ LAMP_CONST_FLOAT SHADOW_BLEED = 0.2;
 // m, of lights that reach everything: half of 0 .. 1 is nearer.
 LAMP_CONST_FLOAT SHADOW_MIDDLE_M = 10.0;
 
+// m, the depth of what is as far away as the light's range, at most.
+float shadow_longest(uint light) {
+  const float range = shadow_maps[light].range_m;
+  return shadow_maps[light].kind == SHADOW_OCTAHEDRON ? range * 1.7320508 : range;
+}
+
 // Depth as 0 .. 1, linear within the light's range. Of nothing (near / w = 0) it is 1.
 float shadow_unit_depth(uint light, float w) {
-  const float range = shadow_maps[light].range_m;
-  const float longest = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? range * 1.7320508 : range;
+  const float longest = shadow_longest(light);
   precise const float share = longest < 1e18 ? w / longest : w / (w + SHADOW_MIDDLE_M);
   return clamp(share, 0.0, 1.0);
 }
@@ -37,8 +42,7 @@ struct ShadowDepths {
 };
 
 ShadowDepths shadow_depths(uint light) {
-  const float range = shadow_maps[light].range_m;
-  const float longest = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? range * 1.7320508 : range;
+  const float longest = shadow_longest(light);
   ShadowDepths depths;
   depths.near_m = shadow_maps[light].near_m;
   depths.per_stored = longest < 1e18 ? longest : SHADOW_MIDDLE_M;
@@ -59,12 +63,13 @@ vec2 shadow_warped(float unit_depth) {
   return vec2(exp(exponents.x), -exp(exponents.y));
 }
 
+vec4 shadow_moments_of_warped(vec2 warped) {
+  precise const vec2 squares = warped * warped;
+  return vec4(warped.x, squares.x, warped.y, squares.y);
+}
+
 vec4 shadow_moments_of_depth(float unit_depth) {
-  if (SHADOW_FILTER == SHADOW_EVSM) {
-    const vec2 warped = shadow_warped(unit_depth);
-    precise const vec2 squares = warped * warped;
-    return vec4(warped.x, squares.x, warped.y, squares.y);
-  }
+  if (SHADOW_FILTER == SHADOW_EVSM) return shadow_moments_of_warped(shadow_warped(unit_depth));
   precise const float square = unit_depth * unit_depth;
   return vec4(unit_depth, square, 0.0, 0.0);
 }

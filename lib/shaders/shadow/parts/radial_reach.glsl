@@ -12,7 +12,6 @@
 #include "shadow/parts/offset.glsl"
 #include "shadow/parts/taps.glsl"
 
-LAMP_CONST RADIAL_BATCH = 4u;  // texels
 LAMP_CONST_FLOAT RADIAL_UNBOUNDED = 3e38;
 // Texels: where rounding may take a place.
 LAMP_CONST_FLOAT RADIAL_PLACE_ROUNDING = 0.02;
@@ -61,17 +60,13 @@ float radial_depth_of(uint light, float stored) {
   return stored > 0.0 ? shadow_maps[light].near_m / stored : RADIAL_UNBOUNDED;
 }
 
-// The greatest depth of a block's texels. All of a batch are asked for before the first is waited for.
+// The greatest depth of a block's texels.
 float radial_farthest_of_block(uint light, uint square, uvec2 first, uint size) {
-  const ivec2 corner = shadow_square(light, square).corner + ivec2(first);
+  const ivec2 corner = shadow_square(light, square).corner;
   float nearest_stored = 1.0;  // near / w
-  for (uint at = 0u; at < size * size; at += RADIAL_BATCH) {
-    float stored[RADIAL_BATCH];
-    [[unroll]] for (uint i = 0u; i < RADIAL_BATCH; ++i) {
-      const uint texel = min(at + i, size * size - 1u);
-      stored[i] = SHADOW_TEXEL(shadow_atlas, corner + ivec2(texel % size, texel / size)).x;
-    }
-    [[unroll]] for (uint i = 0u; i < RADIAL_BATCH; ++i) nearest_stored = min(nearest_stored, stored[i]);
+  for (uint i = 0u; i < size * size; ++i) {
+    const ivec2 texel = corner + ivec2(first + uvec2(i % size, i / size));
+    nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, texel).x);
   }
   return radial_depth_of(light, nearest_stored);
 }
@@ -80,8 +75,7 @@ float radial_farthest_of_block(uint light, uint square, uvec2 first, uint size) 
 float radial_farthest_lit(uint light, float w) {
   if (!(w < RADIAL_UNBOUNDED)) return RADIAL_UNBOUNDED;
   if (!radial_has_moments()) return w * (1.0 + 2.0 * SHADOW_ROUNDING);
-  const float range = shadow_maps[light].range_m;
-  const float longest = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? range * SHADOW_FOLDED_STEP : range;
+  const float longest = shadow_longest(light);
   const float share = w / longest;
   const float lit = SHADOW_FILTER == SHADOW_EVSM ? share + RADIAL_WARPED : share * RADIAL_CHEBYSHEV + RADIAL_VARIANCE;
   return lit < 0.99 ? lit * longest : RADIAL_UNBOUNDED;  // depths are cut off at 1
