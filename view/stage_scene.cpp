@@ -14,7 +14,9 @@ namespace lamp::app {
 namespace {
 
 std::string shadows_key(const ShadowChoice& of) {
-  return fmt::format("{} {} {} {} {} {} {}", of.filter, of.points, of.raster, of.blur, of.lights, of.budget, of.atlas);
+  std::string key = fmt::format("{}", of.atlas);
+  for (const ShadowWord& word : SHADOW_WORDS) key += " " + of.*word.value;
+  return key;
 }
 
 /// What probes and mirrors of a renderer follow from.

@@ -187,16 +187,15 @@ std::string depth_words(const Group& group) {
 
 /// Likewise.
 std::string shadow_words(const Group& group) {
-  const ShadowChoice& of = group.shadows;
   const ShadowChoice usual;
-  const auto word = [](const char* name, const std::string& value, const std::string& left_out) {
-    return value == left_out ? "" : fmt::format(" {}={}", name, value);
-  };
-  return (of.filter == usual.filter ? "" : fmt::format(" shadows={} atlas={}", of.filter, of.atlas)) +
-         word("point_shadows", of.points, usual.points) + word("shadow_raster", of.raster, usual.raster) +
-         word("shadow_blur", of.blur, usual.blur) + word("shadow_lights", of.lights, usual.lights) +
-         word("shadow_budget", of.budget, usual.budget) +
-         (group.mirror == 0.0 ? "" : fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists));
+  std::string words;
+  for (const auto& [name, value] : SHADOW_WORDS) {
+    if (group.shadows.*value == usual.*value) continue;
+    words += fmt::format(" {}={}", name, group.shadows.*value);
+    if (value == &ShadowChoice::filter) words += fmt::format(" atlas={}", group.shadows.atlas);
+  }
+  if (group.mirror != 0.0) words += fmt::format(" mirror={} mirror_lists={}", group.mirror, group.mirror_lists);
+  return words;
 }
 
 std::string host_words(const GroupEntry& entry) {

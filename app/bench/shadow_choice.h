@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -16,7 +17,18 @@ struct ShadowChoice {
   std::string lights = "all";    ///< how many of the first lights cast shadows
   std::string budget = "all";    ///< texels drawn in a frame
   std::uint32_t atlas = 4096;    ///< texels a side
-  bool operator==(const ShadowChoice&) const = default;
 };
+
+/// What files call the words: suites, results, states of the window.
+struct ShadowWord {
+  const char* name;
+  std::string ShadowChoice::* value;
+};
+inline constexpr std::array<ShadowWord, 6> SHADOW_WORDS{{{"shadows", &ShadowChoice::filter},
+                                                         {"point_shadows", &ShadowChoice::points},
+                                                         {"shadow_raster", &ShadowChoice::raster},
+                                                         {"shadow_blur", &ShadowChoice::blur},
+                                                         {"shadow_lights", &ShadowChoice::lights},
+                                                         {"shadow_budget", &ShadowChoice::budget}}};
 
 }  // namespace lamp::app

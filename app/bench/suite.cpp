@@ -177,12 +177,7 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("depth", series.depth);
   object.read("depth_samples", series.depth_samples, 1, 8);
   object.read("stereo", series.stereo_m, 0.0, 1000.0);
-  object.read("shadows", series.shadows.filter);
-  object.read("point_shadows", series.shadows.points);
-  object.read("shadow_raster", series.shadows.raster);
-  object.read("shadow_blur", series.shadows.blur);
-  object.read("shadow_lights", series.shadows.lights);
-  object.read("shadow_budget", series.shadows.budget);
+  for (const ShadowWord& word : SHADOW_WORDS) object.read(word.name, series.shadows.*word.value);
   object.read("atlas", series.shadows.atlas, 16, 32768);
   object.read("mirror", series.mirror, 0.0, 1.0);
   object.read("mirror_lists", series.mirror_lists);

@@ -108,17 +108,10 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (entry.still_lists != "off") parameters["still_lists"] = entry.still_lists;
   if (entry.still_occlusion != 0) parameters["still_occlusion"] = entry.still_occlusion;
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
-  const ShadowChoice& shadows = group.shadows;
   const ShadowChoice usual;
-  if (shadows.filter != usual.filter) {
-    parameters["shadows"] = shadows.filter;
-    parameters["atlas"] = shadows.atlas;
-  }
-  if (shadows.points != usual.points) parameters["point_shadows"] = shadows.points;
-  if (shadows.raster != usual.raster) parameters["shadow_raster"] = shadows.raster;
-  if (shadows.blur != usual.blur) parameters["shadow_blur"] = shadows.blur;
-  if (shadows.lights != usual.lights) parameters["shadow_lights"] = shadows.lights;
-  if (shadows.budget != usual.budget) parameters["shadow_budget"] = shadows.budget;
+  for (const auto& [name, value] : SHADOW_WORDS)
+    if (group.shadows.*value != usual.*value) parameters[name] = group.shadows.*value;
+  if (group.shadows.filter != usual.filter) parameters["atlas"] = group.shadows.atlas;
   if (group.mirror != 0.0) parameters["mirror"] = group.mirror;
   if (group.mirror != 0.0) parameters["mirror_lists"] = group.mirror_lists;
   if (entry.host != Host::plan) parameters["host"] = host_names()[static_cast<std::size_t>(entry.host)];

@@ -46,12 +46,7 @@ void for_each_field(Fields&& at, State& s) {
   at.whole("probes", r.probes, 0, 65536);
   at.text("probes_show", r.probes_show);
   at.whole("probe_budget", r.probe_budget, 0, 65536);
-  at.text("shadows", r.shadows.filter);
-  at.text("point_shadows", r.shadows.points);
-  at.text("shadow_raster", r.shadows.raster);
-  at.text("shadow_blur", r.shadows.blur);
-  at.text("shadow_lights", r.shadows.lights);
-  at.text("shadow_budget", r.shadows.budget);
+  for (const auto& [name, value] : SHADOW_WORDS) at.text(name, r.shadows.*value);
   at.whole("atlas", r.shadows.atlas, 1, 32768);
   at.text("camera", r.camera);
   at.moment("frame", r.frame);
