@@ -7,11 +7,11 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lamplight/shared/world.h"
 
-const uint MOST_THREADS = 256u;
 layout(local_size_x_id = 4) in;
 layout(constant_id = 1) const uint BUCKETS = 1;
 layout(constant_id = 2) const uint ENTRIES = 1;  // capacity
-layout(constant_id = 3) const uint SHORT = 1;    // entries of a bucket, at most; a window has the other threads
+layout(constant_id = 3) const uint SHORT = 1;    // entries of a bucket, at most
+layout(constant_id = 5) const uint WINDOW = 1;   // entries
 #include "methods/world_entry.glsl"
 
 layout(set = 0, binding = 3, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
@@ -21,19 +21,22 @@ layout(set = 0, binding = 6, scalar) buffer EntryBuffer { uint entries[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer BitBuffer { uint bits[]; };  // and runs, in the room of theirs
 layout(set = 0, binding = 8, scalar) readonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
 
-shared uint s_entries[MOST_THREADS];  // in any order
-shared uint s_ordered[MOST_THREADS];
-shared uint s_cells[2u * MOST_THREADS + 16u];  // in order
-shared uint s_bits[2u * MOST_THREADS];
-shared uvec2 s_blocks[MOST_THREADS];  // where each begins, and how many entries it has
+const uint HELD = WINDOW + SHORT;  // entries of a group, at most
+const uint NO_ENTRY = ~0u;         // in a long bucket's place
+
+shared uint s_entries[HELD];  // in any order
+shared uint s_ordered[HELD];
+shared uint s_cells[2u * HELD + 16u];  // in order
+shared uint s_bits[2u * HELD];
+shared uint s_blocks[HELD];  // where each begins, and from these bits on how many entries it has
+const uint BLOCK_COUNT_BIT = 16u;
 shared uint s_block_count;
 #include "methods/world_octet.glsl"
 
 // Where the first bucket begins whose entries begin in the window, or behind it; `end`: of all entries.
 uint window_begin(uint window, uint end) {
-  const uint size = gl_WorkGroupSize.x - SHORT;
   if (window == 0u) return 0u;
-  return window * size < end ? windows[window] : end;
+  return window * WINDOW < end ? windows[window] : end;
 }
 
 uint smaller_in(uint bucket_begin, uint count, uint entry) {
@@ -42,70 +45,85 @@ uint smaller_in(uint bucket_begin, uint count, uint entry) {
   return smaller;
 }
 
-// A light may have several bricks in one bucket. Its first entry has the cells of all of them, the others have none, so
-// that no walk meets it twice.
-void add_cells(LightBricks b, uint entry, uint place, uint bucket_begin) {
-  const uint light = light_of(entry);
+void order_piece(WorldPiece piece) {
+  const uint threads = gl_WorkGroupSize.x;
+  const WorldBucket bucket = buckets[piece.bucket];
+  const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) s_entries[i] = entries[bucket.first + piece.begin + i];
+  barrier();  // entries before they are compared
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads)
+    bits[2u * bucket.first + piece.begin + smaller_in(0u, count, s_entries[i])] = s_entries[i];
+}
+
+uint bucket_of_entry(uint entry) {
+  const LightBricks b = bricks_of(frame, spheres[light_of(entry)]);
+  return bucket_of(b.level, brick_of_code(b, code_of(entry)), BUCKETS);
+}
+
+// Puts an entry into its bucket's order, if the bucket is short.
+void order_entry(uint begin, uint i) {
+  const uint entry = s_entries[i];
+  if (light_of(entry) >= light_count_of(frame)) return;  // what did not fit left anything in its room
+  const WorldBucket own = buckets[bucket_of_entry(entry)];
+  const uint at = begin + i;
+  if (own.count > SHORT || at < own.first || at - own.first >= own.count) return;
+  const uint bucket_begin = own.first - begin;  // in the group's entries
+  const uint rank = smaller_in(bucket_begin, own.count, entry);
+  s_ordered[bucket_begin + rank] = entry;
+  if (rank % BLOCK == 0u)
+    s_blocks[atomicAdd(s_block_count, 1u)] =
+        bucket_begin + rank | min(own.count - rank, BLOCK) << BLOCK_COUNT_BIT;
+}
+
+// A light may have several bricks in one bucket. Its first entry then has the cells of all of them, the others have none,
+// so that no walk meets it twice.
+uint first_of_light(uint place, uint light, uint entry) {
   uint first = place;
-  while (first > bucket_begin && light_of(s_ordered[first - 1u]) == light) --first;
-  const uvec2 cells = cells_of(b, light, code_of(entry));
+  while (first > 0u && s_ordered[first - 1u] != NO_ENTRY && light_of(s_ordered[first - 1u]) == light &&
+         bucket_of_entry(s_ordered[first - 1u]) == bucket_of_entry(entry))
+    --first;
+  return first;
+}
+
+void add_cells(uint place) {
+  const uint entry = s_ordered[place];
+  if (entry == NO_ENTRY) return;
+  const uint light = light_of(entry);
+  const uvec2 cells = cells_of(bricks_of(frame, spheres[light]), light, code_of(entry));
+  const uint first = first_of_light(place, light, entry);
   atomicOr(s_cells[2u * first], cells.x);
   atomicOr(s_cells[2u * first + 1u], cells.y);
 }
 
-void order_piece(WorldPiece piece) {
-  const uint thread = gl_LocalInvocationIndex;
-  const WorldBucket bucket = buckets[piece.bucket];
-  const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
-  const uint entry = thread < count ? entries[bucket.first + piece.begin + thread] : 0u;
-  s_entries[thread] = entry;
-  barrier();  // entries before they are compared
-  if (thread < count) bits[2u * bucket.first + piece.begin + smaller_in(0u, count, entry)] = entry;
-}
-
 void order_window(uint window) {
-  const uint thread = gl_LocalInvocationIndex;
+  const uint threads = gl_WorkGroupSize.x;
   const uint end = min(totals.counters.entries_needed, ENTRIES);
   const uint begin = window_begin(window, end);
-  const uint at = begin + thread;
-  const bool is_read = at < window_begin(window + 1u, end);
-  const uint entry = is_read ? entries[at] : 0u;
-  s_entries[thread] = entry;
-  [[unroll]] for (uint i = 0u; i < 2u; ++i) {
-    s_cells[2u * thread + i] = 0u;
-    s_bits[2u * thread + i] = 0u;
+  const uint count = min(window_begin(window + 1u, end) - begin, HELD);  // a long bucket may be the last
+  if (gl_LocalInvocationIndex == 0u) s_block_count = 0u;
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) {
+    s_entries[i] = entries[begin + i];
+    s_ordered[i] = NO_ENTRY;
+    [[unroll]] for (uint word = 0u; word < 2u; ++word) {
+      s_cells[2u * i + word] = 0u;
+      s_bits[2u * i + word] = 0u;
+    }
   }
-  if (thread == 0u) s_block_count = 0u;
   barrier();  // entries before they are compared, zeros before bits are set
-
-  // What did not fit left anything in its room: no bucket that did holds the place.
-  bool is_own = is_read && light_of(entry) < light_count_of(frame);
-  WorldBucket own = WorldBucket(0u, 0u);
-  LightBricks b;
-  if (is_own) {
-    b = bricks_of(frame, spheres[light_of(entry)]);
-    own = buckets[bucket_of(b.level, brick_of_code(b, code_of(entry)), BUCKETS)];
-    is_own = own.count <= SHORT && at >= own.first && at - own.first < own.count;
-  }
-  const uint bucket_begin = own.first - begin;  // in the group's entries
-  uint rank = 0u;
-  if (is_own) {
-    rank = smaller_in(bucket_begin, own.count, entry);
-    s_ordered[bucket_begin + rank] = entry;
-    if (rank % BLOCK == 0u)
-      s_blocks[atomicAdd(s_block_count, 1u)] = uvec2(bucket_begin + rank, min(own.count - rank, BLOCK));
-  }
-  const uint place = bucket_begin + rank;
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) order_entry(begin, i);
   barrier();  // the order before it is read
-  if (is_own) add_cells(b, entry, place, bucket_begin);
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) add_cells(i);
   barrier();  // all cells before bits are made of them
-  for (uint i = thread; i < OCTETS * s_block_count; i += gl_WorkGroupSize.x)
-    write_octet(s_blocks[i / OCTETS].x, s_blocks[i / OCTETS].y, i % OCTETS);
+  for (uint i = gl_LocalInvocationIndex; i < OCTETS * s_block_count; i += threads) {
+    const uint block = s_blocks[i / OCTETS];
+    write_octet(block & (1u << BLOCK_COUNT_BIT) - 1u, block >> BLOCK_COUNT_BIT, i % OCTETS);
+  }
   barrier();  // all bits before they are written
-  if (!is_own) return;
-  entries[begin + place] = entry;
-  bits[2u * (begin + place)] = s_bits[2u * place];
-  bits[2u * (begin + place) + 1u] = s_bits[2u * place + 1u];
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) {
+    if (s_ordered[i] == NO_ENTRY) continue;
+    entries[begin + i] = s_ordered[i];
+    [[unroll]] for (uint word = 0u; word < 2u; ++word) bits[2u * (begin + i) + word] = s_bits[2u * i + word];
+  }
 }
 
 void main() {

@@ -104,7 +104,7 @@ Sizes sizes_of(const Problem& problem) {
   Sizes s{.ratio = static_cast<float>(brick_percent(problem)) / 100.0F};
   s.threads = std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
   s.most_short = std::min(s.threads / 2, WORLD_PIECE);
-  s.window = s.threads - s.most_short;
+  s.window = s.threads;
   const std::uint64_t wanted_buckets = std::bit_ceil(std::uint64_t{parts::capacity(problem)} * LIGHT_BUCKETS);
   s.buckets = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted_buckets, LEAST_BUCKETS, MOST_BUCKETS));
   s.entries = static_cast<std::uint32_t>(
@@ -190,7 +190,7 @@ Pass scan_pass(const Sizes& s, const Buffers& b) {
 Pass order_pass(const Sizes& s, const Buffers& b) {
   return {.name = "order buckets",
           .shader = "methods/world_order",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads},
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads, s.window},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},
@@ -201,7 +201,7 @@ Pass order_pass(const Sizes& s, const Buffers& b) {
                        {b.bits, Access::write},
                        {b.pieces}},
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)},
-          .shared_bytes = THREADS * 32 + OCTET_SPARE + 4};
+          .shared_bytes = (s.window + s.most_short) * 28 + OCTET_SPARE + 4};
 }
 
 Extent of_pieces(const Buffers& b) {
