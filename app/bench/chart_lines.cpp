@@ -18,7 +18,14 @@ using nlohmann::json;
 
 // Parameters that split a series into charts, in the order in which they are named; methods, paths and options are
 // lines of one.
-constexpr std::array<const char*, 7> SPLITS{"scene", "camera", "projection", "size", "range", "spots", "lights"};
+constexpr std::array<const char*, 9> SPLITS{"scene", "camera", "projection", "size",  "range",
+                                            "spots", "lights", "decals",     "probes"};
+
+/// Results say how many decals and probes there are where there are some.
+json parameter_of(const json& result, const std::string& name) {
+  const json& parameters = result.at("parameters");
+  return name == "decals" || name == "probes" ? json(parameters.value(name, 0U)) : parameters.value(name, json());
+}
 
 std::string plain_text(const json& value) {
   return value.is_string() ? value.get<std::string>() : json_text(value, -1);
@@ -26,7 +33,7 @@ std::string plain_text(const json& value) {
 
 /// A split's value in words.
 std::string named(const std::string& split, const json& value) {
-  if (split == "lights") return plain_text(value) + " lights";
+  if (split == "lights" || split == "decals" || split == "probes") return plain_text(value) + " " + split;
   if (split == "spots") return fmt::format("{:g} % spots", 100.0 * value.get<double>());
   if (split == "range") return "range " + plain_text(value);
   return plain_text(value);
@@ -37,16 +44,17 @@ std::vector<std::string> splits_of(std::span<const json* const> results, const s
   std::vector<std::string> splits;
   for (const char* split : SPLITS) {
     const auto differs = [&](const json* result) {
-      return (*result).at("parameters").at(split) != (*results.front()).at("parameters").at(split);
+      return parameter_of(*result, split) != parameter_of(*results.front(), split);
     };
     if (x != split && std::ranges::any_of(results, differs)) splits.emplace_back(split);
   }
   return splits;
 }
 
-std::string where_of(const json& parameters, std::span<const std::string> splits) {
+std::string where_of(const json& result, std::span<const std::string> splits) {
   std::string where;
-  for (const std::string& split : splits) where += (where.empty() ? "" : ", ") + named(split, parameters.at(split));
+  for (const std::string& split : splits)
+    where += (where.empty() ? "" : ", ") + named(split, parameter_of(result, split));
   return where;
 }
 
@@ -61,7 +69,7 @@ std::string line_of(const json& result, const std::string& x) {
 
 /// What stands at the x axis: of a chart over methods, the labels.
 json x_of(const json& result, const std::string& x) {
-  if (x != "method") return result.at("parameters").value(x, json());
+  if (x != "method") return parameter_of(result, x);
   std::string label = result.at("label");
   for (const auto& [key, value] : result.at("parameters").items())
     if (key.starts_with("option:")) label += fmt::format(" {}={}", key.substr(7), plain_text(value));
@@ -92,7 +100,7 @@ void add_series(const json& series, const json& results, std::vector<ChartPanel>
   const std::vector<std::string> splits = splits_of(own, fresh.x);
   std::vector<ChartPanel> made;
   for (const json* result : own) {
-    ChartPanel& panel = find_or_add(made, &ChartPanel::where, where_of((*result).at("parameters"), splits), fresh);
+    ChartPanel& panel = find_or_add(made, &ChartPanel::where, where_of(*result, splits), fresh);
     ChartLine& line = find_or_add(panel.lines, &ChartLine::label, line_of(*result, fresh.x), ChartLine{});
     line.points.push_back({x_of(*result, fresh.x), static_cast<std::size_t>(result - &results.front())});
   }

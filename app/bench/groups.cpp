@@ -122,7 +122,8 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   const std::uint64_t rows = group.verify.what == Verify::What::rows ? std::min(group.verify.rows, height) : height;
   const std::uint64_t pairs = std::uint64_t{width} * rows * series.depth_samples * group.lights;
   const std::uint64_t all_pairs = std::uint64_t{width} * height * group.lights;
-  const bool oracle_only = series.depth_samples > 1 || series.stereo_m > 0.0 || series.shadows.filter != "off";
+  const bool boxes = group.decals + group.probes != 0;
+  const bool oracle_only = boxes || series.depth_samples > 1 || series.stereo_m > 0.0 || series.shadows.filter != "off";
   group.verify.verifier = oracle_only  // which it alone knows of
                               ? Verifier::oracle
                               : chosen(limits.verifier, limits.every_list ? all_pairs : pairs);
@@ -141,29 +142,40 @@ void limit_verify(const Series& series, const Limits& limits, Group& group) {
   }
 }
 
+/// Calls `use` with how many lights, decals and probes each group has.
+template <class Use>
+void for_each_count(const Series& series, const Use& use) {
+  const std::vector<std::uint32_t> lights =
+      series.flight ? std::vector<std::uint32_t>{series.flight->to} : series.lights;
+  for (const std::uint32_t light_count : lights)
+    for (const std::uint32_t decals : series.decals)
+      for (const std::uint32_t probes : series.probes) use(light_count, decals, probes);
+}
+
 /// Calls `use` with every group of a series.
 template <class Use>
 void for_each_group(const Series& series, const Limits& limits, const Use& use) {
-  const std::vector<std::uint32_t> counts =
-      series.flight ? std::vector<std::uint32_t>{series.flight->to} : series.lights;
   Group group = base_of(series, limits);
   for (const std::string& scene : series.scenes)
     for (const std::string& camera : series.cameras)
       for (const std::string& projection : series.projections)
         for (const std::string& size : series.sizes)
           for (const std::string& range : series.ranges)
-            for (const double spots : series.spots)
-              for (const std::uint32_t lights : counts) {
-                group.scene = scene;
-                group.camera = camera;
-                group.projection = projection;
-                group.size = scaled(size, limits.scale);
-                group.range = range;
-                group.spots = spots;
+            for (const double spots : series.spots) {
+              group.scene = scene;
+              group.camera = camera;
+              group.projection = projection;
+              group.size = scaled(size, limits.scale);
+              group.range = range;
+              group.spots = spots;
+              for_each_count(series, [&](std::uint32_t lights, std::uint32_t decals, std::uint32_t probes) {
                 group.lights = lights;
+                group.decals = decals;
+                group.probes = probes;
                 limit_verify(series, limits, group);
                 use(group);
-              }
+              });
+            }
 }
 
 /// Marks, for every scene of a series, the first group with the most lights.
@@ -177,12 +189,14 @@ void choose_pictures(const Series& series, std::span<Group> groups) {
   for (const auto& [scene, group] : most) group->pictures = true;
 }
 
-/// Nothing of one eye and of reversed depth of one sample: keys of old results hold.
-std::string depth_words(const Group& group) {
+/// Nothing of what is as it mostly is: keys of old results hold.
+std::string unusual_words(const Group& group) {
   return (group.depth == "reversed" ? "" : " depth=" + group.depth) +
          (group.depth_samples == 1 ? "" : fmt::format(" depth_samples={}", group.depth_samples)) +
          (group.stereo_m == 0.0 ? "" : fmt::format(" stereo={}", group.stereo_m)) +
-         (group.still == 0.0 ? "" : fmt::format(" still={}", group.still));
+         (group.still == 0.0 ? "" : fmt::format(" still={}", group.still)) +
+         (group.decals == 0 ? "" : fmt::format(" decals={}", group.decals)) +
+         (group.probes == 0 ? "" : fmt::format(" probes={}", group.probes));
 }
 
 /// Likewise.
@@ -214,8 +228,9 @@ double configurations(const Series& series) {
     entries += method.path.empty() ? static_cast<double>(series.paths.size()) : 1.0;
   double product = entries * (series.flight ? 1.0 : static_cast<double>(series.lights.size()));
   for (const auto& [key, values] : series.options) product *= static_cast<double>(values.size());
-  for (const std::size_t swept : {series.scenes.size(), series.cameras.size(), series.projections.size(),
-                                  series.sizes.size(), series.ranges.size(), series.spots.size()})
+  for (const std::size_t swept :
+       {series.scenes.size(), series.cameras.size(), series.projections.size(), series.sizes.size(),
+        series.ranges.size(), series.spots.size(), series.decals.size(), series.probes.size()})
     product *= static_cast<double>(swept);
   return product;
 }
@@ -252,7 +267,7 @@ std::string key_of(const Group& group, const GroupEntry& entry) {
       "frames={}+{} verify={}{}",
       group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
       group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
-      depth_words(group), shadow_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ",
+      unusual_words(group), shadow_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ",
       entry.path, host_words(entry), group.warm_up, group.frames, words_of(group.verify),
       group.pictures ? " pictures" : "");
 }

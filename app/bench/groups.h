@@ -32,6 +32,8 @@ struct Group {
   std::string mirror_lists = "world-cells";
   std::uint32_t lights = 0;  ///< the most, in a flight
   double spots = 0.0;
+  std::uint32_t decals = 0;
+  std::uint32_t probes = 0;
   double still = 0.0;
   std::uint64_t seed = 1;
   int frame = -1;

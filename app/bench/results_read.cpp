@@ -83,6 +83,8 @@ constexpr auto RULES = std::to_array<Rule>({
     text(PARAMETERS, "size"),
     count(PARAMETERS, "lights", /* required= */ true),
     {.at = PARAMETERS, .key = "spots", .want = Want::number, .required = true, .min = 0, .max = 1},
+    count(PARAMETERS, "decals", /* required= */ false),
+    count(PARAMETERS, "probes", /* required= */ false),
     text(PARAMETERS, "range"),
     text(PARAMETERS, "camera"),
     text(PARAMETERS, "projection"),

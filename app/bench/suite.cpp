@@ -17,6 +17,7 @@
 #include "files/read_json.h"
 #include "lamplight/method.h"
 #include "render/mirror_pass.h"
+#include "scene/decal.h"
 
 namespace lamp::app {
 namespace {
@@ -29,8 +30,8 @@ constexpr std::array<std::string_view, 11> VALUES{"cull",   "shade",       "cull
                                                   "missed", "evaluations", "list_mean",  "list_max", "bytes"};
 constexpr std::span<const std::string_view> TIMES = std::span(VALUES).first(4);
 constexpr std::string_view OPTION = "option:";
-constexpr std::array<std::string_view, 9> AXES{"lights", "size",   "spots",      "range", "scene",
-                                               "camera", "method", "projection", "path"};
+constexpr std::array<std::string_view, 11> AXES{"lights", "size",   "spots",      "range", "scene", "camera",
+                                                "method", "decals", "projection", "path",  "probes"};
 
 std::string joined(std::span<const std::string_view> words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
@@ -168,6 +169,8 @@ Series parse_series(const json& value, const std::string& source) {
   object.read("sizes", series.sizes);
   object.read("lights", series.lights, 0, MAX_LIGHTS);
   object.read("spots", series.spots, 0.0, 1.0);
+  object.read("decals", series.decals, 0, MAX_BOXES);
+  object.read("probes", series.probes, 0, MAX_BOXES);
   object.read("still", series.still, 0.0, 1.0);
   object.read("ranges", series.ranges);
   object.read("cameras", series.cameras);

@@ -64,7 +64,9 @@ struct Series {
   std::vector<std::string> sizes{"1280x720"};
   std::vector<std::uint32_t> lights{4096};
   std::vector<double> spots{0.5};
-  double still = 0.0;  ///< part of the generated lights that stand still; the scene's own do then too
+  std::vector<std::uint32_t> decals{0};
+  std::vector<std::uint32_t> probes{0};  ///< reflection probes, a colour each
+  double still = 0.0;                    ///< part of the generated lights that stand still; the scene's own do then too
   std::vector<std::string> ranges{""};
   std::vector<std::string> cameras{""};
   std::vector<std::string> projections{"camera"};

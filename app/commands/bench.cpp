@@ -70,6 +70,8 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   series.seed = r.seed;
   series.frame = r.frame;
   series.still = r.still;
+  series.decals = {r.decals};
+  series.probes = {r.probes};
   series.shadows = r.shadows;
   series.pictures = true;
   series.chart.x = "method";
@@ -265,6 +267,8 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add_auto_options(*command, o->request);
   add_path_option(*command, o->request);
   add_shadow_options(*command, o->request);
+  add_decal_option(*command, o->request);
+  add_probe_option(*command, o->request);
   add_out_option(*command, o->out, "write to this folder; what it has results of is not measured again")
       .type_name("FOLDER");
   const auto add = [&](const char* name, auto& value, const char* help) {

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <span>
 
+#include "commands/verify_boxes.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
+#include "render/box_shapes.h"
 #include "render/shadow_truth.h"
 
 namespace lamp::app {
@@ -43,16 +45,19 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
   const glm::uvec2 size = parse_size(group.size);
   const bool listed = entry.still_lists != "off";
   return {.method = &method,
-          .options = take(resolve_options(method, entry.options)),
+          .options = take(resolve_options(method, with_box_shapes(method, entry.options, scene.boxes() != 0))),
           .width = group.stereo_m > 0.0 ? size.x / 2 : size.x,
           .height = size.y,
-          .light_capacity = light_capacity(scene, group) - (listed ? standing_lights(scene, group) : 0),
+          .light_capacity = light_capacity(scene, group) - (listed ? standing_lights(scene, group) : 0) +
+                            static_cast<std::uint32_t>(scene.boxes()),
           .path = parse_path(entry.path),
           .brdf = parse_brdf(group.brdf),
           .depth = host_depth_of(group),
           .host = entry.host,
           .transparency = !scene.gpu->blended().empty(),
           .captured = scene.scene.captured.has_value(),
+          .decals = !scene.decals.empty(),
+          .probes = scene.probes.empty() ? gpu::PROBES_OFF : gpu::PROBES_FLAT,
           .shadows = filter_of(shadows_of(group)),
           .still = still_kind(entry.still_lists)};
 }
@@ -63,12 +68,12 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
       renderer_(renderer),
       frame_(frame),
       rows_(checked_rows(group.verify, frame.view().height())) {
-  renderer_.set_frame(frame.views, frame.lights);
+  renderer_.set_frame(frame.views, frame.lights, frame.decals);
 }
 
 void Checker::show(const StillLists* still) {
   renderer_.light_still(still);
-  renderer_.set_frame(frame_.views, frame_.lights);
+  renderer_.set_frame(frame_.views, frame_.lights, frame_.decals);
 }
 
 void Checker::need_truths() {
@@ -112,7 +117,7 @@ const HdrImage& Checker::reference(ShadingPath path) {
     const StillLists* still = renderer_.still();
     show(nullptr);
     Lighting lighting(device_.context().device(), device_.shaders(), info);
-    image = cropped(render_views(renderer_, lighting, frame_.lights, {}, {}).image, rows_);
+    image = cropped(render_views(renderer_, lighting, frame_.lights, frame_.decals, {}).image, rows_);
     show(still);
   }
   return *image;
@@ -134,6 +139,18 @@ Findings Checker::find(Lighting& lighting) {
   return verification.findings();
 }
 
+Findings Checker::find_boxes(Lighting& lighting, Renderer::Kind kind) {
+  const BenchScene& scene = device_.scene(group_);
+  BoxCheck check(kind, frame_.view().width(), renderer_.depth());
+  const std::pair<Lighting*, BoxCheck*> only{&lighting, &check};
+  const std::vector<FramePicture> pictures = renderer_.all_pictures();
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    renderer_.show(pictures[i]);
+    check_boxes_of(renderer_, {scene.decals, scene.probes}, depths_[i], rows_, {&only, 1});
+  }
+  return check.findings(lighting);
+}
+
 Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked) {
   Plan plan = lighting.runner().plan();
   if (!checked.findings && lighting.info().still == gpu::STILL_OFF)
@@ -142,13 +159,16 @@ Judgement Checker::judge_output(const Lighting& lighting, const Checked& checked
   if (checked.difference)
     difference = {.max_abs = *checked.difference,
                   .tolerance = picture_tolerance(plan, reference(lighting.info().path))};
-  return judge(plan, checked.findings.value_or(Findings{}), difference);
+  Judgement judgement = judge(plan, checked.findings.value_or(Findings{}), difference);
+  if (checked.decals) judgement = worse_of(judgement, judge(plan, *checked.decals, std::nullopt, "decal"));
+  if (checked.probes) judgement = worse_of(judgement, judge(plan, *checked.probes, std::nullopt, "probe"));
+  return judgement;
 }
 
 Checked Checker::check(Lighting& lighting, bool same_picture) {
   Checked checked{.verdict = "unverified",
                   .reason = group_.unchecked,
-                  .rendered = render_views(renderer_, lighting, frame_.lights, {}, {})};
+                  .rendered = render_views(renderer_, lighting, frame_.lights, frame_.decals, {})};
   if (group_.verify.what == Verify::What::nothing) return checked;
   const bool by_volumes = lighting.info().path == ShadingPath::standard_deferred;
   const bool still = lighting.info().still != gpu::STILL_OFF;
@@ -158,7 +178,11 @@ Checked Checker::check(Lighting& lighting, bool same_picture) {
   }
   if ((by_volumes || still) && !group_.verify.compares_pictures) return checked;
   if (!still) need_truths();
-  if (!by_volumes && !still) checked.findings = find(lighting);
+  if (!by_volumes && !still) {
+    checked.findings = find(lighting);
+    if (group_.decals != 0) checked.decals = find_boxes(lighting, Renderer::Kind::decals);
+    if (group_.probes != 0) checked.probes = find_boxes(lighting, Renderer::Kind::probes);
+  }
   if (group_.verify.compares_pictures)
     checked.difference = max_abs_difference(cropped(checked.rendered.image, rows_), reference(lighting.info().path));
   Judgement judgement = judge_output(lighting, checked);

@@ -16,9 +16,11 @@ namespace lamp::app {
 
 /// What was found about one entry.
 struct Checked {
-  std::string verdict;  ///< exact, approximate, wrong, could not check, unverified, impossible
-  std::string reason;   ///< of all but exact and approximate; what was not checked
-  std::optional<Findings> findings;
+  std::string verdict;               ///< exact, approximate, wrong, could not check, unverified, impossible
+  std::string reason;                ///< of all but exact and approximate; what was not checked
+  std::optional<Findings> findings;  ///< of lights
+  std::optional<Findings> decals;    ///< where there are some
+  std::optional<Findings> probes;
   std::optional<float> difference;  ///< from brute force's picture
   Rendered rendered;                ///< the frame that was checked
 };
@@ -36,6 +38,8 @@ class Checker {
  private:
   [[nodiscard]] const HdrImage& reference(ShadingPath path);
   [[nodiscard]] Findings find(Lighting& lighting);
+  /// Of decals or probes, by the oracle.
+  [[nodiscard]] Findings find_boxes(Lighting& lighting, Renderer::Kind kind);
   /// Uses the depth that was rendered last: the same for every entry.
   void need_truths();
   /// The oracle's.

@@ -85,14 +85,26 @@ BenchDevice::BenchDevice(const Request& request)
 BenchScene& BenchDevice::scene(const Group& group) {
   const bool numbers = group.still > 0.0;
   const std::string name = group.scene + (numbers ? " with numbered triangles" : "");
-  if (scene_.gpu != nullptr && scene_name_ == name) return scene_;
-  scene_ = {};
-  scene_.scene = load_scene(group.scene);
-  if (numbers) number_triangles(scene_.scene);
-  if (const auto error = check_lights(scene_.scene.lights)) throw Error(group.scene + ": " + error->text());
-  scene_.gpu = std::make_unique<GpuScene>(*context_, scene_.scene);
-  scene_name_ = name;
+  if (scene_.gpu == nullptr || scene_name_ != name) {
+    scene_ = {};
+    scene_.scene = load_scene(group.scene);
+    if (numbers) number_triangles(scene_.scene);
+    if (const auto error = check_lights(scene_.scene.lights)) throw Error(group.scene + ": " + error->text());
+    scene_.gpu = std::make_unique<GpuScene>(*context_, scene_.scene);
+    scene_name_ = name;
+    boxes_name_.clear();
+  }
+  place_boxes(group);
   return scene_;
+}
+
+void BenchDevice::place_boxes(const Group& group) {
+  const std::string name = fmt::format("{} decals, {} probes of seed {}", group.decals, group.probes, group.seed);
+  if (boxes_name_ == name) return;
+  const Request request = request_of(group, group.entries.front());
+  scene_.decals = requested_decals(request, scene_.scene);
+  scene_.probes = pack(requested_probes(request, scene_.scene));
+  boxes_name_ = name;
 }
 
 std::uint32_t light_capacity(const BenchScene& scene, const Group& group) {
@@ -133,6 +145,7 @@ BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t numb
                                           .frames = path_frames});
   made.lights = packed_lights(request, scene.scene, generated);
   made.still = still_lights(request, scene.scene, generated.size());
+  made.decals = scene.decals;
   return made;
 }
 
@@ -142,6 +155,9 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .lights = group.lights,
           .spots = static_cast<float>(group.spots),
           .range = group.range,
+          .decals = group.decals,
+          .probes = group.probes,
+          .probes_show = "flat",  // lists and look-ups are measured; captures would take their time
           .seed = group.seed,
           .method = entry.method,
           .options = entry.options,

@@ -20,13 +20,18 @@ struct BenchScene {
   Scene scene;
   std::optional<OpenAir> air;
   std::unique_ptr<GpuScene> gpu;
+  std::vector<gpu::DecalData> decals;  ///< of the group that it was asked for last
+  std::vector<gpu::ProbeData> probes;  ///< likewise
+
+  /// How many of both there are.
+  [[nodiscard]] std::size_t boxes() const { return decals.size() + probes.size(); }
 };
 
 class BenchDevice {
  public:
   explicit BenchDevice(const Request& request);
 
-  /// Loads a scene unless it is the last one's.
+  /// Loads a scene unless it is the last one's, with the group's decals and probes.
   [[nodiscard]] BenchScene& scene(const Group& group);
   [[nodiscard]] Context& context() { return *context_; }
   [[nodiscard]] const ShaderLibrary& shaders() const { return shaders_; }
@@ -34,10 +39,13 @@ class BenchDevice {
   [[nodiscard]] bool software() const { return context_->software(); }
 
  private:
+  void place_boxes(const Group& group);
+
   ShaderLibrary shaders_;
   std::unique_ptr<Context> context_;
   AutoMethod chooser_;
   std::string scene_name_;
+  std::string boxes_name_;
   BenchScene scene_;
 };
 
@@ -49,6 +57,7 @@ struct BenchFrame {
   [[nodiscard]] const View& view() const { return views.front(); }
   std::vector<shared::Light> lights;
   std::uint32_t still = 0;  ///< how many of them stand still, the last ones
+  std::span<const gpu::DecalData> decals;
 };
 /// Throws Error for a scene, camera, flight or projection that is not there.
 void check_views(std::span<const Group> groups);

@@ -105,6 +105,8 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (group.depth != "reversed") parameters["depth"] = group.depth;
   if (group.depth_samples != 1) parameters["depth_samples"] = group.depth_samples;
   if (group.still != 0.0) parameters["still"] = group.still;
+  if (group.decals != 0) parameters["decals"] = group.decals;
+  if (group.probes != 0) parameters["probes"] = group.probes;
   if (entry.still_lists != "off") parameters["still_lists"] = entry.still_lists;
   if (entry.still_occlusion != 0) parameters["still_occlusion"] = entry.still_occlusion;
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
@@ -136,9 +138,13 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
                             .scene = info.group.scene,
                             .view = frame.view(),
                             .lights = light_capacity(info.device.scene(info.group), info.group),
-                            .frames = static_cast<std::uint32_t>(candidate.frames.size())},
+                            .frames = static_cast<std::uint32_t>(candidate.frames.size()),
+                            .decals = info.group.decals,
+                            .probes = info.group.probes},
                            *candidate.lighting, std::move(rendered));
   stats.findings = candidate.checked.findings;
+  stats.decal_findings = candidate.checked.decals;
+  stats.probe_findings = candidate.checked.probes;
   if (candidate.still) stats.still = still_stats(*candidate.still);
   if (stats.findings) stats.verifier = info.group.verify.verifier;
   stats.image_max_abs_diff = candidate.checked.difference;
@@ -279,13 +285,13 @@ void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene,
     const std::uint32_t number = warm ? round - info.group.warm_up : 0;
     const BenchFrame frame = bench_frame(scene, info.group, number);
     const bool each_its_own = info.group.still > 0.0;  // each may have lists of still lights of its own
-    if (!each_its_own) renderer.set_frame(frame.views, frame.lights);
+    if (!each_its_own) renderer.set_frame(frame.views, frame.lights, frame.decals);
     for (Candidate& candidate : candidates) {
       say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
       if (!candidate.runs() || has_enough(info, candidate, warm)) continue;
       if (each_its_own) {
         renderer.light_still(candidate.still_lists.get());
-        renderer.set_frame(frame.views, frame.lights);
+        renderer.set_frame(frame.views, frame.lights, frame.decals);
       }
       if (candidate.entry->host == Host::changing_size) renderer.cull_as(*candidate.lighting, half_of(frame.view()));
       const std::vector<vulkan::Timestamps::Time> times =
@@ -342,13 +348,18 @@ std::vector<json> measure(const MeasureInfo& info) {
   BenchScene& scene = info.device.scene(info.group);
   if (info.group.frames == 0) return plan_only(info, scene);
   const BenchFrame frame = bench_frame(scene, info.group, checked_frame(info.group));
+  std::optional<FlatProbes> probes;
   std::optional<Renderer> renderer;
   std::optional<Checker> checker;
   std::list<Candidate> candidates;
   try {
     renderer.emplace(info.device.context(), info.device.shaders(), *scene.gpu, frame.view().width(),
-                     frame.view().height(), light_capacity(scene, info.group), /*decal_capacity=*/0,
-                     host_depth_of(info.group));
+                     frame.view().height(), light_capacity(scene, info.group),
+                     static_cast<std::uint32_t>(scene.decals.size()), host_depth_of(info.group));
+    if (!scene.probes.empty()) {
+      probes.emplace(info.device.context(), info.device.shaders(), scene.probes);
+      renderer->light_probes(&probes->set);
+    }
     if (const auto shadows = shadows_of(info.group)) renderer->cast_shadows(*shadows);
     if (const auto mirror = mirror_of(info.group, scene.scene)) renderer->mirror(*mirror);
     checker.emplace(info.device, info.group, *renderer, frame);

@@ -142,7 +142,7 @@ Run add_compare(CLI::App& app) {
   add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_decal_option(*command, o->request);
-  add_probe_option(*command, o->request);
+  add_probe_options(*command, o->request);
   add_shadow_options(*command, o->request);
   add_mirror_options(*command, o->request);
   add_path_option(*command, o->request);

@@ -99,8 +99,9 @@ void add_mirror_options(CLI::App& command, Request& request);
 void add_still_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
-/// Adds `--probes`, likewise.
+/// Adds `--probes`, likewise; and what they show.
 void add_probe_option(CLI::App& command, Request& request);
+void add_probe_options(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
 CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help);
 /// Adds `--json`.
@@ -303,8 +304,7 @@ class Session {
   std::unique_ptr<GpuScene> gpu_scene_;
   KeptRays rays_;
   std::unique_ptr<StillLists> still_lists_;
-  std::unique_ptr<ProbeAtlas> no_captures_;
-  std::unique_ptr<ProbeSet> flat_probes_;
+  std::unique_ptr<FlatProbes> flat_probes_;
   std::unique_ptr<ProbeCaptures> captures_;
   std::unique_ptr<Renderer> renderer_;
 };

@@ -122,7 +122,7 @@ void add_picture_options(CLI::App& command, Request& r) {
   add_grow_option(command, r);
   add_auto_options(command, r);
   add_decal_option(command, r);
-  add_probe_option(command, r);
+  add_probe_options(command, r);
   add_still_options(command, r);
   add_shadow_options(command, r);
   add_mirror_options(command, r);
@@ -194,7 +194,7 @@ void add_decal_option(CLI::App& command, Request& r) {
       .add_option("--decals", r.decals,
                   "number of box decals: the scene's own first, then generated ones; a capture shows those that it was "
                   "taken with")
-      ->check(whole_number(0, 65536))
+      ->check(whole_number(0, MAX_BOXES))
       ->type_name("N")
       ->group("Lights")
       ->capture_default_str();

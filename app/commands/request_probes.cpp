@@ -30,10 +30,14 @@ void add_probe_option(CLI::App& command, Request& r) {
   command
       .add_option("--probes", r.probes,
                   "number of reflection probes: the scene's own first, then generated ones in its open air")
-      ->check(whole_number(0, 65536))
+      ->check(whole_number(0, MAX_BOXES))
       ->type_name("N")
       ->group("Lights")
       ->capture_default_str();
+}
+
+void add_probe_options(CLI::App& command, Request& r) {
+  add_probe_option(command, r);
   command
       .add_option("--probes-show", r.probes_show,
                   "captures: what each probe sees from its place, drawn before the first frame; flat: a colour each")
@@ -43,7 +47,7 @@ void add_probe_option(CLI::App& command, Request& r) {
   command
       .add_option("--probe-budget", r.probe_budget,
                   "captures that are renewed in each further frame, whose lights have moved")
-      ->check(whole_number(0, 65536))
+      ->check(whole_number(0, MAX_BOXES))
       ->type_name("N")
       ->group("Lights")
       ->capture_default_str();
@@ -58,9 +62,8 @@ std::vector<Probe> requested_probes(const Request& request, const Scene& scene) 
 
 void Session::make_probes(const Request& request) {
   if (request.probes_show == "flat") {
-    no_captures_ = std::make_unique<ProbeAtlas>(*context_, shaders_, 0);
-    flat_probes_ = std::make_unique<ProbeSet>(*context_, *no_captures_, gpu::PROBES_FLAT, setup_.probes);
-    renderer_->light_probes(flat_probes_.get());
+    flat_probes_ = std::make_unique<FlatProbes>(*context_, shaders_, setup_.probes);
+    renderer_->light_probes(&flat_probes_->set);
     return;
   }
   captures_ = std::make_unique<ProbeCaptures>(

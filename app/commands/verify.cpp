@@ -122,7 +122,7 @@ void find_boxes(Session& session, const Setup& setup, std::vector<Candidate>& ca
     for (BoxCheck Candidate::* const kind : {&Candidate::decals, &Candidate::probes}) {
       std::vector<std::pair<Lighting*, BoxCheck*>> checks;
       for (Candidate& candidate : candidates) checks.emplace_back(&candidate.lighting, &(candidate.*kind));
-      check_boxes_of(session, setup, depth, checks);
+      check_boxes_of(session.renderer(), {setup.decals, setup.probes}, depth, {0, setup.view.height()}, checks);
     }
   });
 }
@@ -335,7 +335,7 @@ Run add_verify(CLI::App& app) {
       ->group("View")
       ->capture_default_str();
   add_decal_option(*command, o->request);
-  add_probe_option(*command, o->request);
+  add_probe_options(*command, o->request);
   add_still_options(*command, o->request);
   add_shadow_options(*command, o->request);
   add_mirror_options(*command, o->request);

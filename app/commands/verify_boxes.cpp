@@ -13,22 +13,22 @@ Findings BoxCheck::findings(const Lighting& lighting) const {
   return lighting.runner().plan().fused ? of_both(found, fused.findings()) : found;
 }
 
-void check_boxes_of(Session& session, const Setup& setup, std::span<const float> depth,
+void check_boxes_of(Renderer& renderer, const FrameBoxes& frame, std::span<const float> depth, Rows rows,
                     std::span<const std::pair<Lighting*, BoxCheck*>> checks) {
   using Passes = vulkan::PlanRunner::Passes;
   if (checks.empty()) return;
-  Renderer& renderer = session.renderer();
   const bool probes = checks.front().second->kind == Renderer::Kind::probes;
-  const std::vector<shared::OrientedBox> boxes = probes ? boxes_of(setup.probes) : boxes_of(setup.decals);
+  const std::vector<shared::OrientedBox> boxes = probes ? boxes_of(frame.probes) : boxes_of(frame.decals);
   const EntityRange ids = probes ? renderer.entities().probes : renderer.entities().decals;
   if (boxes.empty()) return;
-  const std::vector<EntityShape> shapes = probes ? shapes_of(setup.probes) : std::vector<EntityShape>();
+  const std::vector<EntityShape> shapes = probes ? shapes_of(frame.probes) : std::vector<EntityShape>();
   const View& view = renderer.view();
   for_each_truth(
       {.view = view,
        .depth = depth,
        .lights = {},
-       .rows = view.height(),
+       .first_row = rows.first,
+       .rows = rows.count,
        .boxes = boxes,
        .shapes = shapes,
        .first_id = ids.first},

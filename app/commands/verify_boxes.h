@@ -20,9 +20,15 @@ struct BoxCheck {
   [[nodiscard]] Findings findings(const Lighting& lighting) const;
 };
 
-/// Holds the picture that the renderer shows, of that depth, against the oracle: `checks` are one kind's, of one
-/// lighting each. Of boxes there are few: always by the oracle.
-void check_boxes_of(Session& session, const Setup& setup, std::span<const float> depth,
+/// A frame's decals and probes.
+struct FrameBoxes {
+  std::span<const gpu::DecalData> decals;
+  std::span<const gpu::ProbeData> probes;
+};
+
+/// Holds rows of the picture that the renderer shows, of that depth, against the oracle: `checks` are one kind's, of
+/// one lighting each. Of boxes there are few: always by the oracle.
+void check_boxes_of(Renderer& renderer, const FrameBoxes& frame, std::span<const float> depth, Rows rows,
                     std::span<const std::pair<Lighting*, BoxCheck*>> checks);
 
 }  // namespace lamp::app

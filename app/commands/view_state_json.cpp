@@ -30,7 +30,7 @@ void for_each_field(Fields&& at, State& s) {
   at.whole_if("lights", r.lights, MAX_LIGHTS, r.lights_given);
   at.real("spots", r.spots, 0.0F, 1.0F);
   at.text("range", r.range);
-  at.whole("decals", r.decals, 0, 65536);
+  at.whole("decals", r.decals, 0, MAX_BOXES);
   at.seed("seed", r.seed);
   at.text("method", r.method);
   at.settings("options", r.options);
@@ -43,9 +43,9 @@ void for_each_field(Fields&& at, State& s) {
   at.flag("moving", r.moving);
   at.real("mirror", r.mirror, 0.0F, 1.0F);
   at.text("mirror_lists", r.mirror_lists);
-  at.whole("probes", r.probes, 0, 65536);
+  at.whole("probes", r.probes, 0, MAX_BOXES);
   at.text("probes_show", r.probes_show);
-  at.whole("probe_budget", r.probe_budget, 0, 65536);
+  at.whole("probe_budget", r.probe_budget, 0, MAX_BOXES);
   for (const auto& [name, value] : SHADOW_WORDS) at.text(name, r.shadows.*value);
   at.whole("atlas", r.shadows.atlas, 1, 32768);
   at.text("camera", r.camera);

@@ -50,6 +50,17 @@ class ProbeSet {
   vulkan::Buffer records_;
 };
 
+/// Probes that show a colour each: nothing is captured.
+struct FlatProbes {
+  FlatProbes(Context& context, const ShaderLibrary& shaders, std::vector<gpu::ProbeData> probes)
+      : no_captures(context, shaders, 0), set(context, no_captures, gpu::PROBES_FLAT, std::move(probes)) {}
+  FlatProbes(const FlatProbes&) = delete;
+  FlatProbes& operator=(const FlatProbes&) = delete;
+
+  ProbeAtlas no_captures;
+  ProbeSet set;  ///< refers to it
+};
+
 /// Adds the constants and the bindings to those of a pipeline that shades with probes of a kind, or without
 /// (PROBES_OFF), and leaves the reflection of surfaces that are less rough than `mirror` to rays; 0: of none.
 void add_probes(vulkan::PipelineInfo& pipeline, std::uint32_t kind, float mirror = 0.0F);

@@ -9,6 +9,9 @@
 
 namespace lamp::app {
 
+/// Decals that a frame may have, and probes: more than anybody asks for.
+inline constexpr std::uint32_t MAX_BOXES = 65536;
+
 enum class DecalPattern : std::uint8_t { mosaic, painting, crack, moss, sign, plain };
 
 struct Decal {

@@ -164,6 +164,39 @@ TEST_F(Bench, ASceneWithShadowsAndLightsThatStandStill) {
   EXPECT_EQ(parameters.at("atlas"), 256);
 }
 
+TEST_F(Bench, ASceneWithDecalsAndProbesHoldsThoseAgainstTheOracleToo) {
+  (void)output_of({"bench", "atrium", "--size", "64x36", "--lights", "8", "--decals", "16", "--probes", "12",
+                   "--method", "tiled", "--frames", "1", "--out", "out"});
+  const json result = results().at("results").at(0);
+  EXPECT_EQ(result.at("verdict"), "exact");
+  EXPECT_EQ(result.at("parameters").at("decals"), 16);
+  EXPECT_EQ(result.at("parameters").at("probes"), 12);
+  const json& stats = result.at("stats");
+  EXPECT_EQ(stats.at("decals_missed"), 0);
+  EXPECT_GT(stats.at("decals_useful"), 0);
+  EXPECT_EQ(stats.at("probes_missed"), 0);
+  EXPECT_GT(stats.at("probes_useful"), 0);
+}
+
+TEST_F(Bench, ASuiteSweepsDecalsAndProbes) {
+  write("boxes.json",
+        R"({"version": 1, "name": "boxes", "series": [{"name": "s", "methods": ["tiled"], "scenes": ["atrium"],
+    "sizes": ["64x36"], "lights": [8], "decals": [0, 8], "probes": [0, 6], "chart": {"x": "probes", "y": "cull"},
+    "frames": 1, "warm_up": 0}]})");
+  (void)output_of({"bench", "boxes.json", "--out", "out"});
+  const json all = results().at("results");
+  ASSERT_EQ(all.size(), 4U);
+  std::vector<std::pair<unsigned, unsigned>> counts;
+  for (const json& result : all) {
+    EXPECT_EQ(result.at("verdict"), "exact");
+    const json& parameters = result.at("parameters");
+    counts.emplace_back(parameters.value("decals", 0U), parameters.value("probes", 0U));
+  }
+  const std::vector<std::pair<unsigned, unsigned>> expected{{0, 0}, {0, 6}, {8, 0}, {8, 6}};
+  EXPECT_EQ(counts, expected);
+  EXPECT_NE(read("out/report.html").find("8 decals"), std::string::npos);
+}
+
 TEST_F(Bench, HostPassesHaveATimeOfTheirOwn) {
   (void)output_of({"bench", "plane", "--size", "32x18", "--lights", "3000", "--method", "drobot-zbin", "--option",
                    "sort=cpu", "--frames", "3", "--out", "out"});
