@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "error.h"
@@ -26,6 +27,17 @@ fs::path source_in(const fs::path& tree, const ShaderCode& code) {
   }
   throw Error(fmt::format("--shader-dir {}: has no source for the shader {}; expected a checkout of Lamplight",
                           tree.string(), code.name));
+}
+
+/// Of any file that a shader of the tree may include.
+fs::file_time_type last_change(const fs::path& tree) {
+  fs::file_time_type last = fs::file_time_type::min();
+  for (const char* root : {"lib/shaders", "lib/include", "app/render/shaders"}) {
+    std::error_code none;  // what is not there is said where it is looked for
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(tree / root, none))
+      last = std::max(last, entry.last_write_time(none));
+  }
+  return last;
 }
 
 }  // namespace
@@ -59,11 +71,25 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
   throw Error(fmt::format("{}: {}", source.string(), line.empty() ? "glslc gave no SPIR-V and no reason" : line));
 }
 
+std::vector<std::uint32_t> ShaderLibrary::compiled(const ShaderCode& code) const {
+  const fs::file_time_type last = last_change(source_tree_);
+  {
+    const std::scoped_lock lock(compiled_->mutex);
+    if (compiled_->of != last) compiled_->words.clear();
+    compiled_->of = last;
+    if (const auto found = compiled_->words.find(code.name); found != compiled_->words.end()) return found->second;
+  }
+  std::vector<std::uint32_t> words = compile(code);
+  const std::scoped_lock lock(compiled_->mutex);
+  if (compiled_->of == last) compiled_->words.emplace(code.name, words);
+  return words;
+}
+
 std::vector<std::uint32_t> ShaderLibrary::spirv(std::string_view name) const {
   const ShaderCode* code = find_shader(library_shaders(), name);
   if (code == nullptr) code = find_shader(render_shaders(), name);
   if (code == nullptr) throw Error(fmt::format("shader {}: is not among the embedded shaders", name));
-  if (!source_tree_.empty()) return compile(*code);
+  if (!source_tree_.empty()) return compiled(*code);
   return {code->spirv.begin(), code->spirv.end()};
 }
 

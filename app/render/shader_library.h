@@ -4,7 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +24,8 @@ namespace lamp::app {
 
 class ShaderLibrary {
  public:
-  /// `source_tree`: empty, or a checkout of Lamplight whose shaders are compiled with `glslc` at every use.
+  /// `source_tree`: empty, or a checkout of Lamplight whose shaders are compiled with `glslc`, each again when a file
+  /// of the checkout's shaders has changed since.
   explicit ShaderLibrary(std::filesystem::path source_tree = {}) : source_tree_(std::move(source_tree)) {}
 
   /// Throws Error with the compiler's first line when a shader of the source tree does not compile.
@@ -31,8 +36,17 @@ class ShaderLibrary {
 
  private:
   [[nodiscard]] std::vector<std::uint32_t> compile(const ShaderCode& code) const;
+  [[nodiscard]] std::vector<std::uint32_t> compiled(const ShaderCode& code) const;
+
+  /// What was compiled of a state of the source tree. Copies of a library share it.
+  struct Compiled {
+    std::mutex mutex;
+    std::filesystem::file_time_type of = std::filesystem::file_time_type::min();  ///< the last change
+    std::map<std::string, std::vector<std::uint32_t>, std::less<>> words;
+  };
 
   std::filesystem::path source_tree_;
+  std::shared_ptr<Compiled> compiled_ = std::make_shared<Compiled>();
 };
 
 }  // namespace lamp::app
