@@ -49,12 +49,11 @@ struct Stage::KeptStill {
 
 /// Probes and what they show. They stay while a renderer refers to them.
 struct Stage::KeptProbes {
-  std::unique_ptr<ProbeAtlas> no_captures;
-  std::unique_ptr<ProbeSet> flat;
+  std::unique_ptr<FlatProbes> flat;
   std::unique_ptr<ProbeCaptures> captures;
   std::string seen;  ///< what they were renewed for last
 
-  [[nodiscard]] const ProbeSet& set() const { return captures ? captures->set() : *flat; }
+  [[nodiscard]] const ProbeSet& set() const { return captures ? captures->set() : flat->set; }
 };
 
 }  // namespace lamp::app

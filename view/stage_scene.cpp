@@ -79,8 +79,7 @@ void Stage::make_renderer(const Request& request, const View& view, std::string 
   if (!probes.empty()) {
     probes_ = std::make_unique<KeptProbes>();
     if (request.probes_show == "flat") {
-      probes_->no_captures = std::make_unique<ProbeAtlas>(context_, shaders_, 0);
-      probes_->flat = std::make_unique<ProbeSet>(context_, *probes_->no_captures, gpu::PROBES_FLAT, std::move(probes));
+      probes_->flat = std::make_unique<FlatProbes>(context_, shaders_, std::move(probes));
     } else {
       probes_->captures = std::make_unique<ProbeCaptures>(
           context_, shaders_, *scene_->gpu,
