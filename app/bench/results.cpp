@@ -65,6 +65,16 @@ constexpr std::array<const char*, 2> REGRET{"factor", "best"};
 
 json value_or_null(const json& object, const char* key) { return object.contains(key) ? object[key] : json(); }
 
+/// What has no column of its own: "decals=64 shadows=pcf".
+std::string further_parameters(const json& parameters) {
+  constexpr std::array<std::string_view, 7> SHOWN{"scene", "size", "lights", "spots", "range", "method", "path"};
+  std::vector<std::string> words;
+  for (const auto& [key, value] : parameters.items())
+    if (std::ranges::find(SHOWN, key) == SHOWN.end() && !key.starts_with("option:"))
+      words.push_back(fmt::format("{}={}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
 std::vector<std::string> csv_row(const json& entry) {
   std::vector<std::string> cells;
   for (const char* key : ENTRY_COLUMNS)
@@ -74,7 +84,8 @@ std::vector<std::string> csv_row(const json& entry) {
   std::vector<std::string> options;
   if (stats.contains("options"))
     for (const auto& [key, value] : stats["options"].items()) options.push_back(key + "=" + value.get<std::string>());
-  cells.push_back(fmt::format("{}", fmt::join(options, " ")));
+  cells.push_back(csv_cell(fmt::format("{}", fmt::join(options, " "))));
+  cells.push_back(csv_cell(further_parameters(entry["parameters"])));
   for (const char* time : TIMES)
     for (const char* part : SPREAD)
       cells.push_back(entry["times"].is_null() ? "" : csv_cell(entry["times"][time][part]));
@@ -89,6 +100,7 @@ std::vector<std::string> csv_header() {
   std::vector<std::string> names(ENTRY_COLUMNS.begin(), ENTRY_COLUMNS.end());
   names.insert(names.end(), STATS_COLUMNS.begin(), STATS_COLUMNS.end());
   names.emplace_back("options");
+  names.emplace_back("parameters");
   for (const char* time : TIMES)
     for (const char* part : SPREAD) names.push_back(fmt::format("{}_ms_{}", time, part));
   names.emplace_back("bytes");

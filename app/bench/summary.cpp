@@ -87,7 +87,8 @@ std::vector<json> all_x(const ChartPanel& panel) {
 }
 
 std::string x_words(const ChartPanel& panel, const json& x) {
-  if (panel.x == "lights") return fmt::format("{} lights", x.get<std::uint64_t>());
+  for (const char* count : {"lights", "decals", "probes"})
+    if (panel.x == count) return fmt::format("{} {}", x.get<std::uint64_t>(), count);
   const std::string name = panel.x.starts_with("option:") ? panel.x.substr(7) : panel.x;
   return fmt::format("{} {}", name, x.is_string() ? x.get<std::string>() : x.dump());
 }

@@ -43,7 +43,7 @@ function mainPlot(run, panel) {
   };
   const controls = el('div', {class: 'controls'},
     choice('show', valuesOf(run, panel), state.y, y => { state.y = y; made.draw(); }));
-  if (make === sweepChart) controls.append(toggle('logarithmic lights', 'logX'));
+  if (make === sweepChart) controls.append(toggle(`logarithmic ${AXES[panel.x] || panel.x}`, 'logX'));
   if (make !== methodChart) controls.append(toggle('logarithmic values', 'logY'));
   return [controls, made.box, beyond];
 }

@@ -51,16 +51,21 @@ function shadeRegisters(result) {
   return shade ? shade.registers : null;
 }
 
-/** Parameters in which the results of a series differ. */
+/** Of a result; null where it does not say, but for counts of what there is none of. */
+function parameterOf(result, key) {
+  return result.parameters[key] ?? (key === 'decals' || key === 'probes' ? 0 : null);
+}
+
+/** Parameters in which the results of a series differ: some say less than others. */
 function changingParameters(results) {
-  const keys = Object.keys(results[0].parameters).filter(k => k !== 'method');
-  return keys.filter(k => results.some(r => r.parameters[k] !== results[0].parameters[k]));
+  const keys = [...new Set(results.flatMap(r => Object.keys(r.parameters)))].filter(k => k !== 'method');
+  return keys.filter(k => results.some(r => parameterOf(r, k) !== parameterOf(results[0], k)));
 }
 
 function resultTable(results) {
   const parameters = changingParameters(results).map(k => ({
-    name: k.replace('option:', ''), text: typeof results[0].parameters[k] !== 'number', value: r => r.parameters[k],
-    show: r => typeof r.parameters[k] === 'number' ? r.parameters[k].toLocaleString('en-US') : r.parameters[k],
+    name: k.replace('option:', ''), text: !results.some(r => typeof parameterOf(r, k) === 'number'), value: r => parameterOf(r, k),
+    show: r => typeof parameterOf(r, k) === 'number' ? parameterOf(r, k).toLocaleString('en-US') : parameterOf(r, k),
   }));
   return table([
     {name: 'what', text: true, value: r => r.label}, ...parameters,

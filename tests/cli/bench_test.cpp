@@ -195,6 +195,8 @@ TEST_F(Bench, ASuiteSweepsDecalsAndProbes) {
   const std::vector<std::pair<unsigned, unsigned>> expected{{0, 0}, {0, 6}, {8, 0}, {8, 6}};
   EXPECT_EQ(counts, expected);
   EXPECT_NE(read("out/report.html").find("8 decals"), std::string::npos);
+  const std::string csv = read("out/results.csv");
+  EXPECT_NE(csv.find(",camera=first decals=8 probes=6 projection=camera,"), std::string::npos) << csv;
 }
 
 TEST_F(Bench, HostPassesHaveATimeOfTheirOwn) {
