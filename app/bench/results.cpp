@@ -67,10 +67,10 @@ json value_or_null(const json& object, const char* key) { return object.contains
 
 /// What has no column of its own: "decals=64 shadows=pcf".
 std::string further_parameters(const json& parameters) {
-  constexpr std::array<std::string_view, 7> SHOWN{"scene", "size", "lights", "spots", "range", "method", "path"};
+  constexpr std::array<std::string_view, 7> OWN_COLUMNS{"scene", "size", "lights", "spots", "range", "method", "path"};
   std::vector<std::string> words;
   for (const auto& [key, value] : parameters.items())
-    if (std::ranges::find(SHOWN, key) == SHOWN.end() && !key.starts_with("option:"))
+    if (std::ranges::find(OWN_COLUMNS, key) == OWN_COLUMNS.end() && !key.starts_with("option:"))
       words.push_back(fmt::format("{}={}", key, value.is_string() ? value.get<std::string>() : value.dump()));
   return fmt::format("{}", fmt::join(words, " "));
 }
