@@ -63,6 +63,11 @@ def bench_results(suite):
     return data["results"]
 
 
+def milliseconds(result, part):
+    """The median of a part's times: cull, shade, cull+shade or frame; "-" where there are none."""
+    return f"{result['times'][part]['median']:.3f}" if result["times"] else "-"
+
+
 def print_table(head, rows, texts=None):
     """Columns from `texts` on are numbers, on the right; none: all are texts."""
     texts = len(head) if texts is None else texts

@@ -180,8 +180,9 @@ Checked Checker::check(Lighting& lighting, bool same_picture) {
   if (!still) need_truths();
   if (!by_volumes && !still) {
     checked.findings = find(lighting);
-    if (group_.decals != 0) checked.decals = find_boxes(lighting, Renderer::Kind::decals);
-    if (group_.probes != 0) checked.probes = find_boxes(lighting, Renderer::Kind::probes);
+    const BenchScene& scene = device_.scene(group_);
+    if (!scene.decals.empty()) checked.decals = find_boxes(lighting, Renderer::Kind::decals);
+    if (!scene.probes.empty()) checked.probes = find_boxes(lighting, Renderer::Kind::probes);
   }
   if (group_.verify.compares_pictures)
     checked.difference = max_abs_difference(cropped(checked.rendered.image, rows_), reference(lighting.info().path));

@@ -134,13 +134,14 @@ json stats_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame&
   Rendered rendered = std::move(candidate.checked.rendered);
   rendered.passes.clear();
   candidate.times.fill(rendered, *candidate.lighting);
+  const BenchScene& scene = info.device.scene(info.group);
   Stats stats = make_stats({.device = info.device.context().row(),
                             .scene = info.group.scene,
                             .view = frame.view(),
-                            .lights = light_capacity(info.device.scene(info.group), info.group),
+                            .lights = light_capacity(scene, info.group),
                             .frames = static_cast<std::uint32_t>(candidate.frames.size()),
-                            .decals = info.group.decals,
-                            .probes = info.group.probes},
+                            .decals = scene.decals.size(),
+                            .probes = scene.probes.size()},
                            *candidate.lighting, std::move(rendered));
   stats.findings = candidate.checked.findings;
   stats.decal_findings = candidate.checked.decals;

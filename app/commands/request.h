@@ -99,7 +99,7 @@ void add_mirror_options(CLI::App& command, Request& request);
 void add_still_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
-/// Adds `--probes`, likewise; and what they show.
+/// Adds `--probes`, likewise; with add_probe_options also what they show, and how many captures a frame renews.
 void add_probe_option(CLI::App& command, Request& request);
 void add_probe_options(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
