@@ -31,9 +31,13 @@ vk::raii::Pipeline make_drawing(const vk::raii::Device& device, const PipelineIn
   const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1.0F};
   const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = info.samples};
   const vk::PipelineDepthStencilStateCreateInfo depth{
-      .depthTestEnable = VK_TRUE, .depthWriteEnable = VK_TRUE, .depthCompareOp = info.depth_compare};
-  const vk::PipelineColorBlendAttachmentState color{.colorWriteMask =
-                                                        vk::ColorComponentFlags(info.fragment.empty() ? 0 : 0xF)};
+      .depthTestEnable = VK_TRUE, .depthWriteEnable = !info.blended, .depthCompareOp = info.depth_compare};
+  const vk::PipelineColorBlendAttachmentState color{
+      .blendEnable = info.blended,
+      .srcColorBlendFactor = vk::BlendFactor::eOne,
+      .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
+      .dstAlphaBlendFactor = vk::BlendFactor::eOne,
+      .colorWriteMask = vk::ColorComponentFlags(info.fragment.empty() ? 0 : 0xF)};
   const auto blend = vk::PipelineColorBlendStateCreateInfo{}.setAttachments(color);
   constexpr std::array DYNAMIC{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
   const auto dynamic = vk::PipelineDynamicStateCreateInfo{}.setDynamicStates(DYNAMIC);

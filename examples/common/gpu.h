@@ -42,6 +42,7 @@ struct PipelineInfo {
   std::vector<VkDescriptorSetLayoutBinding> bindings;        ///< more, which the example writes itself
   vk::SpecializationInfo constants;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;
+  bool blended = false;  ///< over what is there: colour is premultiplied; depth stays, and what is there in w
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   std::uint32_t view_mask = 0;
 };
