@@ -29,9 +29,6 @@ constexpr std::uint32_t BRUTE_FORCE[] = {
 constexpr vk::Extent2D SIZE{320, 180};
 constexpr std::uint32_t PARTICLES = 750;  // of which the GPU makes some lights
 
-// lamplight {
-// }
-
 /// Of queues for compute alone; if there is none, that of the graphics queue.
 std::uint32_t compute_family(const Gpu& gpu) {
   constexpr vk::QueueFlags BOTH = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;

@@ -37,9 +37,6 @@ struct Push {
   std::uint32_t light_count;
 };
 
-// lamplight {
-// }
-
 /// Standard depth is one less the reversed one.
 glm::dmat4 standard_projection(double aspect) {
   glm::dmat4 m = reversed_projection(-0.42 * aspect, 0.42 * aspect, -0.42, 0.42);

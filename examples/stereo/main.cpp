@@ -64,9 +64,6 @@ Eye make_eye(double side) {
           .eye_from_world = glm::translate(glm::dmat4(1.0), {-0.032 * side, 0, 0}) * view_from_world()};
 }
 
-// lamplight {
-// }
-
 void shade(const Commands& commands, const Pipeline& pipeline, const Eye& eye, std::uint32_t index) {
   const glm::mat4 world_from_clip = glm::inverse(eye.clip_from_eye * eye.eye_from_world);
   bind(commands, pipeline, ShadePush{world_from_clip, {SIZE.width, SIZE.height}, LIGHTS, index});
