@@ -44,16 +44,11 @@ std::vector<vulkan::Constant> constants_of(const vulkan::Device& device, ShadowR
   return {{0, static_cast<std::uint32_t>(filter)}, {1, second}};
 }
 
-/// Squares belong to one map, which changes only where it is redrawn.
-bool same(const shared::ShadowMap& a, const shared::ShadowMap& b) {
-  return a.kind == b.kind && a.squares[0] == b.squares[0];
-}
-
 }  // namespace
 
 ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
                          std::uint32_t light_capacity, std::uint32_t atlas_size)
-    : name_(made(kind).name), maps_(light_capacity), shows_all_(light_capacity), pending_(light_capacity) {
+    : name_(made(kind).name), pending_(light_capacity) {
   const auto [name, shader, bytes] = made(kind);
   const std::uint64_t lights = std::max(1U, light_capacity);
   buffer_ = take(
@@ -74,20 +69,18 @@ ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shad
       shaders.spirv(shader)));
 }
 
-void ShadowReach::set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,
-                      std::span<const ShadowRedraw> redraws) {
-  for (const ShadowRedraw& redraw : redraws) pending_[redraw.light] = 1;
+void ShadowReach::add(std::span<const shared::RadialJob> jobs) {
+  for (const shared::RadialJob& job : jobs) pending_[job.light] = job;
+}
+
+std::uint32_t ShadowReach::take_jobs() {
   std::vector<shared::RadialJob> jobs;
-  for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const std::uint8_t shows_all = shadow_shows_all(maps[i], lights[i]) ? 1 : 0;
-    if (shows_all != shows_all_[i] || !same(maps[i], maps_[i])) pending_[i] = 1;
-    if (pending_[i] == 0) continue;
-    maps_[i] = maps[i];
-    shows_all_[i] = shows_all;
-    jobs.push_back({.light = i, .shows_all = shows_all});
+  for (std::optional<shared::RadialJob>& pending : pending_) {
+    if (pending) jobs.push_back(*pending);
+    pending.reset();
   }
-  job_count_ = static_cast<std::uint32_t>(jobs.size());
   if (!jobs.empty()) std::memcpy(jobs_.mapped().data(), jobs.data(), jobs.size() * sizeof(jobs[0]));
+  return static_cast<std::uint32_t>(jobs.size());
 }
 
 void ShadowReach::record_nothing_known(vulkan::Recorder& recorder) {
@@ -100,10 +93,9 @@ void ShadowReach::record_nothing_known(vulkan::Recorder& recorder) {
 void ShadowReach::record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   if (!std::exchange(begun_, true)) record_nothing_known(recorder);
-  const std::uint32_t count = std::exchange(job_count_, 0);
+  const std::uint32_t count = take_jobs();
   if (count == 0) return;
   recorder.begin_pass(name_, {});
-  std::ranges::fill(pending_, std::uint8_t{0});
   const vulkan::Resource written = vulkan::Resource::storage(buffer_.handle());
   const vulkan::Resource jobs = vulkan::Resource::storage(jobs_.handle());
   recorder.barrier({reads(maps, COMPUTE),

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gpu/context.h"
@@ -21,9 +22,8 @@ class ShadowReach {
   ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
               std::uint32_t light_capacity, std::uint32_t atlas_size);
 
-  /// Of the next `record`: lights that were redrawn, and those of another map or place than the last time.
-  void set(std::span<const shared::ShadowMap> maps, std::span<const shared::Light> lights,
-           std::span<const ShadowRedraw> redraws);
+  /// For the next `record`, with those that are still to be done.
+  void add(std::span<const shared::RadialJob> jobs);
   /// `maps`: the buffer of all maps; `atlas`: depths.
   void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas);
 
@@ -32,15 +32,13 @@ class ShadowReach {
 
  private:
   void record_nothing_known(vulkan::Recorder& recorder);
+  [[nodiscard]] std::uint32_t take_jobs();
 
   const char* name_;
   vulkan::Buffer buffer_;
   vulkan::Buffer jobs_;
   vulkan::Pipeline pipeline_;
-  std::vector<shared::ShadowMap> maps_;  ///< as they were made from
-  std::vector<std::uint8_t> shows_all_;
-  std::vector<std::uint8_t> pending_;  ///< to be made by the next `record`
-  std::uint32_t job_count_ = 0;
+  std::vector<std::optional<shared::RadialJob>> pending_;  ///< by light
   bool begun_ = false;
 };
 

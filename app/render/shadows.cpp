@@ -10,7 +10,6 @@
 
 #include "gpu/check.h"
 #include "gpu/transfer.h"
-#include "render/shadow_squares.h"
 
 namespace lamp::app {
 namespace {
@@ -97,12 +96,13 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
   for (const ShadowRedraw& redraw : frame.redraws) ages_[redraw.light] = 0;
   view_count_ = static_cast<std::uint32_t>(frame.views.size());
   redrawn_squares_.clear();
-  for (const ShadowRedraw& redraw : frame.redraws)
-    for (std::uint32_t i = 0; i < squares_of(maps_[redraw.light]); ++i)
-      redrawn_squares_.push_back(square_at(maps_[redraw.light], i));
+  for (const ShadowSquare& square : frame.squares)
+    redrawn_squares_.push_back({.corner = square.corner, .side = square.side});
   if (moments_) moments_->set(maps_, frame.redraws);
   lights_.assign(lights.begin(), lights.end());
-  set_reaches(frame.redraws);
+  if (bounds_lights())
+    for (std::optional<ShadowReach>& reach : reaches_)
+      if (reach) reach->add(frame.radial_jobs);
   const std::span<std::byte> to = staging_.mapped();
   if (!maps_.empty()) std::memcpy(to.data(), maps_.data(), maps_.size() * sizeof(shared::ShadowMap));
   if (view_count_ != 0)
@@ -126,13 +126,11 @@ void Shadows::need(ShadowReach::Kind kind) {
   std::optional<ShadowReach>& reach = reaches_[static_cast<std::size_t>(kind)];
   if (reach) return;
   reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_, settings_.atlas_size);
-  set_reaches({});
-}
-
-void Shadows::set_reaches(std::span<const ShadowRedraw> redraws) {
-  if (settings_.blur == ShadowBlur::listing && moments_) return;
-  for (std::optional<ShadowReach>& reach : reaches_)
-    if (reach) reach->set(maps_, lights_, redraws);
+  if (!bounds_lights()) return;
+  std::vector<shared::RadialJob> jobs;
+  for (std::uint32_t i = 0; i < lights_.size(); ++i)
+    jobs.push_back({.light = i, .shows_all = shadow_shows_all(maps_[i], lights_[i]) ? 1U : 0U});
+  reach->add(jobs);
 }
 
 void Shadows::record_reach(vulkan::Recorder& recorder) {

@@ -37,10 +37,10 @@ struct ShadowSettings {
 };
 
 /// What shading binds for its look-up (lib/shaders/shadow), and the constant that says which filter.
-inline constexpr std::uint32_t BINDING_SHADOW_MAPS = 11;
-inline constexpr std::uint32_t BINDING_SHADOW_ATLAS = 12;
-inline constexpr std::uint32_t BINDING_SHADOW_MOMENTS = 13;
-inline constexpr std::uint32_t CONSTANT_SHADOW_FILTER = 15;
+inline constexpr std::uint32_t BINDING_SHADOW_MAPS = SHADOW_BINDING;
+inline constexpr std::uint32_t BINDING_SHADOW_ATLAS = SHADOW_BINDING + 1;
+inline constexpr std::uint32_t BINDING_SHADOW_MOMENTS = SHADOW_BINDING + 2;
+inline constexpr std::uint32_t CONSTANT_SHADOW_FILTER = SHADOW_CONSTANT;
 using ShadowBound = std::array<vulkan::Bound, 3>;
 
 [[nodiscard]] vulkan::Constant shadow_constant(std::optional<ShadowFilter> filter);
@@ -95,7 +95,7 @@ class Shadows {
 
  private:
   void record_uploads(vulkan::Recorder& recorder);
-  void set_reaches(std::span<const ShadowRedraw> redraws);
+  [[nodiscard]] bool bounds_lights() const { return settings_.blur != ShadowBlur::listing || !moments_; }
 
   ShadowSettings settings_;
   const vulkan::Device& device_;

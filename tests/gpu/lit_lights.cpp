@@ -78,9 +78,10 @@ ShadowReach reach_of(ShadowReach::Kind kind, const LitLights& lit, const GpuImag
   const auto count = static_cast<std::uint32_t>(lit.lights.size());
   const vulkan::Buffer map_buffer = host_buffer_of("maps", lit.maps);
   ShadowReach reach(test_context().device(), shader_library(), kind, filter, count, LIT_ATLAS);
-  std::vector<ShadowRedraw> redraws;
-  for (std::uint32_t i = 0; i < count; ++i) redraws.push_back({.light = i});
-  reach.set(lit.maps, lit.lights, redraws);
+  std::vector<shared::RadialJob> jobs;
+  for (std::uint32_t i = 0; i < count; ++i)
+    jobs.push_back({.light = i, .shows_all = shadow_shows_all(lit.maps[i], lit.lights[i]) ? 1U : 0U});
+  reach.add(jobs);
   vulkan::AccessTracker tracker;
   tracker.assume(atlas.sampled());
   test_context().submit([&](VkCommandBuffer commands) {

@@ -87,6 +87,9 @@ void expect_sound(const ShadowFrame& frame, const ShadowAtlasInfo& info, std::ui
     for (std::uint32_t i = 0; i < redraw.views; ++i) EXPECT_EQ(frame.views[redraw.first_view + i].light, redraw.light);
   }
   EXPECT_EQ(views, frame.views.size());
+  std::uint64_t cleared = 0;
+  for (const lamp::ShadowSquare& square : frame.squares) cleared += std::uint64_t{square.side} * square.side;
+  EXPECT_EQ(cleared, texels);
   EXPECT_EQ(texels, frame.counts.redrawn_texels);
   EXPECT_LE(texels, budget);
   EXPECT_EQ(frame.counts.shadowed + frame.counts.without, frame.counts.seen);

@@ -15,6 +15,7 @@
 #include "lamplight/error.h"
 #include "lamplight/export.h"
 #include "lamplight/shared/light.h"
+#include "lamplight/shared/radial.h"
 #include "lamplight/shared/shadow.h"
 #include "lamplight/vectors.h"
 #include "lamplight/view.h"
@@ -35,6 +36,12 @@ enum class PointShadows : std::uint8_t {
 
 /// A spot of a larger half-angle is drawn as an octahedron: its one plane would be all edge.
 inline constexpr float WIDEST_SPOT_SQUARE = 1.308996939F;  // radians, 75 degrees
+
+/// Of a shader that includes shadow/shadow.glsl and says nothing else (SHADOW_FIRST_BINDING, SHADOW_FIRST_CONSTANT): the
+/// storage buffer of maps is at this binding of set 0, the atlas at the next, moments at the one behind it, sampled
+/// images both. The specialization constant is a ShadowFilter, or shared::SHADOW_OFF.
+inline constexpr std::uint32_t SHADOW_BINDING = 11;
+inline constexpr std::uint32_t SHADOW_CONSTANT = 15;
 
 inline constexpr std::uint64_t ALL_TEXELS = std::numeric_limits<std::uint64_t>::max();
 
@@ -69,6 +76,12 @@ struct ShadowRedraw {
   float priority = 0.0F;  ///< pixels that the light is wide, times frames waited; lights without a shadow come first
 };
 
+/// A part of the atlas that one map has to itself.
+struct ShadowSquare {
+  UVec2 corner{};          ///< its top left texel
+  std::uint32_t side = 0;  ///< texels
+};
+
 /// Of lights in view that reach anything, where not said otherwise.
 struct ShadowCounts {
   std::uint32_t seen = 0;      ///< lights
@@ -89,7 +102,11 @@ struct ShadowFrame {
   std::span<const shared::ShadowMap> maps;    ///< one for each light of the frame, as after this frame's draws
   std::span<const shared::ShadowView> views;  ///< to draw, in the order of `redraws`
   std::span<const ShadowRedraw> redraws;      ///< in the order of their priority
-  std::span<const std::uint32_t> waiting;     ///< indices of lights, as counted; ascending
+  std::span<const ShadowSquare> squares;      ///< of the redraws, to be cleared to 0 before their views are drawn
+  /// For shadow/radial_bounds, after the draws: every light in the first frame, then those that were redrawn, that have
+  /// another map than in the frame before, or that have moved away from the place of theirs.
+  std::span<const shared::RadialJob> radial_jobs;
+  std::span<const std::uint32_t> waiting;  ///< indices of lights, as counted; ascending
   std::span<const std::uint32_t> without;
   ShadowCounts counts;
 };
@@ -107,7 +124,8 @@ class LAMPLIGHT_API ShadowAtlas {
   /// Errors, that change nothing: more lights than ids, or an id twice or beyond the capacity.
   [[nodiscard]] Result<ShadowFrame> schedule(const ShadowFrameInfo& frame);
 
-  /// All that was drawn is lost, or a frame that was scheduled was not drawn: everything is drawn anew.
+  /// All that was drawn is lost, or a frame that was scheduled was not drawn: everything is drawn anew, and
+  /// so is every radial bound.
   void redraw_all();
 
   [[nodiscard]] const ShadowAtlasInfo& info() const;

@@ -27,9 +27,20 @@ struct Candidate {
   enum class Left : std::uint8_t { nothing, budget, room } left = Left::nothing;  ///< what it still lacks
 };
 
+/// What a light's radial bound was made from. Squares belong to one map, until they are drawn anew.
+struct Bounded {
+  bool made = false;
+  std::uint32_t kind = shared::SHADOW_NONE;
+  std::uint32_t square = 0;
+  std::uint32_t shows_all = 0;
+
+  friend bool operator==(const Bounded&, const Bounded&) = default;
+};
+
 }  // namespace shadow
 namespace {
 
+using shadow::Bounded;
 using shadow::Candidate;
 using shadow::Holding;
 using shadow::NO_LEVEL;
@@ -64,7 +75,8 @@ struct ShadowAtlas::State {
   explicit State(const ShadowAtlasInfo& of)
       : info(of),
         holdings(static_cast<std::uint32_t>(std::countr_zero(of.size)), of.light_capacity),
-        checked(of.light_capacity, 0) {}
+        checked(of.light_capacity, 0),
+        bounded(of.light_capacity) {}
 
   [[nodiscard]] std::optional<Error> check(const ShadowFrameInfo& frame);
   void meet_lights(const ShadowFrameInfo& frame);
@@ -73,6 +85,7 @@ struct ShadowAtlas::State {
   void draw_all(const ShadowFrameInfo& frame);
   void draw(const ShadowFrameInfo& frame, Candidate& c);
   void answer(const ShadowFrameInfo& frame);
+  void list_radial_jobs(const ShadowFrameInfo& frame);
 
   [[nodiscard]] static std::uint32_t id_of(const ShadowFrameInfo& frame, std::uint32_t i) {
     return frame.ids.empty() ? i : frame.ids[i];
@@ -81,6 +94,7 @@ struct ShadowAtlas::State {
   ShadowAtlasInfo info;
   shadow::Holdings holdings;
   std::vector<std::uint64_t> checked;  ///< by id: the check that met it last
+  std::vector<Bounded> bounded;        ///< by index
   std::uint64_t checks = 0;
   std::uint64_t frame_number = 0;
   float fall = 0.0F;
@@ -92,6 +106,8 @@ struct ShadowAtlas::State {
   std::vector<shared::ShadowMap> maps;
   std::vector<shared::ShadowView> views;
   std::vector<ShadowRedraw> redraws;
+  std::vector<ShadowSquare> drawn_squares;
+  std::vector<shared::RadialJob> radial_jobs;
   std::vector<std::uint32_t> waiting;
   std::vector<std::uint32_t> without;
   ShadowCounts counts;
@@ -184,6 +200,7 @@ void ShadowAtlas::State::draw(const ShadowFrameInfo& frame, Candidate& c) {
                            shadow::Holdings::corners(holding));
   const auto first = static_cast<std::uint32_t>(views.size());
   add_shadow_views(holding.map, info.size, c.light, views);
+  for (const UVec2& corner : shadow::Holdings::corners(holding)) drawn_squares.push_back({corner, holding.map.side});
   redraws.push_back({.light = c.light,
                      .first_view = first,
                      .views = static_cast<std::uint32_t>(views.size()) - first,
@@ -203,6 +220,7 @@ void ShadowAtlas::State::draw_all(const ShadowFrameInfo& frame) {
   std::ranges::sort(order);
   views.clear();
   redraws.clear();
+  drawn_squares.clear();
   budget_left = frame.budget_texels;
   for (const auto& [_, c] : order) draw(frame, *c);
   // Others may have given some since.
@@ -236,6 +254,18 @@ void ShadowAtlas::State::answer(const ShadowFrameInfo& frame) {
   for (std::uint32_t i = 0; i < maps.size(); ++i) maps[i] = holdings.of(id_of(frame, i)).map;
 }
 
+void ShadowAtlas::State::list_radial_jobs(const ShadowFrameInfo& frame) {
+  radial_jobs.clear();
+  for (const ShadowRedraw& redraw : redraws) bounded[redraw.light].made = false;
+  for (std::uint32_t i = 0; i < maps.size(); ++i) {
+    const Bounded now{.made = true,
+                      .kind = maps[i].kind,
+                      .square = maps[i].squares[0],
+                      .shows_all = shadow_shows_all(maps[i], frame.lights[i]) ? 1U : 0U};
+    if (std::exchange(bounded[i], now) != now) radial_jobs.push_back({.light = i, .shows_all = now.shows_all});
+  }
+}
+
 ShadowAtlas::ShadowAtlas(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ShadowAtlas::ShadowAtlas(ShadowAtlas&&) noexcept = default;
 ShadowAtlas& ShadowAtlas::operator=(ShadowAtlas&&) noexcept = default;
@@ -263,9 +293,12 @@ Result<ShadowFrame> ShadowAtlas::schedule(const ShadowFrameInfo& frame) {
   s.choose_sizes();
   s.draw_all(frame);
   s.answer(frame);
+  s.list_radial_jobs(frame);
   return ShadowFrame{.maps = s.maps,
                      .views = s.views,
                      .redraws = s.redraws,
+                     .squares = s.drawn_squares,
+                     .radial_jobs = s.radial_jobs,
                      .waiting = s.waiting,
                      .without = s.without,
                      .counts = s.counts};
@@ -276,6 +309,7 @@ void ShadowAtlas::redraw_all() {
     holding.drawn = false;
     holding.map = {};
   }
+  std::ranges::fill(state_->bounded, Bounded{});
 }
 
 const ShadowAtlasInfo& ShadowAtlas::info() const { return state_->info; }
