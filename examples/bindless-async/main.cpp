@@ -158,7 +158,7 @@ bool run(const std::string& file) {
         },
         vk::SubmitInfo{}.setSignalSemaphores(*culling_done));
     gpu.submit(gpu.graphics, [&](const Commands& commands) {  // at the same time
-      begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = 0.0F});
+      begin_rendering(commands, {.color = &color, .depth = depth, .clear_depth = 0.0F});
       bind(commands, draw_depth, clip_from_world);
       commands.draw(BOX_VERTICES, BOXES, 0, 0);
       commands.endRendering();
@@ -168,7 +168,7 @@ bool run(const std::string& file) {
         [&](const Commands& commands) {
           hand_over(commands, handed_over, compute, gpu.graphics);
           for (const auto& [pipeline, to] : {std::pair(&forward, &culled), std::pair(&brute_force, &brute)}) {
-            begin_rendering(commands, {.color = color, .depth = depth});
+            begin_rendering(commands, {.color = &color, .depth = depth});
             bind(commands, *pipeline, clip_from_world);
             commands.draw(BOX_VERTICES, BOXES, 0, 0);
             commands.endRendering();

@@ -23,12 +23,12 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const T& object, vk::MemoryPrope
 
 vk::raii::Pipeline make_drawing(const vk::raii::Device& device, const PipelineInfo& info, vk::PipelineLayout layout,
                                 const std::vector<vk::PipelineShaderStageCreateInfo>& stages) {
-  const auto rendering = vk::PipelineRenderingCreateInfo{.viewMask = info.view_mask, .depthAttachmentFormat = DEPTH}
-                             .setColorAttachmentFormats(COLOR);
+  vk::PipelineRenderingCreateInfo rendering{.viewMask = info.view_mask, .depthAttachmentFormat = DEPTH};
+  if (!info.depth_alone) rendering.setColorAttachmentFormats(COLOR);
   const vk::PipelineVertexInputStateCreateInfo input;
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
   const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-  const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1.0F};
+  const vk::PipelineRasterizationStateCreateInfo raster{.depthClampEnable = info.depth_alone, .lineWidth = 1.0F};
   const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = info.samples};
   const vk::PipelineDepthStencilStateCreateInfo depth{
       .depthTestEnable = VK_TRUE, .depthWriteEnable = !info.blended, .depthCompareOp = info.depth_compare};
@@ -38,7 +38,8 @@ vk::raii::Pipeline make_drawing(const vk::raii::Device& device, const PipelineIn
       .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
       .dstAlphaBlendFactor = vk::BlendFactor::eOne,
       .colorWriteMask = vk::ColorComponentFlags(info.fragment.empty() ? 0 : 0xF)};
-  const auto blend = vk::PipelineColorBlendStateCreateInfo{}.setAttachments(color);
+  const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = rendering.colorAttachmentCount,
+                                                    .pAttachments = &color};
   constexpr std::array DYNAMIC{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
   const auto dynamic = vk::PipelineDynamicStateCreateInfo{}.setDynamicStates(DYNAMIC);
   vk::GraphicsPipelineCreateInfo create{.pNext = &rendering,
@@ -113,7 +114,8 @@ Image Gpu::make_image(vk::Format format, vk::Extent2D size, vk::SampleCountFlagB
 Pipeline Gpu::make_pipeline(const PipelineInfo& info) const {
   using Stage = vk::ShaderStageFlagBits;
   const auto images = static_cast<std::uint32_t>(info.images.size());
-  std::vector<vk::DescriptorSetLayoutBinding> bindings{{0, vk::DescriptorType::eSampledImage, images, Stage::eAll}};
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  if (images != 0) bindings.push_back({0, vk::DescriptorType::eSampledImage, images, Stage::eAll});
   for (std::uint32_t i = 1; i <= info.buffers.size(); ++i)
     bindings.push_back({i, vk::DescriptorType::eStorageBuffer, 1, Stage::eAll});
   for (const VkDescriptorSetLayoutBinding& binding : info.bindings) bindings.emplace_back() = binding;
@@ -173,7 +175,9 @@ void read_back(const Commands& commands, const Image& image, const Buffer& to) {
 void begin_rendering(const Commands& commands, const Targets& targets) {
   barrier(commands);
   const vk::RenderingAttachmentInfo color{
-      .imageView = *targets.color.view, .imageLayout = LAYOUT, .loadOp = vk::AttachmentLoadOp::eClear};
+      .imageView = targets.color == nullptr ? vk::ImageView() : *targets.color->view,
+      .imageLayout = LAYOUT,
+      .loadOp = vk::AttachmentLoadOp::eClear};
   const vk::RenderingAttachmentInfo depth{
       .imageView = *targets.depth.view,
       .imageLayout = LAYOUT,
@@ -182,7 +186,7 @@ void begin_rendering(const Commands& commands, const Targets& targets) {
   const vk::Extent2D size = targets.depth.size;
   vk::RenderingInfo info{
       .renderArea = {.extent = size}, .layerCount = 1, .viewMask = targets.view_mask, .pDepthAttachment = &depth};
-  commands.beginRendering(info.setColorAttachments(color));
+  commands.beginRendering(targets.color == nullptr ? info : info.setColorAttachments(color));
   commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1});
   commands.setScissor(0, vk::Rect2D{.extent = size});
 }

@@ -45,6 +45,7 @@ struct PipelineInfo {
   bool blended = false;  ///< over what is there: colour is premultiplied; depth stays, and what is there in w
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   std::uint32_t view_mask = 0;
+  bool depth_alone = false;  ///< draws to no colour; depth beyond 0 .. 1 is clamped
 };
 struct Pipeline {
   vk::PipelineBindPoint point;
@@ -56,7 +57,7 @@ struct Pipeline {
 
 /// What is drawn to. Colour is cleared to 0.
 struct Targets {
-  const Image& color;
+  const Image* color = nullptr;  ///< none: depth alone
   const Image& depth;
   std::optional<float> clear_depth;  ///< none: it stays as it is
   std::uint32_t view_mask = 0;

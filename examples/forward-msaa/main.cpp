@@ -109,7 +109,7 @@ bool run(const std::string& file) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     std::ranges::copy(make_lights(LIGHTS, frame), light_buffer.as<HostLight>().begin());
     gpu.submit(gpu.graphics, [&](const Commands& commands) {
-      begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = SKY});
+      begin_rendering(commands, {.color = &color, .depth = depth, .clear_depth = SKY});
       bind(commands, draw_depth, push);
       vkCmdDraw(*commands, BOX_VERTICES, BOXES, 0, 0);
       vkCmdEndRendering(*commands);
@@ -124,7 +124,7 @@ bool run(const std::string& file) {
                                          .depth_layout = VK_IMAGE_LAYOUT_GENERAL}));
       // }
       for (const auto& [pipeline, to] : {std::pair(&forward, &culled), std::pair(&brute_force, &brute)}) {
-        begin_rendering(commands, {.color = color, .depth = depth});
+        begin_rendering(commands, {.color = &color, .depth = depth});
         bind(commands, *pipeline, push);
         vkCmdDraw(*commands, BOX_VERTICES, BOXES, 0, 0);
         vkCmdEndRendering(*commands);

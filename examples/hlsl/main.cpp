@@ -50,7 +50,7 @@ std::vector<Record> pack(const std::vector<HostLight>& lights) {
 /// Draws the scene and copies the picture to `to`.
 void draw(const Commands& commands, const Pipeline& pipeline, const Push& push, const Image& color, const Image& depth,
           const Buffer& to) {
-  begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = 0.0F});
+  begin_rendering(commands, {.color = &color, .depth = depth, .clear_depth = 0.0F});
   bind(commands, pipeline, push);
   commands.draw(BOX_VERTICES, BOXES, 0, 0);
   commands.endRendering();

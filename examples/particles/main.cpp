@@ -109,7 +109,7 @@ Way make_way(const Gpu& gpu, const Shaders& shaders, const Buffer& lights, const
 void draw(const Commands& commands, const Way& way, const Push& push, const Image& color, const Image& depth) {
   bind(commands, way.scatter, 0);
   commands.dispatch(GROUPS, 1, 1);
-  begin_rendering(commands, {.color = color, .depth = depth, .clear_depth = 0.0F});
+  begin_rendering(commands, {.color = &color, .depth = depth, .clear_depth = 0.0F});
   for (const Pipeline* pipeline : {&way.depth, &way.boxes}) {
     bind(commands, *pipeline, push);
     commands.draw(BOX_VERTICES, BOXES, 0, 0);

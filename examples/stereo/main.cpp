@@ -139,7 +139,7 @@ bool run(const std::string& file) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     std::ranges::copy(make_lights(LIGHTS, frame), light_buffer.as<HostLight>().begin());
     gpu.submit(gpu.graphics, [&](const Commands& commands) {
-      begin_rendering(commands, {.color = surfaces, .depth = depths, .clear_depth = 0.0F, .view_mask = BOTH_EYES});
+      begin_rendering(commands, {.color = &surfaces, .depth = depths, .clear_depth = 0.0F, .view_mask = BOTH_EYES});
       bind(commands, draw, clip_from_world);
       commands.draw(BOX_VERTICES, BOXES + 1, 0, 0);
       commands.endRendering();
