@@ -43,6 +43,7 @@ nlohmann::json method_json(const Method& m) {
           {"approximate", m.approximate},
           {"needs_depth", m.needs_depth},
           {"any_depth", m.any_depth},
+          {"any_point", m.any_point},
           {"options", options}};
 }
 

@@ -28,6 +28,7 @@ struct Row {
   bool approximate = false;
   bool needs_depth = false;
   bool any_depth = false;
+  bool any_point = false;  ///< of the method, whatever its options
 
   [[nodiscard]] bool reads_like(const Row& other) const {
     return lookup == other.lookup && constants == other.constants && bindings == other.bindings &&
@@ -56,7 +57,8 @@ std::optional<Row> row_of(const Method& method, const std::vector<std::string>& 
              .ordered = plan.ordered,
              .approximate = plan.approximate,
              .needs_depth = plan.binds(INPUT_DEPTH),
-             .any_depth = plan.any_depth};
+             .any_depth = plan.any_depth,
+             .any_point = method.any_point};
 }
 
 /// Each word of each option; numbers change no look-up.
@@ -96,7 +98,8 @@ std::vector<Row> rows_of(const Method& method) {
 nlohmann::json json_of(const Row& row) {
   return {{"method", row.method},           {"options", row.options},         {"lookup", row.lookup},
           {"constants", row.constants},     {"bindings", row.bindings},       {"ordered", row.ordered},
-          {"approximate", row.approximate}, {"needs_depth", row.needs_depth}, {"any_depth", row.any_depth}};
+          {"approximate", row.approximate}, {"needs_depth", row.needs_depth}, {"any_depth", row.any_depth},
+          {"any_point", row.any_point}};
 }
 
 constexpr std::string_view COLUMNS = "{:<48} {:<22} {:>9} {:>8}  {}\n";
@@ -104,8 +107,9 @@ constexpr std::string_view COLUMNS = "{:<48} {:<22} {:>9} {:>8}  {}\n";
 void print(const Row& row) {
   print_out(COLUMNS, fmt::format("{} {}", row.method, fmt::join(row.options, " ")), row.lookup, row.constants,
             row.bindings,
-            fmt::format("{}{}{}{}", row.ordered ? "ordered" : "unordered", row.approximate ? ", approximate" : "",
-                        row.needs_depth ? ", needs depth" : "", row.any_depth ? ", right at any depth" : ""));
+            fmt::format("{}{}{}{}{}", row.ordered ? "ordered" : "unordered", row.approximate ? ", approximate" : "",
+                        row.needs_depth ? ", needs depth" : "", row.any_depth ? ", right at any depth" : "",
+                        row.any_point ? ", takes a position" : ""));
 }
 
 }  // namespace

@@ -71,10 +71,14 @@ TEST_F(List, LookUpsOfEveryMethodAreFiles) {
     const nlohmann::json& row = defaults.at(method.at("name"));
     const auto lookup = row.at("lookup").get<std::string>();
     EXPECT_TRUE(lookup.starts_with(method.at("result").get<std::string>())) << lookup;
-    for (const char* key : {"ordered", "approximate", "needs_depth", "any_depth"})
+    for (const char* key : {"ordered", "approximate", "needs_depth", "any_depth", "any_point"})
       EXPECT_EQ(row.at(key), method.at(key)) << method.at("name") << ": " << key;
   }
-  EXPECT_NE(output_of({"list", "lookups"}).find("tiled container=bits walk=scalar-entity"), std::string::npos);
+  EXPECT_TRUE(defaults.at("world-cells").at("any_point"));
+  EXPECT_FALSE(defaults.at("clustered").at("any_point"));
+  const std::string text = output_of({"list", "lookups"});
+  EXPECT_NE(text.find("tiled container=bits walk=scalar-entity"), std::string::npos);
+  EXPECT_NE(text.find("takes a position"), std::string::npos);
 }
 
 TEST_F(List, MethodsAsJson) {
