@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "scene/normal_matrix.h"
 #include "scene/triangles.h"
 
 namespace lamp::app {
@@ -86,7 +87,7 @@ void place(gpu::BvhInstance& to, const glm::mat4& m, const glm::mat3& inverse) {
   to.column_x = Vec3(glm::vec3(m[0]));
   to.column_y = Vec3(glm::vec3(m[1]));
   to.column_z = Vec3(glm::vec3(m[2]));
-  const bool flips = glm::determinant(glm::dmat3(m)) < 0.0;
+  const bool flips = is_mirroring(m);
   to.kind = (to.kind & ~gpu::BVH_FLIPPED) | (flips ? gpu::BVH_FLIPPED : 0U);
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "gpu/check.h"
+#include "scene/normal_matrix.h"
 #include "scene/still_surfaces.h"
 
 namespace lamp::app {
@@ -25,7 +26,7 @@ gpu::TextureData texture_data(const Texture& t) {
 }
 
 gpu::InstanceData instance_data(const Instance& instance, std::uint32_t first_triangle) {
-  const glm::mat3 normal = glm::transpose(glm::inverse(glm::mat3(instance.world_from_object)));
+  const glm::mat3 normal = normal_matrix(instance.world_from_object);
   return {.world_from_object = instance.world_from_object,
           .normal_x = normal[0],
           .normal_y = normal[1],

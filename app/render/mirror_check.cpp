@@ -88,15 +88,15 @@ class Reference {
   /// NEVER where nothing is met.
   [[nodiscard]] Met first(const glm::dvec3& origin, const glm::dvec3& direction) const {
     const double length = glm::length(origin) + farthest_ + reach_;
-    Ray ray{.from = origin, .to = origin + direction * length, .first = 1e-18, .last = 1.0};
-    while (const auto hit = occluders_.first_hit(ray)) {
-      const DrawnSides& sides = sides_[hit->triangle];
-      const double facing = -glm::dot(sides.normal, direction);
-      if (sides.both || facing > 0.0)
-        return {.distance = hit->at * length, .cosine = std::abs(facing) / glm::length(sides.normal)};
-      ray.first = hit->at * (1.0 + 1e-12);
-    }
-    return {};
+    const Ray ray{.from = origin, .to = origin + direction * length, .first = 1e-18, .last = 1.0};
+    // A front may lie on a back, where a mesh is flat.
+    const auto hit = occluders_.first_hit(ray, [&](const Hit& met) {
+      const DrawnSides& sides = sides_[met.triangle];
+      return sides.both || glm::dot(sides.normal, direction) < 0.0;
+    });
+    if (!hit) return {};
+    const glm::dvec3& normal = sides_[hit->triangle].normal;
+    return {.distance = hit->at * length, .cosine = std::abs(glm::dot(normal, direction)) / glm::length(normal)};
   }
 
  private:

@@ -13,6 +13,7 @@
 
 #include "scene/gltf_error.h"
 #include "scene/gltf_primitive.h"
+#include "scene/normal_matrix.h"
 
 namespace lamp::app {
 namespace {
@@ -102,10 +103,9 @@ void add_meshes(GltfDocument& document, std::span<const PlacedNode> nodes, Scene
   for (const PlacedNode& placed : nodes) {
     const int mesh = document.model.nodes[static_cast<std::size_t>(placed.node)].mesh;
     if (mesh < 0) continue;
-    const bool mirrored = glm::determinant(glm::dmat3(placed.world_from_node)) < 0.0;
-    for (const std::uint32_t made : builder.meshes(static_cast<std::size_t>(mesh), mirrored)) {
-      scene.instances.push_back({made, glm::mat4(placed.world_from_node)});
-    }
+    const glm::mat4 world_from_object(placed.world_from_node);
+    for (const std::uint32_t made : builder.meshes(static_cast<std::size_t>(mesh), is_mirroring(world_from_object)))
+      scene.instances.push_back({made, world_from_object});
     if (scene.instances.size() > INSTANCES_MAX) {
       gltf_fail(document.origin.file, fmt::format("node {}", placed.node),
                 fmt::format("the scene grows beyond {} instances, expected fewer", INSTANCES_MAX));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/normal_matrix.h"
 #include "scene/triangles.h"
 
 namespace lamp::app {
@@ -62,7 +63,7 @@ std::vector<StillTriangle> still_surfaces(const Scene& scene, bool painted) {
   std::vector<StillTriangle> triangles;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(instance.world_from_object)));
+    const glm::mat3 world_from_normal = normal_matrix(instance.world_from_object);
     for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
       StillTriangle& triangle = triangles.emplace_back();
       triangle.normal_tilt = tilts[instance.mesh];
@@ -71,7 +72,7 @@ std::vector<StillTriangle> still_surfaces(const Scene& scene, bool painted) {
       const auto positions = world_triangle<double>(scene, instance, t);
       for (std::size_t i = 0; i < 3; ++i) {
         const Vertex& vertex = *corners[i];
-        frames[i].normal = normal_matrix * vertex.normal;
+        frames[i].normal = world_from_normal * vertex.normal;
         frames[i].tangent =
             glm::vec4(glm::mat3(instance.world_from_object) * glm::vec3(vertex.tangent), vertex.tangent.w);
         triangle.corners[i] = DVec3(positions[i]);

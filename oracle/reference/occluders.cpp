@@ -113,11 +113,12 @@ void Occluders::walk(const Ray& ray, Found found) const {
   }
 }
 
-std::optional<Hit> Occluders::first_hit(const Ray& ray) const {
+std::optional<Hit> Occluders::first_hit(const Ray& ray, const Counts& counts) const {
   std::optional<Hit> first;
   walk(ray, [&](const Hit& hit) {
-    if (!first || hit.at < first->at) first = hit;
-    return first->at;
+    const bool is_nearer = !first || hit.at < first->at;
+    if (is_nearer && (!counts || counts(hit))) first = hit;
+    return first ? first->at : ray.last;
   });
   return first;
 }

@@ -140,6 +140,36 @@ TEST_F(Mirror, ShowsWhatIsKnownToBeThere) {
   EXPECT_EQ(middle_of(picture(shown)), glm::vec3(0.0F)) << "the floor is as rough as the limit";
 }
 
+/// A matrix has no inverse where a scale is 0, and none in 32 bits where it is tiny; the quads look the same.
+TEST_F(Mirror, ShowsWhatIsPlacedFlatOrTiny) {
+  const TestScene plain(hall(50.0F));
+  const View view = view_of(plain.scene.cameras[0], WIDTH, HEIGHT, "camera");
+  std::vector<shared::Light> lights(1);
+  lights[0].position = {0.0F, 1.5F, -1.0F};
+  lights[0].range = 20.0F;
+  lights[0].intensity = {0.0F, 0.0F, 9.0F};
+  const HdrImage expected = picture({.gpu = plain.gpu, .view = view, .lights = lights});
+  EXPECT_NEAR(middle_of(expected).g, 2.0F, 0.01F);
+  for (const glm::vec3& size : {glm::vec3(1.0F, 0.0F, 1.0F), glm::vec3(1e-14F), glm::vec3(1.0F, 1e-30F, 1.0F)}) {
+    SCOPED_TRACE(size.y);
+    Scene made = hall(50.0F);
+    for (Vertex& vertex : made.vertices)
+      vertex.position = {vertex.position.x / size.x, 0.0F, vertex.position.z / size.z};
+    for (std::size_t i = 0; i < 2; ++i) {
+      glm::mat4& m = made.instances[i].world_from_object;
+      for (int axis = 0; axis < 3; ++axis) m[axis] *= size[axis];
+      m[3].y = i == 0 ? 0.0F : 3.0F;
+    }
+    const TestScene scene(std::move(made));
+    const Shown shown{.gpu = scene.gpu, .view = view, .lights = lights};
+    const std::unique_ptr<Renderer> renderer = renderer_of(shown);
+    EXPECT_LT(max_abs_difference(picture(*renderer, shown), expected), 1e-3F);
+    const MirrorFindings found = check_mirror(*renderer, shader_library(), scene.scene, lights, 4000);
+    EXPECT_EQ(found.reason(), "");
+    EXPECT_GT(found.hits, 0U);
+  }
+}
+
 TEST_F(Mirror, FollowsAnInstanceThatMoves) {
   TestScene scene(hall(6.0F));
   Shown shown{.gpu = scene.gpu, .view = view_of(scene.scene.cameras[0], WIDTH, HEIGHT, "camera"), .lights = {}};

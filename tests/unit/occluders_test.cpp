@@ -54,6 +54,21 @@ TEST(Occluders, HierarchySkipsNothing) {
   }
 }
 
+/// The two sides of a flat mesh lie at one place, and one of them is drawn.
+TEST(Occluders, OfTwoAtOnePlaceTheOneThatCountsIsMet) {
+  const Triangle front{{glm::dvec3(0, 0, 0), {4, 0, 0}, {0, 4, 0}}};
+  const Triangle back{{glm::dvec3(0, 0, 0), {0, 4, 0}, {4, 0, 0}}};
+  const Triangle behind{{glm::dvec3(0, 0, -1), {4, 0, -1}, {0, 4, -1}}};
+  const Occluders all({front, back, behind});
+  for (const std::uint32_t counting : {0U, 1U, 2U}) {
+    const auto hit =
+        all.first_hit({.from = {1, 1, 3}, .to = {1, 1, -2}}, [&](const lamp::Hit& met) { return met.triangle == counting; });
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->triangle, counting);
+  }
+  EXPECT_FALSE(all.first_hit({.from = {1, 1, 3}, .to = {1, 1, -2}}, [](const lamp::Hit&) { return false; }));
+}
+
 TEST(Occluders, KnownAnswers) {
   const Occluders wall(std::vector<Triangle>{{{glm::dvec3(0, 0, 0), {4, 0, 0}, {0, 4, 0}}}});
   const auto hit = wall.first_hit({.from = {1, 1, 3}, .to = {1, 1, -1}});

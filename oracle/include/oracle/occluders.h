@@ -40,7 +40,11 @@ class Occluders {
 
   explicit Occluders(std::vector<Triangle> triangles, IsThere is_there = {});
 
-  [[nodiscard]] std::optional<Hit> first_hit(const Ray& ray) const;
+  /// Whether a hit counts: of a surface with one side, that from its front does.
+  using Counts = std::function<bool(const Hit& hit)>;
+
+  /// Of hits at one place, any.
+  [[nodiscard]] std::optional<Hit> first_hit(const Ray& ray, const Counts& counts = {}) const;
   [[nodiscard]] bool any_hit(const Ray& ray) const;
   /// The same by a plain loop, for tests.
   [[nodiscard]] std::optional<Hit> first_hit_of_all(const Ray& ray) const;

@@ -19,8 +19,9 @@ vec3 mapped_normal(MirrorMaterial m, BvhInstance instance, uvec3 vertices, vec3 
   const vec3 own = interpolated_3(vertices + 3u, weights);
   // By the inverse's transpose.
   vec3 z = instance.row_x * own.x + instance.row_y * own.y + instance.row_z * own.z;
-  if (!(dot(z, z) > 0.0)) return flat_normal;
-  z = normalize(z);
+  const float size = max(abs(z.x), max(abs(z.y), abs(z.z)));
+  if (!(size > 0.0)) return flat_normal;
+  z = normalize(z / size);  // its square may be more than 32 bits hold, where a mesh is made very small
   if (m.normal.image == MIRROR_NO_IMAGE) return z;
   const vec3 tangent = to_world(instance, interpolated_3(vertices + 6u, weights));
   const vec3 x = normalize(tangent - z * dot(z, tangent) + vec3(1e-12));
