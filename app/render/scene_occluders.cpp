@@ -67,7 +67,8 @@ void for_each_occluder(const Scene& scene, Use use) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
-    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) use(mesh, t, world_triangle<double>(scene, instance, t));
+    for (std::uint32_t t = 0; t < triangle_count(mesh); ++t)
+      use(instance, t, world_triangle<double>(scene, instance, t));
   }
 }
 
@@ -76,9 +77,9 @@ void for_each_occluder(const Scene& scene, Use use) {
 Occluders scene_occluders(const Scene& scene) {
   std::vector<Triangle> triangles;
   std::vector<Origin> origins;
-  for_each_occluder(scene, [&](const Mesh& mesh, std::uint32_t t, const std::array<glm::dvec3, 3>& corners) {
+  for_each_occluder(scene, [&](const Instance& instance, std::uint32_t t, const std::array<glm::dvec3, 3>& corners) {
     triangles.push_back({corners});
-    origins.push_back({&mesh, t});
+    origins.push_back({&scene.meshes[instance.mesh], t});
   });
   return Occluders(std::move(triangles),
                    [&scene, origins = std::move(origins)](std::uint32_t triangle, double u, double v) {
@@ -88,9 +89,11 @@ Occluders scene_occluders(const Scene& scene) {
 
 std::vector<DrawnSides> drawn_sides(const Scene& scene) {
   std::vector<DrawnSides> sides;
-  for_each_occluder(scene, [&](const Mesh& mesh, std::uint32_t, const std::array<glm::dvec3, 3>& c) {
-    sides.push_back(
-        {.normal = glm::cross(c[1] - c[0], c[2] - c[0]), .both = scene.materials[mesh.material].double_sided});
+  for_each_occluder(scene, [&](const Instance& instance, std::uint32_t, const std::array<glm::dvec3, 3>& c) {
+    sides.push_back({.normal = glm::cross(c[1] - c[0], c[2] - c[0]),
+                     .both = scene.materials[scene.meshes[instance.mesh].material].double_sided,
+                     .instance = static_cast<std::uint32_t>(&instance - scene.instances.data()),
+                     .corners = c});
   });
   return sides;
 }

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "oracle/occluders.h"
@@ -13,10 +15,12 @@ namespace lamp::app {
 /// Refers to the scene, which must outlive it.
 [[nodiscard]] Occluders scene_occluders(const Scene& scene);
 
-/// Which sides of a triangle are drawn.
+/// Which sides of a triangle are drawn, and where it lies.
 struct DrawnSides {
   glm::dvec3 normal{0.0};  ///< of its front, m^2
   bool both = false;
+  std::uint32_t instance = 0;           ///< of the scene
+  std::array<glm::dvec3, 3> corners{};  ///< in the world, m
 };
 /// Of each of their triangles.
 [[nodiscard]] std::vector<DrawnSides> drawn_sides(const Scene& scene);

@@ -1,9 +1,10 @@
-// What mirror rays meet where 32 bits are few: long thin triangles, and surfaces that rays graze far from the origin.
-// SPDX-License-Identifier: Apache-2.0
+// What mirror rays meet where 32 bits are few: long thin triangles, surfaces that rays graze far from the origin,
+// places farther away, and triangles that are enormous. SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu/hall.h"
 #include "gpu/method_check.h"
@@ -106,6 +107,34 @@ TEST_F(MirrorRays, HangOnRoundingWhereTheyGraze) {
   EXPECT_EQ(found.reason(), "");
   EXPECT_GT(found.hits, found.checked / 2);
   EXPECT_GT(found.unclear, 0U) << "no ray hangs on rounding: nothing is tested";
+}
+
+/// Where a position's last place is more than a ray's start was above its surface.
+TEST_F(MirrorRays, BeginAboveTheirSurfaceFarFromTheOrigin) {
+  for (const float far_m : {3e4F, 1e5F}) {
+    SCOPED_TRACE(far_m);
+    Scene scene = hall(50.0F);
+    const glm::vec4 far_away(far_m, 0.0F, -far_m, 0.0F);
+    for (Instance& instance : scene.instances) instance.world_from_object[3] += far_away;
+    scene.cameras[0].world_from_camera[3] += far_away + glm::vec4(0.3F, 0.1F, 0.7F, 0.0F);
+    const MirrorFindings found = found_in(TestScene(std::move(scene)));
+    EXPECT_EQ(found.reason(), "");
+    EXPECT_EQ(found.hits, found.checked) << "the ceiling is everywhere";
+    EXPECT_LT(found.unclear, found.checked / 50) << "the mesh's own space holds what the world does not";
+  }
+}
+
+/// What rounding takes of a triangle's corners is not wrong, and not less than it is.
+TEST_F(MirrorRays, MeetTrianglesThatAreEnormous) {
+  for (const float half : {1e4F, 1e5F, 1e6F}) {
+    SCOPED_TRACE(half);
+    Scene scene = hall(half);
+    const glm::vec3 axis = glm::normalize(glm::vec3(1.0F, 0.0F, 0.4F));
+    scene.instances[1].world_from_object = glm::rotate(glm::mat4(1.0F), 0.2F, axis);  // in no axis's plane
+    const MirrorFindings found = found_in(TestScene(std::move(scene)));
+    EXPECT_EQ(found.reason(), "");
+    EXPECT_EQ(found.hits, found.checked);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 // picture is the same whatever finds them. SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "gpu/hall.h"
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
@@ -167,6 +170,25 @@ TEST_F(Mirror, ShowsWhatIsPlacedFlatOrTiny) {
     const MirrorFindings found = check_mirror(*renderer, shader_library(), scene.scene, lights, 4000);
     EXPECT_EQ(found.reason(), "");
     EXPECT_GT(found.hits, 0U);
+  }
+}
+
+/// Where the last place of a position is coarser than rays begin above their surface: the floor has two sides, and a
+/// ray that began below it would meet it.
+TEST_F(Mirror, ShowsNoSurfaceInItselfFarFromTheOrigin) {
+  for (const float far_m : {1e4F, 3e4F, 1e5F}) {
+    SCOPED_TRACE(far_m);
+    Scene made = hall(50.0F);
+    made.materials[0].double_sided = true;
+    const glm::mat4 there = glm::translate(glm::mat4(1.0F), {far_m, 0.0F, -far_m}) *
+                            glm::rotate(glm::mat4(1.0F), 1.3F, glm::vec3(0.6F, 0.8F, 0.0F));
+    for (Instance& instance : made.instances) instance.world_from_object = there;
+    made.cameras[0].world_from_camera = there * made.cameras[0].world_from_camera;
+    const TestScene scene(std::move(made));
+    const HdrImage shown =
+        picture({.gpu = scene.gpu, .view = view_of(scene.scene.cameras[0], WIDTH, HEIGHT, "camera"), .lights = {}});
+    EXPECT_EQ(std::ranges::count_if(shown.pixels, [](const auto& pixel) { return !(pixel.g > 1.9F); }), 0)
+        << "the ceiling is everywhere, and the floor is black";
   }
 }
 

@@ -37,12 +37,16 @@ MirrorSurface surface_at(MirrorHit hit, MirrorRay ray, float pixel_angle) {
   const MirrorMaterial m = materials[instance.material];
   const vec3 weights = all_weights(vec2(hit.u, hit.v));
   const vec3 position = to_world(instance, t.a * weights.x + t.b * weights.y + t.c * weights.z) + instance.origin;
-  const vec3 across = cross(to_world(instance, t.b - t.a), to_world(instance, t.c - t.a));
-  const float twice_area = length(across);
+  const vec3 ab = to_world(instance, t.b - t.a);
+  const vec3 ac = to_world(instance, t.c - t.a);
+  const vec3 longest = max(abs(ab), abs(ac));
+  const float size = max(longest.x, max(longest.y, max(longest.z, 1e-30)));
+  const vec3 across = cross(ab / size, ac / size);  // of edges as they are, its square may be more than 32 bits hold
+  const float twice_area = length(across);          // in squares of that size
   const vec3 geometric = across / max(twice_area, 1e-30);
   const bool front = dot(geometric, ray.direction) < 0.0;
   // The pixel's cone, as wide as the way is long, over the length of the triangle's sides; as seen, not as it lies.
-  const float width = pixel_angle * distance(position, ray.origin) / sqrt(max(twice_area, 1e-30));
+  const float width = pixel_angle * distance(position, ray.origin) / (size * sqrt(max(twice_area, 1e-30)));
   const uvec3 vertices = vertices_of(t, instance);
   vec3 normal = mapped_normal(m, instance, vertices, weights, geometric, width);
   if (!front) normal = -normal;
