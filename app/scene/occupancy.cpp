@@ -79,12 +79,12 @@ void mark(Occupancy& grid, const glm::ivec3& cell, const glm::ivec3& facing) {
   }
 }
 
-enum class Sides : std::uint8_t { one, mirrored, both };
+enum class Sides : std::uint8_t { one, both };
 
 glm::ivec3 facing_of(const glm::vec3& normal, Sides sides) {
   if (sides == Sides::both) return glm::ivec3(0);
   const glm::vec3 facing = FACING_UNIT / std::max(2.0F, glm::length(normal)) * normal;
-  return {glm::round(sides == Sides::mirrored ? -facing : facing)};
+  return {glm::round(facing)};
 }
 
 void draw(const Triangle& t, Sides sides, Occupancy& grid) {
@@ -124,8 +124,9 @@ void draw(const Scene& scene, const Instance& instance, Occupancy& grid) {
     const glm::vec3 world(instance.world_from_object * glm::vec4(scene.vertices[vertex].position, 1.0F));
     return (world - grid.origin) / grid.cell_m;
   };
-  Sides sides = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0F ? Sides::mirrored : Sides::one;
-  if (mesh.material < scene.materials.size() && scene.materials[mesh.material].double_sided) sides = Sides::both;
+  // Fronts are counter-clockwise in the world, also of what a matrix mirrors, as they are drawn.
+  const bool has_both = mesh.material < scene.materials.size() && scene.materials[mesh.material].double_sided;
+  const Sides sides = has_both ? Sides::both : Sides::one;
   const tbb::blocked_range<std::uint32_t> triangles(0, mesh.index_count / 3, 1024);
   tbb::parallel_for(triangles, [&](const tbb::blocked_range<std::uint32_t>& range) {
     for (std::uint32_t i = range.begin(); i != range.end(); ++i) {

@@ -133,6 +133,15 @@ TEST(Occupancy, SizesStayWithinTheirLimits) {
   }
 }
 
+/// As pictures show it: a glTF file's mesh that is placed mirrored has its triangles turned round.
+TEST(Occupancy, FacesWhereTheFrontIsAlsoOfWhatIsMirrored) {
+  const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 4, 0}, {3, 0, 2}};
+  std::vector<glm::vec3> other_way = corners;
+  for (glm::vec3& corner : other_way) corner.x *= -1.0F;
+  const glm::mat4 mirrors(glm::vec4(-1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(find_occupancy(scene_of(other_way, mirrors)).facing, find_occupancy(scene_of(corners)).facing);
+}
+
 TEST(Occupancy, FollowsInstances) {
   const glm::mat4 moved(glm::vec4(0, 0, -2, 0), glm::vec4(0, 2, 0, 0), glm::vec4(2, 0, 0, 0), glm::vec4(100, 50, 7, 1));
   const Occupancy grid = find_occupancy(scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, moved));

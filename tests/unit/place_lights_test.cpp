@@ -114,6 +114,8 @@ TEST(PlaceLights, BehindTheWallsOfARoofLessYardIsNoAir) {
     Scene scene;
     add_box(scene, {{-20, 0, -20}, {20, 8, 20}}, Facing::inwards, /* top= */ false);
     add_box(scene, far_away, Facing::outwards);
+    if (handedness < 0.0F)  // as the glTF loader turns triangles round that are placed mirrored
+      for (std::size_t i = 0; i < scene.indices.size(); i += 3) std::swap(scene.indices[i], scene.indices[i + 1]);
     finish(scene, glm::scale(glm::mat4(1.0F), glm::vec3(handedness, 1, 1)));
     add_camera(scene, {0, 2, 0}, {5, 2, 0});
     const auto lights = place_lights(scene, {.count = 1000, .min_range = 1.0F, .max_range = 1.0F});
