@@ -310,7 +310,9 @@ void Renderer::wake(Lighting& lighting) {
 }
 
 std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {
+  const std::optional<Shadows::Pending> pending = shadows_ ? std::optional(shadows_->pending()) : std::nullopt;
   wake(lighting);
+  if (pending) shadows_->set_pending(*pending);
   return time_frame(lighting, timing);
 }
 

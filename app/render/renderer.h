@@ -161,7 +161,8 @@ class Renderer {
   /// about as long as it waited; nothing after a wait of less than 5 ms, and of a software device.
   void wake(Lighting& lighting);
 
-  /// Records and submits one frame, reads nothing back but its times. Wakes the GPU first.
+  /// Records and submits one frame, reads nothing back but its times. Wakes the GPU first, and draws what that drew of
+  /// shadows once more.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 
   /// Culls and shades one frame and reads nothing back: for what a first use alone takes. Surfaces that an earlier

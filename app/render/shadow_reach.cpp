@@ -73,14 +73,11 @@ void ShadowReach::add(std::span<const shared::RadialJob> jobs) {
   for (const shared::RadialJob& job : jobs) pending_[job.light] = job;
 }
 
-std::uint32_t ShadowReach::take_jobs() {
+std::vector<shared::RadialJob> ShadowReach::pending() const {
   std::vector<shared::RadialJob> jobs;
-  for (std::optional<shared::RadialJob>& pending : pending_) {
+  for (const std::optional<shared::RadialJob>& pending : pending_)
     if (pending) jobs.push_back(*pending);
-    pending.reset();
-  }
-  if (!jobs.empty()) std::memcpy(jobs_.mapped().data(), jobs.data(), jobs.size() * sizeof(jobs[0]));
-  return static_cast<std::uint32_t>(jobs.size());
+  return jobs;
 }
 
 void ShadowReach::record_nothing_known(vulkan::Recorder& recorder) {
@@ -93,8 +90,11 @@ void ShadowReach::record_nothing_known(vulkan::Recorder& recorder) {
 void ShadowReach::record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas) {
   constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   if (!std::exchange(begun_, true)) record_nothing_known(recorder);
-  const std::uint32_t count = take_jobs();
-  if (count == 0) return;
+  const std::vector<shared::RadialJob> pending_jobs = pending();
+  if (pending_jobs.empty()) return;
+  std::memcpy(jobs_.mapped().data(), pending_jobs.data(), pending_jobs.size() * sizeof(pending_jobs[0]));
+  std::ranges::fill(pending_, std::nullopt);
+  const auto count = static_cast<std::uint32_t>(pending_jobs.size());
   recorder.begin_pass(name_, {});
   const vulkan::Resource written = vulkan::Resource::storage(buffer_.handle());
   const vulkan::Resource jobs = vulkan::Resource::storage(jobs_.handle());

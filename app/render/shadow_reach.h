@@ -27,12 +27,14 @@ class ShadowReach {
   /// `maps`: the buffer of all maps; `atlas`: depths.
   void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas);
 
+  /// What the next `record` makes.
+  [[nodiscard]] std::vector<shared::RadialJob> pending() const;
+
   /// shared::RadialBound, or shared::LightMesh, of each light.
   [[nodiscard]] const vulkan::Buffer& buffer() const { return buffer_; }
 
  private:
   void record_nothing_known(vulkan::Recorder& recorder);
-  [[nodiscard]] std::uint32_t take_jobs();
 
   const char* name_;
   vulkan::Buffer buffer_;

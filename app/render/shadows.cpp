@@ -122,6 +122,19 @@ void Shadows::record(vulkan::Recorder& recorder) {
   if (moments_) moments_->record(recorder, maps, atlas());
 }
 
+Shadows::Pending Shadows::pending() const {
+  Pending pending{.maps = changed_};
+  for (std::size_t i = 0; i < reaches_.size(); ++i)
+    if (reaches_[i]) pending.jobs[i] = reaches_[i]->pending();
+  return pending;
+}
+
+void Shadows::set_pending(const Pending& pending) {
+  changed_ = pending.maps;
+  for (std::size_t i = 0; i < reaches_.size(); ++i)
+    if (reaches_[i]) reaches_[i]->add(pending.jobs[i]);
+}
+
 void Shadows::need(ShadowReach::Kind kind) {
   std::optional<ShadowReach>& reach = reaches_[static_cast<std::size_t>(kind)];
   if (reach) return;

@@ -73,6 +73,15 @@ class Shadows {
   /// Draws and uploads what the last `schedule` asked for; nothing if that is done.
   void record(vulkan::Recorder& recorder);
 
+  /// What the next `record` and `record_reach` draw and make of the last `schedule`. Given back after them it is drawn
+  /// and made once more, with the same result: what frames that are not timed must leave to the one that is.
+  struct Pending {
+    bool maps = false;
+    std::array<std::vector<shared::RadialJob>, 2> jobs;  ///< by ShadowReach::Kind
+  };
+  [[nodiscard]] Pending pending() const;
+  void set_pending(const Pending& pending);
+
   [[nodiscard]] const ShadowSettings& settings() const { return settings_; }
   [[nodiscard]] const ShadowCounts& counts() const { return counts_; }
   [[nodiscard]] std::span<const std::uint32_t> waiting() const { return waiting_; }  ///< lights, as counted

@@ -300,6 +300,39 @@ TEST_F(GpuTest, ShadowRasterizerDrawsLongThinTriangles) {
   }
 }
 
+std::vector<std::string> drawn_passes(Shadows& shadows, vulkan::AccessTracker& tracker) {
+  vulkan::Timestamps timestamps = take(vulkan::Timestamps::create(test_context().device(), 8));
+  test_context().submit([&](VkCommandBuffer commands) {
+    timestamps.reset(commands);
+    vulkan::Recorder recorder(test_context().device(), commands, tracker, &timestamps);
+    shadows.record_reach(recorder);
+    timestamps.finish(commands);
+  });
+  std::vector<std::string> passes;
+  for (const vulkan::Timestamps::Time& time : timestamps.read()) passes.emplace_back(time.pass);
+  return passes;
+}
+
+// Frames that keep a GPU awake between timed ones draw what a timed one is to draw.
+TEST_F(GpuTest, ShadowsThatArePendingOnceMoreAreDrawnOnceMore) {
+  const TestScene& scene = builtin_test_scene("plane");
+  const View view = view_of(scene.scene.cameras.front(), 32, 18, "camera");
+  const std::vector<shared::Light> lights = pack(lights_of_all_kinds());
+  Shadows shadows(test_context(), shader_library(), scene.gpu, {.atlas_size = ATLAS},
+                  static_cast<std::uint32_t>(lights.size()));
+  shadows.need(ShadowReach::Kind::radial);
+  vulkan::AccessTracker tracker;
+  shadows.schedule({&view, 1}, lights);
+  const Shadows::Pending pending = shadows.pending();
+  const std::vector<std::string> all = drawn_passes(shadows, tracker);
+  EXPECT_EQ(all, (std::vector<std::string>{"shadow maps", "radial bounds"}));
+  const std::vector<float> texels = read_atlas(shadows, tracker);
+  EXPECT_TRUE(drawn_passes(shadows, tracker).empty());
+  shadows.set_pending(pending);
+  EXPECT_EQ(drawn_passes(shadows, tracker), all);
+  EXPECT_EQ(read_atlas(shadows, tracker), texels);
+}
+
 TEST_F(GpuTest, ShadowAtlasBeyondTheDeviceIsAnError) {
   const TestScene& scene = builtin_test_scene("plane");
   const std::uint32_t limit = test_context().device().traits.max_image_size;
