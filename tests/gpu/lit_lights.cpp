@@ -11,6 +11,11 @@ constexpr Light SPOT{.type = LightType::spot,
                      .range = 8.0F,
                      .direction = {0.2F, -1.0F, 0.5F},
                      .outer_angle = 0.7F};
+constexpr Light WIDE_SPOT{.type = LightType::spot,
+                          .position = {3.0F, 1.0F, 4.0F},
+                          .range = 8.0F,
+                          .direction = {0.0F, -1.0F, 0.1F},
+                          .outer_angle = 1.41F};
 
 }  // namespace
 
@@ -30,6 +35,7 @@ LitLights some_lit_lights(ShadowFilter filter) {
   add(POINT, PointShadows::octahedron, 16, {256, 0});
   add(SPOT, PointShadows::faces, 128, {128, 128});
   add(SPOT, PointShadows::faces, 16, {272, 0});
+  add(WIDE_SPOT, PointShadows::faces, 64, {320, 0});
   add(POINT, PointShadows::faces, 64, {256, 128});
   lit.lights.back().position.x += 0.5F;
   return lit;

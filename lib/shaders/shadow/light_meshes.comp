@@ -32,6 +32,9 @@ const uint COLOURS = 8u;  // of points, so that no two of one colour share a tri
 const uint SWEEPS = 4u;   // the last ones go all the way: what comes first would take all room
 shared uint s_limits[MOST_LATTICE];  // bits of floats >= 0, which ascend as they do
 shared float s_inverse[MESH_POINTS];
+shared uint s_room[MESH_POINTS];
+shared uint s_order[MESH_POINTS];  // points, colour by colour
+shared uint s_first[COLOURS + 1u];
 
 uint g_kind;
 uint g_lattice;  // steps along a face's side
@@ -70,20 +73,21 @@ void main() {
   for (uint i = thread; i < lattice_points(); i += gl_WorkGroupSize.x) s_limits[i] = floatBitsToUint(FREE / g_range_m);
   barrier();  // nothing is known before blocks say more
   const uint side = shadow_maps[light].side;
-  const uint blocks = min(side, kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
+  const uint size = block_size(light, max(1u, side / (kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS)));
+  const uint blocks = side / size;
   const uint squares = kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
   for (uint i = thread; i < squares * blocks * blocks; i += gl_WorkGroupSize.x) {
     const uint block = i % (blocks * blocks);
-    const uint size = side / blocks;
     limit_block(light, i / (blocks * blocks), uvec2(block % blocks, block / blocks) * size, size);
   }
   barrier();  // all blocks before the light's own shape
   for (uint i = thread; i < lattice_points(); i += gl_WorkGroupSize.x)
     s_limits[i] = max(s_limits[i], floatBitsToUint(limit_of_shape(i)));
   barrier();  // limits before points
-  const bool in_grid = thread < (g_kind == MESH_CUBE ? MESH_POINTS : MESH_SPOT_FRONT);
-  fit(min(thread, MESH_POINTS - 1u), in_grid);
+  const uint in_grid_points = g_kind == MESH_CUBE ? MESH_POINTS : MESH_SPOT_FRONT;
+  fit(in_grid_points);
   if (thread >= MESH_POINTS) return;
+  const bool in_grid = thread < in_grid_points;
   const float far = in_grid ? length(mesh_way(g_kind, g_half_width, thread)) : 0.0;
   meshes[light].reach[thread / 4u][thread % 4u] = in_grid ? far * (1.0 + ROUNDING) / s_inverse[thread] : 0.0;
 }

@@ -20,8 +20,8 @@ layout(push_constant) uniform Push { uint job_count; };
 const uint CELLS = RADIAL_SIDE * RADIAL_SIDE;
 const uint BLOCKS = 16u;             // a side of a square, a quarter of a cell's angle and less
 const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
+const uint LEAST_BLOCK = 2u;         // texels; all round a light single ones say hardly more, and take longer
 const uint MOST_BLOCKS = max(OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS, SQUARES_A_LIGHT * BLOCKS * BLOCKS);
-const int COLUMN_BATCH = 8;  // texels
 shared uint s_bytes[CELLS];
 shared uint s_nearest_stored[MOST_BLOCKS];  // bits of near / w of a block's farthest texel
 
@@ -31,18 +31,6 @@ void reach(RadialCells cells, uint value) {
     for (uint x = cells.first.x; x <= cells.last.x; ++x) atomicMax(s_bytes[y * RADIAL_SIDE + x], value);
 }
 
-// The nearest of what a column of texels stores; all of a batch are asked for before the first is waited for.
-float least_of_column(ShadowSquare square, ivec2 first, int size) {
-  float least = 1.0;
-  for (int y = 0; y < size; y += COLUMN_BATCH) {
-    float stored[COLUMN_BATCH];
-    [[unroll]] for (int i = 0; i < COLUMN_BATCH; ++i)
-      stored[i] = SHADOW_TEXEL(shadow_atlas, square.corner + first + ivec2(0, min(y + i, size - 1))).x;
-    [[unroll]] for (int i = 0; i < COLUMN_BATCH; ++i) least = min(least, stored[i]);
-  }
-  return least;
-}
-
 // A thread takes a column of a block; those of a row of blocks lie together in memory.
 void farthest_of_blocks(uint light, uint squares, uint side, uint blocks) {
   const uint size = side / blocks;
@@ -50,8 +38,8 @@ void farthest_of_blocks(uint light, uint squares, uint side, uint blocks) {
     const uint row = column / side;  // of blocks, in all squares
     const uint x = column % side;
     const ivec2 first = ivec2(x, row % blocks * size);
-    const float stored = least_of_column(shadow_square(light, row / blocks), first, int(size));
-    atomicMin(s_nearest_stored[row * blocks + x / size], floatBitsToUint(max(stored, 0.0)));
+    const float stored = radial_least_of_column(shadow_square(light, row / blocks), first, int(size));
+    atomicMin(s_nearest_stored[row * blocks + x / size], floatBitsToUint(stored));
   }
 }
 
@@ -63,7 +51,8 @@ void reach_of_block(uint light, uint square, uvec2 first, uint size, float store
   if (shadow_maps[light].kind == SHADOW_SPOT) {
     reach(radial_cells_of_spot(scale, box.low, box.high), value);
   } else {
-    for (uint octant = 0u; octant < 8u; ++octant) reach(radial_cells_of_octant(octant, box.low, box.high), value);
+    for (uint octants = radial_octants(box.low, box.high); octants != 0u; octants &= octants - 1u)
+      reach(radial_cells_of_octant(uint(findLSB(octants)), box.low, box.high), value);
   }
 }
 
@@ -89,7 +78,9 @@ void main() {
   if (thread < CELLS) s_bytes[thread] = known ? 0u : RADIAL_ANY;
   barrier();  // initial values before blocks reach farther
   const uint side = shadow_maps[light].side;
-  const uint blocks = min(side, kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
+  const uint blocks = kind == SHADOW_SPOT         ? min(side, BLOCKS)
+                      : kind == SHADOW_OCTAHEDRON ? min(side / LEAST_BLOCK, OCTAHEDRON_BLOCKS)
+                                                  : min(side / LEAST_BLOCK, BLOCKS);
   const uint squares = !known ? 0u : kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
   const uint all_blocks = squares * blocks * blocks;
   for (uint i = thread; i < all_blocks; i += gl_WorkGroupSize.x) s_nearest_stored[i] = floatBitsToUint(1.0);

@@ -35,9 +35,20 @@ void limit_face(uint face, vec3 low, vec3 high, float farthest) {
     for (uint x = from.x; x <= to.x; ++x) atomicMin(s_limits[lattice_point(face, uvec2(x, y))], limit);
 }
 
+// Texels a side. A block says nothing more where it is smaller than half of what it may light around itself, and each
+// block goes through all lattice points around it.
+uint block_size(uint light, uint least) {
+  const float around = radial_taps(light) + (radial_offset(light) + MESH_SPREAD) * shadow_maps[light].scale;
+  const uint wanted = 1u << findMSB(uint(clamp(0.5 * around, 1.0, float(LEAST_SQUARE / 4u))));
+  return max(least, wanted);
+}
+
 void limit_block(uint light, uint square, uvec2 first, uint size) {
+  float stored = 1.0;
+  for (uint x = 0u; x < size; ++x)
+    stored = min(stored, radial_least_of_column(shadow_square(light, square), ivec2(first) + ivec2(x, 0), int(size)));
   const RadialBox box = radial_box(light, square, vec2(first), float(size));
-  const float w = radial_farthest_lit(light, radial_farthest_of_block(light, square, first, size));
+  const float w = radial_farthest_lit(light, radial_depth_of(light, stored));
   const float spread = 1.001 * MESH_SPREAD * length(max(abs(box.low), abs(box.high)));
   const vec3 low = box.low - spread;
   const vec3 high = box.high + spread;

@@ -13,6 +13,7 @@
 #include "shadow/parts/taps.glsl"
 
 LAMP_CONST_FLOAT RADIAL_UNBOUNDED = 3e38;
+const int RADIAL_BATCH = 8;  // texels
 // Texels: where rounding may take a place.
 LAMP_CONST_FLOAT RADIAL_PLACE_ROUNDING = 0.02;
 // Half of sqrt(5) + 1: the most that mean + 2 deviations of values 0 .. 1 comes to, beyond which SHADOW_BLEED of 1/5
@@ -60,15 +61,18 @@ float radial_depth_of(uint light, float stored) {
   return stored > 0.0 ? shadow_maps[light].near_m / stored : RADIAL_UNBOUNDED;
 }
 
-// The greatest depth of a block's texels.
-float radial_farthest_of_block(uint light, uint square, uvec2 first, uint size) {
-  const ivec2 corner = shadow_square(light, square).corner;
-  float nearest_stored = 1.0;  // near / w
-  for (uint i = 0u; i < size * size; ++i) {
-    const ivec2 texel = corner + ivec2(first + uvec2(i % size, i / size));
-    nearest_stored = min(nearest_stored, SHADOW_TEXEL(shadow_atlas, texel).x);
+// The nearest of what a column of texels stores; all of a batch are asked for before the first is waited for.
+float radial_least_of_column(ShadowSquare square, ivec2 first, int size) {
+  float least = 1.0;
+  for (int y = 0; y < size; y += RADIAL_BATCH) {
+    float stored[RADIAL_BATCH];
+    [[unroll]] for (int i = 0; i < RADIAL_BATCH; ++i) {
+      stored[i] = 1.0;
+      if (y + i < size) stored[i] = SHADOW_TEXEL(shadow_atlas, square.corner + first + ivec2(0, y + i)).x;
+    }
+    [[unroll]] for (int i = 0; i < RADIAL_BATCH; ++i) least = min(least, stored[i]);
   }
-  return radial_depth_of(light, nearest_stored);
+  return max(least, 0.0);
 }
 
 // The depth up to which a texel of that depth may light M.
