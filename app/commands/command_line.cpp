@@ -45,6 +45,9 @@ std::string words_of(const CLI::App& command, const CLI::ParseError& error) {
     if (option->count() > most && most > 1)
       return fmt::format("{}: expected at most {}, got {}", option->get_name(), most, option->count());
     if (option->count() > most) return given_twice(*option).what();
+    if (option->count() == 0 || most == 1) continue;
+    if (const auto least = static_cast<std::size_t>(option->get_expected_min()); option->count() < least)
+      return fmt::format("{}: expected {} values, got {}", option->get_name(), least, option->count());
   }
   const std::string text = error.what();
   return fmt::format("option '{}': expected a value behind it", text.substr(0, text.find(':')));

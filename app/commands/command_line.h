@@ -33,6 +33,8 @@ namespace lamp::app {
 
 /// Throws Error for an option or flag of the command that is given twice and does not repeat by design.
 void check_repeats(const CLI::App& command);
+/// Throws Error for options that contradict each other, or that nobody would read without another.
+void check_pairs(const CLI::App& command);
 
 /// One line that names the command, option or argument that was not understood and, for a name, the nearest there are.
 [[nodiscard]] Error parse_error(const CLI::App& app, const CLI::ParseError& error);

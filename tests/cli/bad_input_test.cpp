@@ -21,6 +21,8 @@ TEST_F(BadInput, NamesThatDoNotExistBringTheNearest) {
   expect_error(BAD_INPUT, {"render", "atriun"}, {"scene 'atriun'", "nearest are atrium, ", ".gltf or .glb"});
   expect_error(BAD_INPUT, {"render", "--path", "defered"}, {"--path 'defered'", "nearest are deferred, "});
   expect_error(BAD_INPUT, {"render", "plane", "--projection", "ortho"}, {"projection 'ortho'", "orthographic"});
+  expect_error(BAD_INPUT, {"render", "atrium", "--camera", "gallery", "--frame", "3"}, {"--frame 3", "no --camera"});
+  expect_error(BAD_INPUT, {"probe", "plane", "--at", "1", "2"}, {"--at", "expected 3 values, got 2"});
   expect_error(BAD_INPUT, {"render", "plane", "--camera", "back"}, {"camera 'back'", "there are front"});
   expect_error(BAD_INPUT, {"render", "--brdf", "gx"}, {"--brdf 'gx'", "nearest are ggx, "});
   expect_error(BAD_INPUT, {"capture", "--out", "x", "--lights-as", "jsn"}, {"--lights-as 'jsn'", "nearest are json, "});
