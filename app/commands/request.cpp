@@ -359,6 +359,8 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
 }
 
 void Session::split_still(bool splits) {
+  if (!still_lists_) return;
+  renderer_->restart_shadows();  // records change their order: shadows of both are those of a first frame
   renderer_->light_still(splits ? still_lists_.get() : nullptr);
   renderer_->set_frame(setup_.views, setup_.lights, setup_.decals);
 }

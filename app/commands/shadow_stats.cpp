@@ -80,6 +80,7 @@ nlohmann::json to_json(const ShadowStats& shadows) {
                      {"lost", truth->lost},
                      {"outside", truth->outside},
                      {"lost_outside", truth->lost_outside},
+                     {"verdict", name_of(truth->is_right() ? Verdict::ok : Verdict::failed)},
                      {"leaks", truth->all.leaks()},
                      {"false_shadows", truth->all.false_shadows()},
                      {"bleeding", truth->all.bleeding()},

@@ -234,7 +234,8 @@ void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, st
   if (rows.front().mirror) print_mirror(*rows.front().mirror);
   if (const auto& shadows = rows.front().shadows) print_out("shadows: {}\n", shadow_words(*shadows));
   if (const auto& shadows = rows.front().shadows; shadows && shadows->truth)
-    print_out("shadows: {}\nshadows: {}\n", truth_words(*shadows->truth), cut_words(*shadows->truth));
+    print_out("shadows: {}\nshadows: {}{}\n", truth_words(*shadows->truth), cut_words(*shadows->truth),
+              shadows->truth->is_right() ? "" : "  FAILED: cuts lose what maps light");
 }
 
 std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
@@ -309,7 +310,7 @@ Exit verify(const VerifyOptions& o) {
   if (!o.out.empty() && !o.json) print_out("picture: {}\n", o.out);
   Verdict worst = Verdict::ok;
   for (const Stats& row : rows) worst = std::max(worst, row.judgement->verdict);
-  if (shadows && shadows->lost + shadows->lost_outside != 0) worst = Verdict::failed;
+  if (shadows && !shadows->is_right()) worst = Verdict::failed;
   if (still) worst = std::max(worst, verdict_of(*still));
   if (mirror) worst = std::max(worst, mirror->findings->verdict());
   return exit_of(worst);

@@ -52,7 +52,7 @@ Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const 
     if (samples == 1) return;
     std::vector<View> beside;
     for (const View& view : views) beside.push_back(shifted(view, sample_offset(i)));
-    renderer.set_frame(beside, lights, decals);
+    renderer.set_views(beside, lights, decals);
     renderer.show({.view = shown});
   };
   HdrImage sum;

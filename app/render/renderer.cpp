@@ -96,6 +96,15 @@ void Renderer::mirror(const MirrorSettings& settings) {
 
 void Renderer::set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                          std::span<const gpu::DecalData> decals) {
+  set_views(views, lights, decals);
+  if (!shadows_) return;
+  const bool has_still = still_ != nullptr && still_->lights() != 0;
+  const std::vector<shared::Light> shadowed = has_still ? shadowed_records() : std::vector<shared::Light>();
+  shadows_->schedule(views_, has_still ? std::span<const shared::Light>(shadowed) : lights);
+}
+
+void Renderer::set_views(std::span<const View> views, std::span<const shared::Light> lights,
+                         std::span<const gpu::DecalData> decals) {
   assert(views.size() == depth_.views && "make a Renderer for another number of views");
   assert(views.front().reversed_depth() == depth_.reversed && "make a Renderer for the other direction");
   const bool moves = !std::ranges::equal(views, views_);
@@ -106,9 +115,6 @@ void Renderer::set_frame(std::span<const View> views, std::span<const shared::Li
   shown_view_ = views_.front();
   const std::uint32_t still = still_ == nullptr ? 0 : still_->lights();
   data_.set({&shown_view_, 1}, lights, decals, still, probes().probes());
-  const std::vector<shared::Light> shadowed =
-      shadows_ && still != 0 ? shadowed_records() : std::vector<shared::Light>();
-  if (shadows_) shadows_->schedule(views_, still == 0 ? lights : shadowed);
   if (!all_pictures_) return;
   all_pictures_->data.set(views_, lights, decals, still, probes().probes());
   if (moves) draw_depths();

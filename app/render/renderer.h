@@ -118,6 +118,9 @@ class Renderer {
   /// The same with as many views as the renderer was told, all of the targets' size.
   void set_frame(std::span<const View> views, std::span<const shared::Light> lights,
                  std::span<const gpu::DecalData> decals = {});
+  /// The same frame from beside, for samples of a picture: shadow maps stay as they are, also what waits to be drawn.
+  void set_views(std::span<const View> views, std::span<const shared::Light> lights,
+                 std::span<const gpu::DecalData> decals);
   /// Another view of the same lights and decals, the lights at a time of their paths: moved on the GPU, which no host
   /// pass sees. `mover` must live until the next frame is submitted. Of one view with one sample a pixel, where no
   /// light casts shadows, stands still in lists of its own, or is mirrored.

@@ -51,6 +51,8 @@ struct ShadowFindings {
   ShadowLight away;    ///< of the pairs away from edges
   ShadowLight beyond;  ///< of the pairs beyond the filter's reach: all texels with a say are as dark or lit as the ray
 
+  /// Whether cuts lose nothing that the look-up lights.
+  [[nodiscard]] bool is_right() const { return lost + lost_outside == 0; }
   /// Part of the stopped light that is beyond the filter's reach, 0 .. 1.
   [[nodiscard]] double stopped_beyond() const { return all.stopped > 0.0 ? beyond.stopped / all.stopped : 0.0; }
 };

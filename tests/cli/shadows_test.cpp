@@ -77,6 +77,19 @@ TEST_F(Shadows, LeakInColour) {
                {"--heatmap-of shadow-leaks", "lists leave out lights"});
 }
 
+// A script that goes through filters need not leave their options out where there are no shadows.
+TEST_F(Shadows, ThatAreOffLeaveTheirOptionsAlone) {
+  (void)output_of({"render", "plane", "--size", "8x8", "--lights", "1", "--shadows", "off", "--atlas", "512",
+                   "--method", "tiled", "--option", "occlusion=radial", "--out", "off.png"});
+}
+
+// Every picture is that of the first frame, in which a budget leaves lights without their shadows.
+TEST_F(Shadows, OfAFrameWithABudgetVerify) {
+  const Outcome outcome = lamp({"verify", "corridor", "--lights", "30", "--size", "48x27", "--shadows", "hard",
+                                "--shadow-budget", "30000", "--method", "lamplight"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+}
+
 TEST_F(Shadows, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--shadows", "soft"}, {"--shadows 'soft'", "nearest are "});
   expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "age"},
@@ -85,9 +98,15 @@ TEST_F(Shadows, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--heatmap", "h.png", "--heatmap-of", "shadow-leaks"}, {"expected --shadows"});
   expect_error(BAD_INPUT, {"render", "--shadows", "pcf", "--heatmap-of", "shadow-age"},
                {"expected --heatmap or --overlay"});
-  expect_error(BAD_INPUT, {"render", "--shadow-lights", "many"}, {"--shadow-lights 'many'", "or all"});
-  expect_error(BAD_INPUT, {"render", "--shadow-budget=-1"}, {"--shadow-budget '-1'", "or all"});
-  expect_error(BAD_INPUT, {"render", "--point-shadows", "cube"}, {"--point-shadows 'cube'", "faces, octahedron"});
+  expect_error(BAD_INPUT, {"render", "--shadows", "pcf", "--shadow-lights", "many"},
+               {"--shadow-lights 'many'", "or all"});
+  expect_error(BAD_INPUT, {"render", "--shadows", "pcf", "--shadow-budget=-1"}, {"--shadow-budget '-1'", "or all"});
+  expect_error(BAD_INPUT, {"render", "--shadows", "pcf", "--point-shadows", "cube"},
+               {"--point-shadows 'cube'", "faces, octahedron"});
+  for (const char* option : {"--shadow-lights", "--shadow-budget", "--atlas", "--point-shadows", "--shadow-raster"})
+    expect_error(BAD_INPUT, {"render", "plane", option, "4"}, {option, "expected --shadows FILTER too"});
+  for (const char* cut : {"occlusion=radial", "proxy=cut"})
+    expect_error(BAD_INPUT, {"render", "plane", "--option", cut}, {cut, "expected --shadows FILTER too"});
   expect_error(BAD_INPUT, {"render", "plane", "--lights", "1", "--shadows", "pcf", "--atlas", "1000"},
                {"shadow atlas: size", "power of two", "1000"});
 }

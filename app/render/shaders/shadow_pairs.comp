@@ -33,12 +33,15 @@ bool radial_reaches_point(uint light, vec3 position) {
   return radial_reaches_box(light, rel - slack, rel + slack);
 }
 
-// But for rounding of the position.
+// But for rounding of the position, by which what draws the mesh widens it: as common/light_mesh_view.glsl has it, all that
+// is nearer than that over the spread is inside.
 bool mesh_may_hold(uint light, vec3 position) {
   if (light >= uint(meshes.length()) || meshes[light].kind == MESH_NONE) return true;
   const vec3 rel = position - meshes[light].position;
   const float slack = 4.0 * ROUND_POSITION * (length(position) + length(meshes[light].position));
-  return mesh_holds(light, meshes[light].position + rel * max(1.0 - slack / max(length(rel), 1e-9), 0.0));
+  const float distance_m = length(rel);
+  if (distance_m <= slack / MESH_SPREAD) return true;
+  return mesh_holds(light, meshes[light].position + rel * (1.0 - slack / distance_m));
 }
 
 // Of vsm and evsm: the blur of comparisons in place of that of moments.
