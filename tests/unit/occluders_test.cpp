@@ -61,8 +61,8 @@ TEST(Occluders, OfTwoAtOnePlaceTheOneThatCountsIsMet) {
   const Triangle behind{{glm::dvec3(0, 0, -1), {4, 0, -1}, {0, 4, -1}}};
   const Occluders all({front, back, behind});
   for (const std::uint32_t counting : {0U, 1U, 2U}) {
-    const auto hit =
-        all.first_hit({.from = {1, 1, 3}, .to = {1, 1, -2}}, [&](const lamp::Hit& met) { return met.triangle == counting; });
+    const auto hit = all.first_hit({.from = {1, 1, 3}, .to = {1, 1, -2}},
+                                   [&](const lamp::Hit& met) { return met.triangle == counting; });
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, counting);
   }

@@ -37,8 +37,8 @@ enum class PointShadows : std::uint8_t {
 /// A spot of a larger half-angle is drawn as an octahedron: its one plane would be all edge.
 inline constexpr float WIDEST_SPOT_SQUARE = 1.308996939F;  // radians, 75 degrees
 
-/// Of a shader that includes shadow/shadow.glsl and says nothing else (SHADOW_FIRST_BINDING, SHADOW_FIRST_CONSTANT): the
-/// storage buffer of maps is at this binding of set 0, the atlas at the next, moments at the one behind it, sampled
+/// Of a shader that includes shadow/shadow.glsl and says nothing else (SHADOW_FIRST_BINDING, SHADOW_FIRST_CONSTANT):
+/// the storage buffer of maps is at this binding of set 0, the atlas at the next, moments at the one behind it, sampled
 /// images both. The specialization constant is a ShadowFilter, or shared::SHADOW_OFF.
 inline constexpr std::uint32_t SHADOW_BINDING = 11;
 inline constexpr std::uint32_t SHADOW_CONSTANT = 15;
