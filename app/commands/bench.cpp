@@ -296,8 +296,9 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   // The tool by its name: where it lies is nobody else's concern, and results are passed on.
   o->command_line = fs::path(arguments.front()).filename().string();
   for (const char* argument : arguments.subspan(1)) o->command_line += " " + shell_quoted(argument);
-  return [o, command] {
-    refuse_with_suite(*command, o->request.scene);
+  // Before pairs of options are looked at, which the whole command line is: a suite takes neither of them.
+  command->parse_complete_callback([o, command] { refuse_with_suite(*command, o->request.scene); });
+  return [o] {
     if (!o->max_size.empty() && pixels_of(o->max_size) == 0)
       throw Error(
           fmt::format("--max-size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1920x1080", o->max_size));

@@ -72,8 +72,10 @@ Checker::Checker(BenchDevice& device, const Group& group, Renderer& renderer, co
 }
 
 void Checker::show(const StillLists* still) {
-  renderer_.restart_shadows();  // of a first frame for every candidate, whatever a budget left to be drawn
+  if (still == shown_) return renderer_.set_views(frame_.views, frame_.lights, frame_.decals);
+  renderer_.restart_shadows();  // of a first frame for every lighting, whatever a budget left to be drawn
   renderer_.light_still(still);
+  shown_ = still;
   renderer_.set_frame(frame_.views, frame_.lights, frame_.decals);
 }
 

@@ -50,6 +50,7 @@ class Checker {
   const Group& group_;
   Renderer& renderer_;
   const BenchFrame& frame_;
+  std::optional<const StillLists*> shown_;
   Rows rows_;
   std::vector<std::vector<float>> depths_;  ///< of each of the renderer's pictures
   std::vector<std::vector<Truth>> truths_;  ///< likewise, of all rows, where they are few enough to be kept

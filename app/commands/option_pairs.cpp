@@ -24,10 +24,9 @@ bool may_have_shadows(const CLI::App& command) {
 
 void check_shadow_options(const CLI::App& command) {
   if (may_have_shadows(command)) return;
-  for (const char* option :
-       {"--shadow-lights", "--shadow-budget", "--atlas", "--point-shadows", "--shadow-raster", "--shadow-blur"})
-    if (is_given(command, option))
-      throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option));
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() != 0 && option->get_group() == "Shadows")
+      throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option->get_name()));
   if (!is_given(command, "--option")) return;
   for (const std::string& value : command.get_option("--option")->results())
     for (const std::string_view cut : {"occlusion=radial", "proxy=cut"})

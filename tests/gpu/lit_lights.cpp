@@ -17,17 +17,20 @@ constexpr Light WIDE_SPOT{.type = LightType::spot,
                           .direction = {0.0F, -1.0F, 0.1F},
                           .outer_angle = 1.41F};
 
+void add_light(LitLights& lit, const Light& light, const ShadowAtlasInfo& info, std::uint32_t side, glm::uvec2 corner) {
+  std::vector<UVec2> corners;
+  for (std::uint32_t i = 0; i < shadow_squares(pack(light), info.points); ++i)
+    corners.emplace_back(corner + glm::uvec2(i % 3, i / 3) * side);
+  lit.lights.push_back(pack(light));
+  lit.maps.push_back(shadow_map(pack(light), info, side, corners));
+}
+
 }  // namespace
 
 LitLights some_lit_lights(ShadowFilter filter) {
   LitLights lit;
   const auto add = [&](const Light& light, PointShadows points, std::uint32_t side, glm::uvec2 corner) {
-    const ShadowAtlasInfo info{.size = LIT_ATLAS, .points = points, .filter = filter};
-    std::vector<UVec2> corners;
-    for (std::uint32_t i = 0; i < shadow_squares(pack(light), points); ++i)
-      corners.emplace_back(corner + glm::uvec2(i % 3, i / 3) * side);
-    lit.lights.push_back(pack(light));
-    lit.maps.push_back(shadow_map(pack(light), info, side, corners));
+    add_light(lit, light, {.size = LIT_ATLAS, .points = points, .filter = filter}, side, corner);
   };
   add(POINT, PointShadows::faces, 64, {0, 0});
   add(POINT, PointShadows::faces, 16, {192, 0});
@@ -35,9 +38,14 @@ LitLights some_lit_lights(ShadowFilter filter) {
   add(POINT, PointShadows::octahedron, 16, {256, 0});
   add(SPOT, PointShadows::faces, 128, {128, 128});
   add(SPOT, PointShadows::faces, 16, {272, 0});
-  add(WIDE_SPOT, PointShadows::faces, 64, {320, 0});
   add(POINT, PointShadows::faces, 64, {256, 128});
   lit.lights.back().position.x += 0.5F;
+  return lit;
+}
+
+LitLights wide_lit_light(ShadowFilter filter) {
+  LitLights lit;
+  add_light(lit, WIDE_SPOT, {.size = LIT_ATLAS, .filter = filter}, 64, {320, 0});
   return lit;
 }
 

@@ -44,7 +44,7 @@ TEST_P(ShadowRadialBounds, HoldEverythingThatIsLit) {
     if (moved) {
       EXPECT_EQ(found[light][1], 0U) << "it has moved since";
     } else if (!small) {
-      EXPECT_GT(found[light][1], found[light][0] / 32) << "light " << light << " is hardly cut";
+      EXPECT_GT(found[light][1], found[light][0] / 16) << "light " << light << " is hardly cut";
     }
   }
 }

@@ -78,9 +78,8 @@ void main() {
   if (thread < CELLS) s_bytes[thread] = known ? 0u : RADIAL_ANY;
   barrier();  // initial values before blocks reach farther
   const uint side = shadow_maps[light].side;
-  const uint blocks = kind == SHADOW_SPOT         ? min(side, BLOCKS)
-                      : kind == SHADOW_OCTAHEDRON ? min(side / LEAST_BLOCK, OCTAHEDRON_BLOCKS)
-                                                  : min(side / LEAST_BLOCK, BLOCKS);
+  const uint blocks = min(side / (kind == SHADOW_SPOT ? 1u : LEAST_BLOCK),
+                          kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
   const uint squares = !known ? 0u : kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u;
   const uint all_blocks = squares * blocks * blocks;
   for (uint i = thread; i < all_blocks; i += gl_WorkGroupSize.x) s_nearest_stored[i] = floatBitsToUint(1.0);

@@ -29,8 +29,7 @@ ShadowPlace shadow_moved_place(uint light, vec3 position, vec3 normal) {
   const float offset = shadow_normal_offset(light, place.axis, place.w, rel, normal, taps);
   const ShadowPlace there = shadow_place(light, shadow_moved(rel, normal, offset));
   if (shadow_dot(there.axis, place.axis) > 0.5) return there;  // the same one: of others it is 1/3 at most
-  const float folded = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? SHADOW_FOLDED_STEP : 1.0;  // 1 / an axis's part
-  const float across = shadow_dot(there.axis, rel) * folded;
+  const float across = shadow_dot(there.axis, rel) * shadow_fold(light);  // 1 / an axis's part
   if (!(across > 0.0)) return there;
   const float further = shadow_normal_offset(light, there.axis, across, rel, normal, taps);
   return shadow_place(light, shadow_moved(rel, normal, max(offset, further)));

@@ -44,9 +44,10 @@ uint block_size(uint light, uint least) {
 }
 
 void limit_block(uint light, uint square, uvec2 first, uint size) {
+  const ShadowSquare texels = shadow_square(light, square);
   float stored = 1.0;
   for (uint x = 0u; x < size; ++x)
-    stored = min(stored, radial_least_of_column(shadow_square(light, square), ivec2(first) + ivec2(x, 0), int(size)));
+    stored = min(stored, radial_least_of_column(texels, ivec2(first) + ivec2(x, 0), int(size)));
   const RadialBox box = radial_box(light, square, vec2(first), float(size));
   const float w = radial_farthest_lit(light, radial_depth_of(light, stored));
   const float spread = 1.001 * MESH_SPREAD * length(max(abs(box.low), abs(box.high)));

@@ -18,12 +18,13 @@ LAMP_CONST_FLOAT SHADOW_MOST_GRAZING = 2.0;
 // A step of one texel in an octahedron is up to sqrt(3) times as long as in a plane across its axis.
 LAMP_CONST_FLOAT SHADOW_FOLDED_STEP = 1.7320508;
 
+float shadow_fold(uint light) { return shadow_maps[light].kind == SHADOW_OCTAHEDRON ? SHADOW_FOLDED_STEP : 1.0; }
+
 // Metres. `axis`, `w`: of the place, as in ShadowPlace. `taps`: texels from the place to its farthest tap.
 float shadow_normal_offset(uint light, vec3 axis, float w, vec3 rel, vec3 normal, float taps) {
   const float along = shadow_dot(normal, axis);
-  const float step = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? SHADOW_FOLDED_STEP : 1.0;
   precise const float sine = max(sqrt(max(1.0 - along * along, 0.0)), SHADOW_LEAST_SINE);
-  precise const float m = (taps + SHADOW_TEXEL_REACH) * step * sine / shadow_maps[light].scale;
+  precise const float m = (taps + SHADOW_TEXEL_REACH) * shadow_fold(light) * sine / shadow_maps[light].scale;
   precise const float a = abs(shadow_dot(normal, rel)) / w;
   precise const float grazing = 2.0 * m < a ? a / (a - m) : SHADOW_MOST_GRAZING;
   precise const float metres = w * m * grazing;

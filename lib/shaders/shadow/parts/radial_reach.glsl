@@ -45,7 +45,7 @@ float radial_taps(uint light) {
 
 // h over M's depth; negative: without bound.
 float radial_offset(uint light) {
-  const float folded = shadow_maps[light].kind == SHADOW_OCTAHEDRON ? SHADOW_FOLDED_STEP : 1.0;
+  const float folded = shadow_fold(light);
   const float m = (radial_offset_taps(light) + SHADOW_TEXEL_REACH) * folded / shadow_maps[light].scale;
   return m * folded < 0.9 ? SHADOW_MOST_GRAZING * m / (1.0 - m * folded) : -1.0;
 }
