@@ -279,11 +279,18 @@ bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) 
   return candidate.spent_ms > LONGEST_MS && (!warm || candidate.frames.size() >= FEWEST_FRAMES);
 }
 
+/// Frames to get warm by are others than the first that is timed: else what is drawn only where something has moved,
+/// shadow maps, would be missing in that one.
+std::uint32_t frame_of_round(const Group& group, std::uint32_t round) {
+  if (round >= group.warm_up) return round - group.warm_up;
+  return group.flight ? group.frames - 1 : group.frames + round;
+}
+
 void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
   const std::uint32_t rounds = info.group.warm_up + info.group.frames;
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const bool warm = round >= info.group.warm_up;
-    const std::uint32_t number = warm ? round - info.group.warm_up : 0;
+    const std::uint32_t number = frame_of_round(info.group, round);
     const BenchFrame frame = bench_frame(scene, info.group, number);
     const bool each_its_own = info.group.still > 0.0;  // each may have lists of still lights of its own
     if (!each_its_own) renderer.set_frame(frame.views, frame.lights, frame.decals);

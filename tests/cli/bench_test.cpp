@@ -164,6 +164,14 @@ TEST_F(Bench, ASceneWithShadowsAndLightsThatStandStill) {
   EXPECT_EQ(parameters.at("atlas"), 256);
 }
 
+/// Lights move from the last frame that warms up to the first that is timed.
+TEST_F(Bench, EveryTimedFrameDrawsTheShadowMapsOfLightsThatMove) {
+  (void)output_of({"bench", "posts", "--size", "32x18", "--lights", "2", "--method", "tiled", "--shadows", "hard",
+                   "--atlas", "256", "--warm-up", "1", "--frames", "1", "--out", "out"});
+  const json passes = results().at("results").at(0).at("stats").at("passes");
+  EXPECT_TRUE(std::ranges::any_of(passes, [](const json& pass) { return pass.at("name") == "shadow maps"; })) << passes;
+}
+
 TEST_F(Bench, ASceneWithDecalsAndProbesHoldsThoseAgainstTheOracleToo) {
   (void)output_of({"bench", "atrium", "--size", "64x36", "--lights", "8", "--decals", "16", "--probes", "12",
                    "--method", "tiled", "--frames", "1", "--out", "out"});
