@@ -195,10 +195,12 @@ void Context::create_device(const ContextInfo& info) {
   features.base.features.shaderClipDistance = has.shaderClipDistance;
   features.base.features.multiDrawIndirect = has.multiDrawIndirect;
   features.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;
+  features.base.features.multiViewport = has.multiViewport;
   doubles_ = has.shaderFloat64 == VK_TRUE;
   vulkan::RequiredFeatures all(VK_FALSE);
   vkGetPhysicalDeviceFeatures2(physical_, &all.base);
   features.vulkan12.bufferDeviceAddress = all.vulkan12.bufferDeviceAddress;
+  features.vulkan12.shaderOutputViewportIndex = all.vulkan12.shaderOutputViewportIndex;
 
   const float priority = 1.0F;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

@@ -19,7 +19,7 @@ struct ShadowCasters {
     std::uint32_t count = 0;
   };
   std::vector<gpu::ShadowCaster> casters;
-  std::vector<gpu::ShadowDraw> draws;  ///< one for each, with no instances
+  std::vector<gpu::ShadowDraw> draws;  ///< one for each, its triangles alone
   std::vector<Group> groups;
 };
 

@@ -18,8 +18,9 @@ constexpr std::uint32_t CULL_GROUP = 64;
 
 std::uint32_t views_a_batch(const ShadowCasters& casters, std::uint64_t most_views) {
   const auto count = std::max(1U, static_cast<std::uint32_t>(casters.casters.size()));
-  return static_cast<std::uint32_t>(
+  const auto views = static_cast<std::uint32_t>(
       std::clamp<std::uint64_t>(std::min<std::uint64_t>(BATCH_PAIRS / count, most_views), 1, MOST_BATCH_VIEWS));
+  return (views + gpu::VIEWS_A_DRAW - 1) / gpu::VIEWS_A_DRAW * gpu::VIEWS_A_DRAW;
 }
 
 }  // namespace
@@ -37,7 +38,6 @@ ShadowDrawing::ShadowDrawing(Context& context, const GpuScene& scene, const Shad
       casters_(shadow_casters(scene)),
       views_a_batch_(views_a_batch(casters_, info.most_views)),
       atlas_(context.device(), atlas) {
-  for (std::uint32_t i = 0; i < casters_.draws.size(); ++i) casters_.draws[i].first_instance = i * views_a_batch_;
   caster_buffer_ =
       upload_buffer(context, "shadow casters", bytes_of(casters_.casters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   pairs_ = shadow_buffer(context.device(), "shadow pairs",
@@ -45,41 +45,36 @@ ShadowDrawing::ShadowDrawing(Context& context, const GpuScene& scene, const Shad
 }
 
 vulkan::Pipeline ShadowDrawing::pair_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
-                                              const char* shader) const {
-  return take(vulkan::Pipeline::compute(device,
-                                        {.name = shader,
-                                         .constants = {{0, views_a_batch_}},
-                                         .bindings = {{0}, {1}, {2}, {3}, {4}},
-                                         .push_constant_bytes = sizeof(gpu::ShadowBatch)},
-                                        shaders.spirv(shader)));
+                                              const char* shader, std::initializer_list<std::uint32_t> more) const {
+  vulkan::PipelineInfo info{.name = shader,
+                            .constants = {{0, views_a_batch_}},
+                            .bindings = {{0}, {1}, {2}, {4}},
+                            .push_constant_bytes = sizeof(gpu::ShadowBatch)};
+  for (const std::uint32_t binding : more) info.bindings.push_back({binding});
+  return take(vulkan::Pipeline::compute(device, info, shaders.spirv(shader)));
 }
 
 void ShadowDrawing::record(vulkan::Recorder& recorder, const ShadowJob& job) {
-  record_clears(recorder, job.squares);
-  for (std::uint32_t at = 0; at < job.view_count && !casters_.casters.empty(); at += views_a_batch_)
-    record_batch(recorder, job, at, std::min(views_a_batch_, job.view_count - at));
+  record_start(recorder, job);
+  const auto count = static_cast<std::uint32_t>(job.host_views.size());
+  for (std::uint32_t at = 0; at < count && !casters_.casters.empty(); at += views_a_batch_)
+    record_batch(recorder, job, at, std::min(views_a_batch_, count - at));
 }
 
 void ShadowDrawing::record_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline,
-                                 const vulkan::Buffer& zeros, const vulkan::Buffer& counts, const ShadowJob& job,
-                                 std::uint32_t first_view, std::uint32_t count) {
-  const vulkan::Resource counted = vulkan::Resource::storage(counts.handle());
+                                 std::span<const vulkan::Bound> more, const ShadowJob& job, std::uint32_t first_view,
+                                 std::uint32_t count, std::uint32_t views_a_thread) {
   const vulkan::Resource pairs = vulkan::Resource::storage(pairs_.handle());
-  recorder.barrier({copies_to(counted)});
-  const VkBufferCopy all{.size = counts.bytes()};
-  vkCmdCopyBuffer(recorder.commands(), zeros.handle(), counts.handle(), 1, &all);
-
-  recorder.barrier({changes(counted), changes(pairs), reads(job.views, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
-  const std::vector<vulkan::Bound> bound{{0, job.views},
-                                         {1, vulkan::Resource::storage(caster_buffer_.handle())},
-                                         {2, scene_.instances()},
-                                         {3, counted},
-                                         {4, pairs}};
+  recorder.barrier({changes(pairs), reads(job.views, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT)});
+  std::vector<vulkan::Bound> bound{
+      {0, job.views}, {1, vulkan::Resource::storage(caster_buffer_.handle())}, {2, scene_.instances()}, {4, pairs}};
+  bound.insert(bound.end(), more.begin(), more.end());
   recorder.bind(pipeline, bound);
-  const gpu::ShadowBatch batch{.first_view = first_view,
-                               .casters = static_cast<std::uint32_t>(casters_.casters.size())};
+  const gpu::ShadowBatch batch{
+      .first_view = first_view, .views = count, .casters = static_cast<std::uint32_t>(casters_.casters.size())};
   vkCmdPushConstants(recorder.commands(), pipeline.layout(), VK_SHADER_STAGE_ALL, 0, sizeof(batch), &batch);
-  vkCmdDispatch(recorder.commands(), (batch.casters + CULL_GROUP - 1) / CULL_GROUP, count, 1);
+  vkCmdDispatch(recorder.commands(), (batch.casters + CULL_GROUP - 1) / CULL_GROUP,
+                (count + views_a_thread - 1) / views_a_thread, 1);
 }
 
 }  // namespace lamp::app

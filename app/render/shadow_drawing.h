@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "lamplight/shadow_atlas.h"
 #include "render/pass_uses.h"
 #include "render/shader_library.h"
 #include "render/shadow_casters.h"
@@ -15,10 +16,11 @@ namespace lamp::app {
 
 /// What is drawn in a frame. Resources are buffers that the GPU reads.
 struct ShadowJob {
-  vulkan::Resource views;  ///< shared::ShadowView
-  std::uint32_t view_count = 0;
-  vulkan::Resource maps;                       ///< shared::ShadowMap of each light
-  std::span<const gpu::ShadowSquare> squares;  ///< those of the views
+  vulkan::Resource views;                          ///< shared::ShadowView of the whole atlas
+  vulkan::Resource maps;                           ///< shared::ShadowMap of each light
+  std::span<const ShadowSquare> squares;           ///< those of the views
+  std::span<const shared::ShadowView> host_views;  ///< the same ones
+  std::span<const ShadowSquare> viewports;         ///< of each view: outside of it nothing may be drawn
 };
 
 struct ShadowDrawingInfo {
@@ -41,12 +43,13 @@ class ShadowDrawing {
  protected:
   ShadowDrawing(Context& context, const GpuScene& scene, const ShadowDrawingInfo& info, const GpuImageInfo& atlas);
 
-  /// The pipeline that finds pairs.
+  /// The pipeline that finds pairs. It reads views, casters and instances; binding 4 is `pairs_`. `more`: its other
+  /// buffers.
   [[nodiscard]] vulkan::Pipeline pair_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
-                                               const char* shader) const;
-  /// Pairs of the `count` views from `first_view` on; `counts`: what the pipeline counts them in, at first `zeros`.
-  void record_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline, const vulkan::Buffer& zeros,
-                    const vulkan::Buffer& counts, const ShadowJob& job, std::uint32_t first_view, std::uint32_t count);
+                                               const char* shader, std::initializer_list<std::uint32_t> more) const;
+  /// Of the `count` views from `first_view` on; `more`: what it changes besides, or reads without having to wait.
+  void record_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline, std::span<const vulkan::Bound> more,
+                    const ShadowJob& job, std::uint32_t first_view, std::uint32_t count, std::uint32_t views_a_thread);
 
   const GpuScene& scene_;
   ShadowCasters casters_;
@@ -56,8 +59,8 @@ class ShadowDrawing {
   vulkan::Buffer pairs_;
 
  private:
-  /// The first time all of the image, too.
-  virtual void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) = 0;
+  /// What comes before the batches. Clears the squares, the first time all of the image.
+  virtual void record_start(vulkan::Recorder& recorder, const ShadowJob& job) = 0;
   virtual void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
                             std::uint32_t count) = 0;
 };

@@ -39,7 +39,7 @@ class ShadowRasterizer final : public ShadowDrawing {
   void make_bits(const vulkan::Device& device);
   void make_pipelines(const vulkan::Device& device, const ShaderLibrary& shaders);
   [[nodiscard]] vulkan::Resource texels() const;
-  void record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) override;
+  void record_start(vulkan::Recorder& recorder, const ShadowJob& job) override;
   void record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
                     std::uint32_t count) override;
   void record_group(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view, std::uint32_t group);
@@ -105,7 +105,7 @@ void ShadowRasterizer::make_pipelines(const vulkan::Device& device, const Shader
   clear_ =
       make("shadow_clear",
            {.bindings = {{1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, .push_constant_bytes = sizeof(std::uint32_t)}, {0});
-  list_ = pair_pipeline(device, shaders, "shadow_list");
+  list_ = pair_pipeline(device, shaders, "shadow_list", {3});
   for (std::uint32_t masked = 0; masked < 2; ++masked) {
     const vulkan::PipelineInfo info{.constants = {{0, views_a_batch_}, {1, masked}},
                                     .bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
@@ -123,10 +123,12 @@ vulkan::Resource ShadowRasterizer::texels() const {
   return resource;
 }
 
-void ShadowRasterizer::record_clears(vulkan::Recorder& recorder, std::span<const gpu::ShadowSquare> squares) {
-  const gpu::ShadowSquare whole{.corner = {0, 0}, .side = atlas_.info().width};
+void ShadowRasterizer::record_start(vulkan::Recorder& recorder, const ShadowJob& job) {
+  std::span<const ShadowSquare> squares = job.squares;
+  const ShadowSquare whole{.corner = {0, 0}, .side = atlas_.info().width};
   if (!std::exchange(cleared_, true)) squares = {&whole, 1};
   if (squares.empty()) return;
+  static_assert(sizeof(ShadowSquare) == sizeof(gpu::ShadowSquare));
   std::memcpy(squares_.mapped().data(), squares.data(), squares.size_bytes());
   vulkan::Use overwrites = changes(texels());
   overwrites.discard = squares.data() == &whole;
@@ -140,7 +142,12 @@ void ShadowRasterizer::record_clears(vulkan::Recorder& recorder, std::span<const
 
 void ShadowRasterizer::record_batch(vulkan::Recorder& recorder, const ShadowJob& job, std::uint32_t first_view,
                                     std::uint32_t count) {
-  record_pairs(recorder, list_, group_template_, groups_, job, first_view, count);
+  recorder.barrier({copies_to(storage(groups_))});
+  const VkBufferCopy all{.size = groups_.bytes()};
+  vkCmdCopyBuffer(recorder.commands(), group_template_.handle(), groups_.handle(), 1, &all);
+  recorder.barrier({changes(storage(groups_))});
+  const vulkan::Bound groups{3, storage(groups_)};
+  record_pairs(recorder, list_, {&groups, 1}, job, first_view, count, 1);
   for (std::uint32_t group = 0; group < casters_.groups.size(); ++group) record_group(recorder, job, first_view, group);
 }
 

@@ -94,10 +94,10 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
   ages_.resize(lights.size());
   for (std::uint32_t& age : ages_) ++age;
   for (const ShadowRedraw& redraw : frame.redraws) ages_[redraw.light] = 0;
-  view_count_ = static_cast<std::uint32_t>(frame.views.size());
-  redrawn_squares_.clear();
-  for (const ShadowSquare& square : frame.squares)
-    redrawn_squares_.push_back({.corner = square.corner, .side = square.side});
+  redrawn_squares_.assign(frame.squares.begin(), frame.squares.end());
+  host_views_.assign(frame.views.begin(), frame.views.end());
+  viewports_.clear();
+  for (const shared::ShadowView& view : host_views_) viewports_.push_back(shadow_viewport(maps_[view.light], view));
   if (moments_) moments_->set(maps_, frame.redraws);
   lights_.assign(lights.begin(), lights.end());
   if (bounds_lights())
@@ -105,8 +105,8 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
       if (reach) reach->add(frame.radial_jobs);
   const std::span<std::byte> to = staging_.mapped();
   if (!maps_.empty()) std::memcpy(to.data(), maps_.data(), maps_.size() * sizeof(shared::ShadowMap));
-  if (view_count_ != 0)
-    std::memcpy(to.subspan(map_buffer_.bytes()).data(), frame.views.data(), frame.views.size_bytes());
+  if (!host_views_.empty())
+    std::memcpy(to.subspan(map_buffer_.bytes()).data(), host_views_.data(), frame.views.size_bytes());
 }
 
 void Shadows::record(vulkan::Recorder& recorder) {
@@ -115,9 +115,10 @@ void Shadows::record(vulkan::Recorder& recorder) {
   record_uploads(recorder);
   const vulkan::Resource maps = vulkan::Resource::storage(map_buffer_.handle());
   drawing_->record(recorder, {.views = vulkan::Resource::storage(views_.handle()),
-                              .view_count = view_count_,
                               .maps = maps,
-                              .squares = redrawn_squares_});
+                              .squares = redrawn_squares_,
+                              .host_views = host_views_,
+                              .viewports = viewports_});
   recorder.end_pass();
   if (moments_) moments_->record(recorder, maps, atlas());
 }
@@ -164,7 +165,7 @@ void Shadows::record_uploads(vulkan::Recorder& recorder) {
     if (bytes != 0) vkCmdCopyBuffer(recorder.commands(), staging_.handle(), to.handle(), 1, &part);
   };
   copy(map_buffer_, 0, maps_.size() * sizeof(shared::ShadowMap));
-  copy(views_, map_buffer_.bytes(), view_count_ * sizeof(shared::ShadowView));
+  copy(views_, map_buffer_.bytes(), host_views_.size() * sizeof(shared::ShadowView));
 }
 
 }  // namespace lamp::app

@@ -126,8 +126,9 @@ class Shadows {
   std::vector<std::uint32_t> ages_;
   std::vector<shared::Light> lights_;       ///< of the last `schedule`
   std::vector<shared::LightSphere> moved_;  ///< since then
-  std::vector<gpu::ShadowSquare> redrawn_squares_;
-  std::uint32_t view_count_ = 0;
+  std::vector<ShadowSquare> redrawn_squares_;
+  std::vector<shared::ShadowView> host_views_;
+  std::vector<ShadowSquare> viewports_;  ///< of the views
 };
 
 }  // namespace lamp::app

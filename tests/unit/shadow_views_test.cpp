@@ -44,6 +44,29 @@ shared::ShadowMap map_of(const shared::Light& light, const ShadowAtlasInfo& info
   return lamp::shadow_map(light, info, side, corners);
 }
 
+glm::dvec3 clip_of(const shared::ShadowView& view, const glm::dvec3& rel) {
+  return {glm::dot(glm::dvec3(glm::vec3(view.row_x)), rel), glm::dot(glm::dvec3(glm::vec3(view.row_y)), rel),
+          glm::dot(glm::dvec3(glm::vec3(view.row_w)), rel)};
+}
+
+/// A viewport of its own draws a view where the whole atlas as viewport does, and nothing that planes would clip.
+void expect_same_in_viewport(const shared::ShadowMap& map, const shared::ShadowView& view, const glm::dvec3& rel) {
+  const lamp::ShadowSquare viewport = lamp::shadow_viewport(map, view);
+  const glm::dvec3 clip = clip_of(view, rel);
+  const glm::dvec3 own = clip_of(lamp::shadow_view_in(view, viewport, ATLAS), rel);
+  EXPECT_EQ(own.z, clip.z);
+  if (!(clip.z > 0.01)) return;
+  const glm::dvec2 texel = (glm::dvec2(clip) / clip.z + 1.0) * (ATLAS * 0.5);
+  const glm::dvec2 own_texel =
+      glm::dvec2(viewport.corner.x, viewport.corner.y) + (glm::dvec2(own) / own.z + 1.0) * (viewport.side * 0.5);
+  const double steep = 1.0 + glm::length(texel) / ATLAS;  // far outside of it numbers are large
+  EXPECT_LE(glm::distance(texel, own_texel), 1e-3 * steep);
+  const bool octant = map.kind == shared::SHADOW_OCTAHEDRON;
+  bool drawn = std::max(std::abs(own.x), std::abs(own.y)) < 0.999 * own.z;
+  drawn = drawn && (!octant || glm::dot(glm::dvec3(glm::vec3(view.planes[2])), rel) > 1e-3);
+  for (const glm::vec3 plane : view.planes) EXPECT_TRUE(!drawn || glm::dot(glm::dvec3(plane), rel) > 0.0);
+}
+
 /// How many views draw a point, and that each draws it where the look-up finds it.
 int drawn_at(const shared::ShadowMap& map, const glm::vec3& point) {
   std::vector<shared::ShadowView> views;
@@ -53,6 +76,7 @@ int drawn_at(const shared::ShadowMap& map, const glm::vec3& point) {
   for (const shared::ShadowView& view : views) {
     EXPECT_EQ(view.light, 5U);
     const glm::dvec3 rel = glm::dvec3(point) - glm::dvec3(view.position);
+    expect_same_in_viewport(map, view, rel);
     bool inside = true;
     for (const glm::vec3 plane : view.planes) inside = inside && glm::dot(glm::dvec3(plane), rel) >= 0.0;
     if (!inside) continue;

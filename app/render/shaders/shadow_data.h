@@ -19,18 +19,22 @@ struct ShadowCaster {
   uint group;  // of casters of one material
 };
 
+// Views that are drawn together, each with a scissor of its own: as many viewports as every device has that has several.
+LAMP_CONST VIEWS_A_DRAW = 16u;
+
 // VkDrawIndexedIndirectCommand
 struct ShadowDraw {
   uint indices;
   uint instances;  // views that show the caster
   uint first_index;
   uint vertex_offset;
-  uint first_instance;  // where the caster's views begin among the pairs
+  uint first_instance;  // where these begin among the pairs
 };
 
 // Push constants of finding pairs.
 struct ShadowBatch {
   uint first_view;
+  uint views;
   uint casters;
 };
 

@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push { ShadowBatch batch; };
 void main() {
   const uint caster = gl_GlobalInvocationID.x;
   const uint view = batch.first_view + gl_WorkGroupID.y;
-  if (caster >= batch.casters || !shows_caster(view, caster)) return;
+  if (caster >= batch.casters || !shows_sphere(views[view], caster_sphere(caster))) return;
   const uint group = casters[caster].group;
   const uint place = atomicAdd(groups[group].pairs, 1u);
   pairs[groups[group].first_caster * VIEWS_A_BATCH + place] = caster * VIEWS_A_BATCH + gl_WorkGroupID.y;

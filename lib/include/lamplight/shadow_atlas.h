@@ -155,6 +155,14 @@ class LAMPLIGHT_API ShadowAtlas {
 LAMPLIGHT_API void add_shadow_views(const shared::ShadowMap& map, std::uint32_t atlas_size, std::uint32_t light,
                                     std::vector<shared::ShadowView>& views);
 
+/// The part of the atlas that a view of a map shows, for draws with a viewport and a scissor of their own: the square
+/// of a face or spot, and of an octant the quarter that it shares with one other, from which planes[2] parts it.
+[[nodiscard]] LAMPLIGHT_API ShadowSquare shadow_viewport(const shared::ShadowMap& map, const shared::ShadowView& view);
+/// The same view with clip space of that viewport, not of the whole atlas. Nothing then needs to be clipped but
+/// octants.
+[[nodiscard]] LAMPLIGHT_API shared::ShadowView shadow_view_in(const shared::ShadowView& view,
+                                                              const ShadowSquare& viewport, std::uint32_t atlas_size);
+
 /// Where in the atlas a map holds what lies at a point, in texels (centres at +0.5), and the depth of the point.
 struct ShadowPlace {
   Vec2 texel{};

@@ -176,6 +176,25 @@ void add_shadow_views(const shared::ShadowMap& map, std::uint32_t atlas_size, st
     add_octant(map, octant, atlas_size, light, views);
 }
 
+ShadowSquare shadow_viewport(const shared::ShadowMap& map, const shared::ShadowView& view) {
+  if (map.kind != shared::SHADOW_OCTAHEDRON) return {.corner = square_at(map, view.view), .side = map.side};
+  const std::uint32_t half = map.side / 2;
+  const glm::uvec2 quarter((view.view & 1U) == 0 ? half : 0, (view.view & 2U) == 0 ? half : 0);
+  return {.corner = square_at(map, 0) + quarter, .side = half};
+}
+
+shared::ShadowView shadow_view_in(const shared::ShadowView& view, const ShadowSquare& viewport,
+                                  std::uint32_t atlas_size) {
+  const double side = viewport.side;
+  const double of_clip = side / atlas_size;
+  const glm::dvec2 middle = (2.0 * glm::dvec2(glm::uvec2(viewport.corner)) + side) / double(atlas_size) - 1.0;
+  const glm::dvec3 w{glm::vec3(view.row_w)};
+  shared::ShadowView own = view;
+  own.row_x = glm::vec3((glm::dvec3{glm::vec3(view.row_x)} - middle.x * w) / of_clip);
+  own.row_y = glm::vec3((glm::dvec3{glm::vec3(view.row_y)} - middle.y * w) / of_clip);
+  return own;
+}
+
 ShadowPlace shadow_place(const shared::ShadowMap& map, const Vec3& world) {
   const glm::vec3 axis_x = map.axis_x;
   const glm::vec3 axis_z = map.axis_z;

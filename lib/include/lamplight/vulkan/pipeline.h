@@ -45,6 +45,7 @@ struct GraphicsState {
   std::uint32_t vertex_bytes = 0;
   VkCullModeFlags cull = VK_CULL_MODE_NONE;  ///< front faces are counter-clockwise
   bool dynamic_cull = false;                 ///< cull mode set while recording
+  std::uint32_t viewports = 1;               ///< and scissors, all set while recording
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkSampleMask sample_mask = ~0U;  ///< of the first 32: which of them are written
   std::vector<VkFormat> colors;
