@@ -19,7 +19,8 @@ struct ShadowCaster {
   uint group;  // of casters of one material
 };
 
-// Views that are drawn together, each with a scissor of its own: as many viewports as every device has that has several.
+// Views that are drawn together, each with a scissor of its own: as many viewports as every device has that has
+// several.
 LAMP_CONST VIEWS_A_DRAW = 16u;
 
 // VkDrawIndexedIndirectCommand
