@@ -1,0 +1,75 @@
+// How a light's map is cut into blocks of texels, what each of them may light, and how far it reaches.
+// Needs: gl_WorkGroupSize; common/radial_cells.glsl, shadow/parts/radial_reach.glsl.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_SHADOW_RADIAL_BLOCKS
+#define LAMP_SHADOW_RADIAL_BLOCKS
+
+const uint BLOCKS = 16u;             // a side of a square, a quarter of a cell's angle and less
+const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
+const uint LEAST_BLOCK = 2u;         // texels; all round a light single ones say hardly more, and take longer
+const uint DIRECT_SIZE = 4u;         // texels a side: a thread reads a block as small as this alone
+const uint MOST_BLOCKS = max(OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS, SQUARES_A_LIGHT * BLOCKS * BLOCKS);
+shared uint s_nearest_stored[MOST_BLOCKS];  // bits of near / w of a larger block's farthest texel
+
+// How maps of a kind and side are cut into blocks; all are powers of two.
+struct Cut {
+  uint kind;
+  uint side;        // texels
+  uint blocks;      // a side
+  uint block_bits;  // of their number
+  uint size;        // of a block, texels a side
+  uint all_blocks;  // of a light
+};
+
+Cut cut_of(uint light) {
+  Cut cut;
+  cut.kind = shadow_maps[light].kind;
+  cut.side = max(shadow_maps[light].side, LEAST_SQUARE);
+  cut.blocks = min(cut.side / (cut.kind == SHADOW_SPOT ? 1u : LEAST_BLOCK),
+                   cut.kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
+  cut.block_bits = uint(findMSB(cut.blocks));
+  cut.size = cut.side >> cut.block_bits;
+  cut.all_blocks = (cut.kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u) << (2u * cut.block_bits);
+  return cut;
+}
+
+uint square_of(Cut cut, uint block) { return block >> (2u * cut.block_bits); }
+
+// Its first texel.
+uvec2 place_of(Cut cut, uint block) {
+  return (uvec2(block, block >> cut.block_bits) & (cut.blocks - 1u)) * cut.size;
+}
+
+// A thread takes a column of a block; those of a row of blocks lie together in memory.
+void farthest_of_blocks(uint light, Cut cut) {
+  const uint side_bits = uint(findMSB(cut.side));
+  const uint columns = cut.all_blocks * cut.size;
+  for (uint column = gl_LocalInvocationIndex; column < columns; column += gl_WorkGroupSize.x) {
+    const uint row = column >> side_bits;  // of blocks, in all squares
+    const uint x = column & (cut.side - 1u);
+    const ivec2 first = ivec2(x, (row & (cut.blocks - 1u)) * cut.size);
+    const float stored =
+        radial_least_of_column(shadow_square(light, row >> cut.block_bits), first, int(cut.size));
+    atomicMin(s_nearest_stored[(row << cut.block_bits) + x / cut.size], floatBitsToUint(stored));
+  }
+}
+
+float farthest_of_block(uint light, Cut cut, uint block) {
+  const ShadowSquare square = shadow_square(light, square_of(cut, block));
+  const ivec2 first = ivec2(place_of(cut, block));
+  float least = 1.0;
+  for (int y = 0; y < int(cut.size); y += 2) {
+    for (int x = 0; x < int(cut.size); x += 2) {
+      float stored[4];
+      [[unroll]] for (int i = 0; i < 4; ++i) {
+        const ivec2 at = ivec2(x + i % 2, y + i / 2);
+        stored[i] = 1.0;
+        if (max(at.x, at.y) < int(cut.size)) stored[i] = SHADOW_TEXEL(shadow_atlas, square.corner + first + at).x;
+      }
+      least = min(least, min(min(stored[0], stored[1]), min(stored[2], stored[3])));
+    }
+  }
+  return max(least, 0.0);
+}
+
+#endif
