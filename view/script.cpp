@@ -282,11 +282,29 @@ constexpr std::array<std::pair<std::string_view, Play>, 18> LINES{{{"set", play_
                                                                    {"save_state", play_save_state},
                                                                    {"save_screen", play_save_screen}}};
 
+/// Limits are an object of min and max, places in the report JSON pointers.
+void check_expected(const ScriptLine& line) {
+  for (const auto& [key, expected] : line.value.items()) {
+    try {
+      static_cast<void>(nlohmann::json::json_pointer(key));
+    } catch (const nlohmann::json::exception&) {
+      fail(line, fmt::format("expect: '{}' is no place in the report, expected one such as /shown/lights", key));
+    }
+    if (!expected.is_object()) continue;
+    for (const auto& [limit, value] : expected.items())
+      if ((limit != "min" && limit != "max") || !value.is_number())
+        fail(line, fmt::format("expect: {} is {}, expected a value or numbers as min and max", key, expected.dump()));
+  }
+}
+
 /// What can be known of a line before it is played.
 void check_line(const ScriptLine& line) {
   if (line.what == "set" || line.what == "expect") {
     if (!line.value.is_object()) fail(line, fmt::format("{} is {}, expected an object", line.what, shown(line.value)));
   }
+  if (line.what == "expect") check_expected(line);
+  if (line.what != "hold" && line.line.contains("frames"))
+    fail(line, fmt::format("frames: belongs to hold, not to {}", line.what));
   if (line.what == "key" || line.what == "hold") static_cast<void>(chord_of(line));
   if (line.what == "wait" && line.value != "idle") static_cast<void>(count_of(line, line.value));
   if (line.what == "drag" || line.what == "drag_picture") static_cast<void>(way_of(line));
@@ -307,6 +325,7 @@ ScriptLine parse_line(std::string_view text, const std::string& name) {
     line.what = key;
     line.value = value;
   }
+  if (line.what.empty()) fail(line, fmt::format("has frames alone, expected one of {}", fmt::join(names, ", ")));
   check_line(line);
   return line;
 }

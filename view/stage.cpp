@@ -26,10 +26,11 @@ namespace {
 constexpr std::size_t MOST_LIGHTINGS = 8;
 
 std::string key_of(const LightingInfo& info, bool grow) {
-  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {} {} {}", info.method->name, fmt::join(info.options.all(), " "),
-                     info.width, info.height, info.light_capacity, static_cast<int>(info.path),
-                     static_cast<int>(info.brdf), info.decals, info.depth.samples, info.depth.reversed,
-                     info.shadows ? static_cast<int>(*info.shadows) : -1, info.probes, info.still, grow);
+  return fmt::format("{} {} {}x{} {} {} {} {} {} {} {} {} {} {} {}", info.method->name,
+                     fmt::join(info.options.all(), " "), info.width, info.height, info.light_capacity,
+                     static_cast<int>(info.path), static_cast<int>(info.brdf), info.decals, info.depth.samples,
+                     info.depth.reversed, info.shadows ? static_cast<int>(*info.shadows) : -1, info.probes, info.mirror,
+                     info.still, grow);
 }
 
 bool can_be_laid_over(const ViewState& state) {

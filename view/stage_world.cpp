@@ -89,6 +89,11 @@ ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) 
                                        .options = options,
                                        .traits = context_.device().traits}));
   const bool is_tree = plan.binds(INPUT_STILL);
+  if (!is_tree && std::ranges::find(plan.buffers, "levels", &BufferDesc::name) == plan.buffers.end()) {
+    read.refused =
+        fmt::format("{} has bits of lights, not cells with lists; world-cells and world-tree have", method->name);
+    return read;
+  }
   std::optional<WorldTree> tree;
   if (is_tree) tree = make_still_tree(lights, options, 0.0F);
   std::vector<glm::vec3> points{found.position};

@@ -149,12 +149,12 @@ std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene
   return decals;
 }
 
-glm::uvec2 parse_size(const std::string& text) {
+glm::uvec2 parse_size(const std::string& text, std::string_view option) {
   const std::size_t x = text.find('x');
   glm::uvec2 size(0);
   if (x == std::string::npos || !parse_number(std::string_view(text).substr(0, x), size.x) ||
       !parse_number(std::string_view(text).substr(x + 1), size.y) || size.x == 0 || size.y == 0)
-    throw Error(fmt::format("--size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1280x720", text));
+    throw Error(fmt::format("{} '{}': expected WIDTHxHEIGHT, both at least 1, such as 1280x720", option, text));
   return size;
 }
 

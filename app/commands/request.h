@@ -175,7 +175,7 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] Scene load_scene(const std::string& name);
 
 /// "1280x720" to numbers, each 1 or more.
-[[nodiscard]] glm::uvec2 parse_size(const std::string& text);
+[[nodiscard]] glm::uvec2 parse_size(const std::string& text, std::string_view option = "--size");
 /// "MIN:MAX" or one number, in metres; both infinite for "inf": no range; 0, 0 when empty: automatic.
 [[nodiscard]] std::pair<float, float> parse_range(const std::string& text);
 [[nodiscard]] ShadingPath parse_path(const std::string& text);

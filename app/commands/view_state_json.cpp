@@ -335,6 +335,9 @@ void read_state(ViewState& state, const nlohmann::json& json, const std::string&
   object.check_keys(known.keys);
   if (object.has("version")) static_cast<void>(object.whole("version", VERSION, VERSION));
   for_each_field(Reader(object), read);
+  // Who names another camera leaves the free one.
+  const bool elsewhere = object.has("camera") || (object.has("frame") && read.request.frame >= 0);
+  if (elsewhere && !object.has("free_camera")) read.request.free_camera.reset();
   try {
     check_state(read);
   } catch (const Error& error) {

@@ -36,6 +36,11 @@ TEST(Script, SaysWhatIsWrong) {
       {R"({"key": "ctrl+esc"})", "'esc': there is no such key; the nearest are"},
       {R"({"drag": [1, 2]})", "drag is 1, expected two numbers"},
       {R"({"set": 3})", "set is 3, expected an object"},
+      {R"({"frames": 3})", "line 1: has frames alone, expected one of set, "},
+      {R"({"wait": 3, "frames": 3})", "frames: belongs to hold, not to wait"},
+      {R"({"expect": {"shown": 1}})", "line 1: expect: 'shown' is no place in the report, expected one such as /"},
+      {R"({"expect": {"/shown/lights": {"mni": 1}}})",
+       "/shown/lights is {\"mni\":1}, expected a value or numbers as min"},
   };
   for (const auto& [text, says] : faults) EXPECT_NE(error_of(text).find(says), std::string::npos) << error_of(text);
 }

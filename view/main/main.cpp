@@ -61,7 +61,7 @@ void show(const CLI::App& app, const ViewOptions& o, const std::vector<ScriptLin
                   .bookmarks = bookmarks_of(o),
                   .script = script,
                   .plays = !o.script.empty(),
-                  .size = parse_size(o.screen),
+                  .size = parse_size(o.screen, "--screen"),
                   .validation = validation};
   if (!info.plays) {
     try {
@@ -104,7 +104,7 @@ Exit run(int argc, char** argv) {
   const std::vector<ScriptLine> script = o.script.empty() ? std::vector<ScriptLine>() : read_script(o.script);
   if (o.headless) {
     Context context({.device = o.state.request.device, .validation = validation});
-    run_headless(context, {.state = o.state, .screen = parse_size(o.screen), .bookmarks = bookmarks_of(o)},
+    run_headless(context, {.state = o.state, .screen = parse_size(o.screen, "--screen"), .bookmarks = bookmarks_of(o)},
                  [&](Player& player) { play(player, script); });
   } else {
     show(app, o, script, validation);
