@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "gpu/check.h"
@@ -27,29 +28,35 @@ gpu::StillWalk walk_of(std::span<const std::uint32_t> list) {
   return walk;
 }
 
-/// The weights of the second and the third corner at a position, as if it lay in the triangle's plane.
-glm::dvec2 weights_at(const StillTriangle& triangle, const glm::dvec3& position) {
+/// The weights of the second and the third corner at a position, as if it lay in the triangle's plane. Of a triangle
+/// that is hardly wider than a line they say nothing.
+std::optional<glm::dvec2> weights_at(const StillTriangle& triangle, const glm::dvec3& position) {
+  constexpr double THIN = 1e-8;  // square of a sine
   const glm::dvec3 a(triangle.corners[0]);
   const glm::dvec3 u = glm::dvec3(triangle.corners[1]) - a;
   const glm::dvec3 v = glm::dvec3(triangle.corners[2]) - a;
   const glm::dvec3 p = position - a;
   const double uv = glm::dot(u, v);
   const double determinant = glm::dot(u, u) * glm::dot(v, v) - uv * uv;
-  if (!(determinant > 0.0)) return glm::dvec2(0.0);
+  if (!(determinant > THIN * glm::dot(u, u) * glm::dot(v, v))) return std::nullopt;
   return glm::dvec2(glm::dot(v, v) * glm::dot(u, p) - uv * glm::dot(v, p),
                     glm::dot(u, u) * glm::dot(v, p) - uv * glm::dot(u, p)) /
          determinant;
 }
 
-/// Whether a normal that shading may have at the position sees the light.
+/// Whether the normal that shading has at the position may see the light. Where nothing tells which of a triangle's
+/// normals that is, whether all do.
 bool may_face(const StillTriangle& triangle, const glm::dvec3& position, const glm::dvec3& light) {
   if (triangle.normal_tilt >= 1.57F) return true;
-  const glm::dvec2 w = glm::clamp(weights_at(triangle, position), glm::dvec2(0.0), glm::dvec2(1.0));
-  const glm::dvec3 normal = glm::dvec3(triangle.normals[0]) * (1.0 - w.x - w.y) +
-                            glm::dvec3(triangle.normals[1]) * w.x + glm::dvec3(triangle.normals[2]) * w.y;
   const glm::dvec3 to_light = light - position;
-  return glm::dot(to_light, normal) >
-         -std::sin(double{triangle.normal_tilt}) * glm::length(to_light) * glm::length(normal);
+  const double least = -std::sin(double{triangle.normal_tilt}) * glm::length(to_light);
+  const auto sees = [&](const glm::dvec3& normal) { return glm::dot(to_light, normal) > least * glm::length(normal); };
+  const std::optional<glm::dvec2> weights = weights_at(triangle, position);
+  if (!weights)
+    return std::ranges::all_of(triangle.normals, [&](const auto& normal) { return sees(glm::dvec3(normal)); });
+  const glm::dvec2 w = glm::clamp(*weights, glm::dvec2(0.0), glm::dvec2(1.0));
+  return sees(glm::dvec3(triangle.normals[0]) * (1.0 - w.x - w.y) + glm::dvec3(triangle.normals[1]) * w.x +
+              glm::dvec3(triangle.normals[2]) * w.y);
 }
 
 /// Of one point.

@@ -223,5 +223,33 @@ TEST_P(StillLights, DecalsKeepTheirIds) {
 INSTANTIATE_TEST_SUITE_P(Of, StillLights, ::testing::Values("corridor", "atrium"),
                          [](const auto& test) { return test_name(test.param); });
 
+/// The poles of spheres have such triangles. Which of its normals a point has, nothing tells.
+TEST_F(GpuTest, PointsOfATriangleWithoutAreaMissOnlyWhatAllItsNormalsSee) {
+  const Vec3 up{0.0F, 1.0F, 0.0F};
+  const Vec3 down{0.0F, -1.0F, 0.0F};
+  const DVec3 start{};
+  const DVec3 end{1.0, 0.0, 0.0};
+  const std::vector<StillTriangle> triangles{
+      {.corners = {start, end, end}, .normals = {up, down, down}, .normal_tilt = 0.0F},
+      {.corners = {start, end, end}, .normals = {up, up, up}, .normal_tilt = 0.0F},
+      {.corners = {start, end, DVec3{1.0, 0.0, 1.0}}, .normals = {up, down, down}, .normal_tilt = 0.0F}};
+  const std::vector<shared::Light> lights{pack(Light{.position = {0.5F, 1.0F, 0.0F}, .range = 5.0F})};
+  const TriangleLists lists = take(make_triangle_lists({.triangles = triangles, .lights = lights, .slack_m = 0.01F}));
+  const StillLists on_gpu(test_context(), gpu::STILL_TRIANGLES, 1, lists.words);
+  const StillCheck check{.context = test_context(),
+                         .shaders = shader_library(),
+                         .triangles = triangles,
+                         .lights = lights,
+                         .list = [](const gpu::StillPoint&) { return std::vector<std::uint32_t>(); },
+                         .on_gpu = on_gpu};
+  const auto missed = [&](std::uint32_t triangle) {
+    const gpu::StillPoint point{.position = Vec3{0.1F, 0.0F, 0.0F}, .triangle = triangle};
+    return check_still_points(check, {&point, 1}).missed;
+  };
+  EXPECT_EQ(missed(0), 0U);
+  EXPECT_EQ(missed(1), 1U);
+  EXPECT_EQ(missed(2), 1U) << "its place says that it is near the first corner";
+}
+
 }  // namespace
 }  // namespace lamp::app
