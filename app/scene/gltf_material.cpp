@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/captured_frame.h"
 #include "scene/gltf_error.h"
 
 namespace lamp::app {
@@ -121,7 +122,10 @@ GltfMaterials read_materials(GltfDocument& document) {
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
     const tinygltf::Material& from = document.model.materials[i];
     result.materials.push_back(read_material(from, textures));
-    result.materials.back().emissive = emission(from, document.origin.file, i);
+    const glm::vec3 emitted = result.materials.back().emissive = emission(from, document.origin.file, i);
+    if (const float most = std::max({emitted.x, emitted.y, emitted.z}); most > LARGEST_EMISSION)
+      document.notes.push_back(fmt::format("material {}: emits {:g}, shown as {:g}, the most that is kept of a pixel",
+                                           i, most, LARGEST_EMISSION));
   }
   Material fallback;
   fallback.name = "default";

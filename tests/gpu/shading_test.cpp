@@ -133,6 +133,24 @@ TEST_P(Paths, AgreeWithEachOther) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Paths, ::testing::ValuesIn(scenes_and_brdfs()),
                          [](const auto& test) { return name_of(test.param); });
 
+/// G-buffers keep emission in half floats, which end at 65504.
+TEST_F(GpuTest, StrongEmissionIsTheSameThroughEveryPath) {
+  Scene scene = builtin_test_scene("posts").scene;
+  for (Material& material : scene.materials) material.emissive = glm::vec3(1e6F, 1.0F, 0.0F);
+  const TestScene bright(std::move(scene));
+  const View view = view_of(bright.scene.cameras.front(), WIDTH, HEIGHT, "perspective");
+  Renderer renderer(test_context(), shader_library(), bright.gpu, WIDTH, HEIGHT, 1);
+  renderer.set_frame(view, std::vector<shared::Light>(1));
+  const auto picture = [&](ShadingPath path) {
+    Lighting lighting(test_context().device(), shader_library(),
+                      {.method = &brute_force(), .width = WIDTH, .height = HEIGHT, .light_capacity = 1, .path = path});
+    return renderer.render(lighting).image;
+  };
+  const HdrImage deferred = picture(ShadingPath::deferred);
+  EXPECT_NEAR(largest_value(deferred), 65504.0F, 100.0F);
+  EXPECT_LT(max_abs_difference(picture(ShadingPath::forward), deferred), 100.0F);
+}
+
 TEST(TransparentScenes, TheAtriumHasGlass) {
   EXPECT_FALSE(builtin_test_scene("atrium").gpu.blended().empty()) << "nothing tests transparency";
 }

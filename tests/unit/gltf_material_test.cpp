@@ -27,6 +27,14 @@ GltfBuilder with_material(const json& material) {
   return builder;
 }
 
+TEST(GltfMaterial, SaysWhereItEmitsMoreThanIsKept) {
+  const Scene scene =
+      load(with_material({{"emissiveFactor", {1, 0.5, 0}},
+                          {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 70000}}}}}}));
+  EXPECT_EQ(scene.notes,
+            std::vector<std::string>{"material 0: emits 70000, shown as 65504, the most that is kept of a pixel"});
+}
+
 TEST(GltfMaterial, ReadsFactors) {
   const Scene scene = load(with_material(
       {{"name", "brass"},
@@ -45,6 +53,7 @@ TEST(GltfMaterial, ReadsFactors) {
   EXPECT_EQ(material.metallic, 0.75F);
   EXPECT_EQ(material.roughness, 0.125F);
   EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
+  EXPECT_TRUE(scene.notes.empty());
   EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
   EXPECT_EQ(material.alpha_cutoff, 0.25F);
   EXPECT_TRUE(material.double_sided);

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_BVH_SURFACE
 #define LAMP_BVH_SURFACE
+#include "common/emission.glsl"
 
 vec3 to_world(BvhInstance instance, vec3 direction) {
   return instance.column_x * direction.x + instance.column_y * direction.y + instance.column_z * direction.z;
@@ -54,7 +55,7 @@ MirrorSurface surface_at(MirrorHit hit, MirrorRay ray, float pixel_angle) {
   const vec4 color = m.factors.base_color * own_color * read_texture(m.base_color, vertices, weights, width);
   const vec4 read = read_texture(m.metallic_roughness, vertices, weights, width);
   const float occlusion = mix(1.0, read_texture(m.occlusion, vertices, weights, width).r, m.factors.occlusion_strength);
-  const vec3 emission = m.factors.emissive * read_texture(m.emissive, vertices, weights, width).rgb;
+  const vec3 emission = kept_emission(m.factors.emissive * read_texture(m.emissive, vertices, weights, width).rgb);
   const uvec2 packed = pack_surface(normal, m.factors.metallic * read.b, clamp(m.factors.roughness * read.g, 0.045, 1.0), occlusion);
   MirrorSurface s;
   s.position = position;

@@ -6,6 +6,7 @@
 #ifndef LAMP_MATERIAL
 #define LAMP_MATERIAL
 #extension GL_EXT_scalar_block_layout : require
+#include "common/emission.glsl"
 #include "scene_data.h"
 
 // A uniform block: helper invocations must read the same texture transform as their neighbours, or derivatives, and with
@@ -55,7 +56,7 @@ vec3 material_factors() {
 }
 
 vec3 material_emission() {
-  return material.emissive * texel(emissive_image, material.emissive_texture).rgb;
+  return kept_emission(material.emissive * texel(emissive_image, material.emissive_texture).rgb);
 }
 
 #endif
