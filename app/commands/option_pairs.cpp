@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <string_view>
 
 #include "commands/command_line.h"
@@ -34,12 +36,30 @@ void check_shadow_options(const CLI::App& command) {
         throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", cut));
 }
 
+/// Look-ups at points that no picture has: nothing of a picture matters.
+void check_point_options(const CLI::App& command) {
+  constexpr std::array MATTER{"--help",   "scene",    "--scene",      "--quiet",  "--size",   "--camera",
+                              "--frame",  "--lights", "--spots",      "--still",  "--range",  "--seed",
+                              "--moving", "--device", "--shader-dir", "--method", "--option", "--points",
+                              "--cut",    "--json",   "--calibration"};
+  if (!is_given(command, "--points") || is_given(command, "--still-lists")) return;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() != 0 && std::ranges::find(MATTER, option->get_name()) == MATTER.end())
+      throw Error(fmt::format("{}: says nothing of look-ups at points; expected no --points, or --still-lists with it",
+                              option->get_name()));
+}
+
 }  // namespace
 
 void check_pairs(const CLI::App& command) {
-  if (is_given(command, "--camera") && is_given(command, "--frame"))
-    throw Error(fmt::format("--frame {}: has the camera of the flight; expected no --camera",
-                            command.get_option("--frame")->results().front()));
+  for (const char* option : {"--frame", "--frames"}) {
+    if (!is_given(command, "--camera") || !is_given(command, option)) continue;
+    const std::string& value = command.get_option(option)->results().front();
+    // Of bench and record --frames is a number of them.
+    if (std::string_view(option) == "--frame" || value.find("..") != std::string::npos)
+      throw Error(fmt::format("{} {}: has the camera of the flight; expected no --camera", option, value));
+  }
+  check_point_options(command);
   check_shadow_options(command);
 }
 

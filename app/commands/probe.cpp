@@ -1,13 +1,16 @@
 // lamp probe: what a reflection probe sees, sharp and rough, as a picture of all directions.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/pictures.h"
 #include "commands/request.h"
 #include "render/probe_capture.h"
 #include "render/probe_panorama.h"
@@ -41,6 +44,12 @@ LdrImage pictures(Session& session, const ProbeAtlas& atlas) {
 
 Exit probe(const ProbeOptions& o) {
   check_request(o.request, "world-cells");
+  constexpr std::string_view PICTURES[] = {".png"};
+  check_output("--out", o.out, PICTURES);
+  for (const float at : o.at)
+    if (!(std::abs(at) <= FURTHEST_M))
+      throw Error(
+          fmt::format("--at {}: expected three numbers of metres, none beyond {:g}", fmt::join(o.at, " "), FURTHEST_M));
   const Setup setup = make_setup(o.request);
   if (setup.scene.captured)
     throw Error(

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "commands/command_line.h"
+#include "commands/pictures.h"
 #include "commands/verify_rows.h"
 #include "files/read_json.h"
 #include "gpu/check.h"
@@ -66,6 +67,7 @@ std::vector<Asked> methods_at_points(const Request& request, const PointsRequest
     if (of.methods.empty()) found.push_back(&method);
   }
   for (const std::string& name : of.methods) {
+    if (is_auto(name)) throw Error(fmt::format("--points: auto chooses for pictures; expected one of: {}", names));
     found.push_back(&parse_method(name));
     if (!found.back()->any_point)
       throw Error(fmt::format("--points: {} has no look-up by position; expected one of: {}", name, names));
@@ -181,6 +183,8 @@ void add_points_option(CLI::App& command, PointsRequest& of) {
 
 Exit verify_points(const Request& request, const PointsRequest& of) {
   const std::vector<Asked> chosen = methods_at_points(request, of);
+  constexpr std::string_view PICTURES[] = {".png"};
+  if (!of.cut.empty()) check_output("--cut", of.cut, PICTURES);
   for (const Asked& asked : chosen) check_request(request, std::string(asked.method->name));
   const Setup setup = make_setup(request);
   const ShaderLibrary shaders(request.shader_dir);

@@ -22,6 +22,19 @@ TEST_F(BadInput, NamesThatDoNotExistBringTheNearest) {
   expect_error(BAD_INPUT, {"render", "--path", "defered"}, {"--path 'defered'", "nearest are deferred, "});
   expect_error(BAD_INPUT, {"render", "plane", "--projection", "ortho"}, {"projection 'ortho'", "orthographic"});
   expect_error(BAD_INPUT, {"render", "atrium", "--camera", "gallery", "--frame", "3"}, {"--frame 3", "no --camera"});
+  expect_error(BAD_INPUT, {"render", "atrium", "--camera", "gallery", "--frames", "3..4"},
+               {"--frames 3..4", "no --camera"});
+  expect_error(BAD_INPUT, {"render", "--still-bytes", "4"}, {"--still-bytes 4", "expected --still-lists"});
+  expect_error(BAD_INPUT, {"probe", "plane", "--at", "0", "0", "nan"}, {"--at 0 0 nan", "none beyond 1e+15"});
+  expect_error(BAD_INPUT, {"probe", "plane", "--out", "p.exr"}, {"--out 'p.exr'", ".png"});
+  expect_error(BAD_INPUT, {"verify", "--points", "9", "--cut", "c.txt"}, {"--cut 'c.txt'", ".png"});
+  expect_error(BAD_INPUT, {"verify", "--points", "9", "--method", "auto"}, {"auto", "expected one of: world-cells"});
+  for (const Arguments& ignored : {Arguments{"--mirror", "0.5"}, Arguments{"--shadows", "hard"}, Arguments{"--grow"},
+                                   Arguments{"--path", "forward"}, Arguments{"--out", "m.png"}}) {
+    Arguments all{"verify", "plane", "--points", "9"};
+    all.insert(all.end(), ignored.begin(), ignored.end());
+    expect_error(BAD_INPUT, all, {ignored.front() + ": says nothing of look-ups at points"});
+  }
   expect_error(BAD_INPUT, {"probe", "plane", "--at", "1", "2"}, {"--at", "expected 3 values, got 2"});
   expect_error(BAD_INPUT, {"render", "plane", "--camera", "back"}, {"camera 'back'", "there are front"});
   expect_error(BAD_INPUT, {"render", "--brdf", "gx"}, {"--brdf 'gx'", "nearest are ggx, "});
