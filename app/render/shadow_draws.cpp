@@ -24,7 +24,9 @@ void check_device(const Context& context, std::size_t casters) {
   vkGetPhysicalDeviceFeatures2(context.device().physical, &has.base);
   const auto need = [&](VkBool32 feature, const char* name) {
     if (feature == VK_FALSE)
-      throw Error(fmt::format("--shadows: device {} lacks the feature {}", context.row().name, name), Exit::no_device);
+      throw Error(fmt::format("--shadow-raster hardware: device {} lacks the feature {}; expected compute or auto",
+                              context.row().name, name),
+                  Exit::no_device);
   };
   need(has.base.features.shaderClipDistance, "shaderClipDistance");
   need(has.base.features.multiViewport, "multiViewport");

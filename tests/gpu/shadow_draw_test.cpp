@@ -129,6 +129,13 @@ std::vector<Light> lights_of_all_kinds() {
 
 class ShadowDraw : public GpuTest, public ::testing::WithParamInterface<std::tuple<PointShadows, ShadowRaster>> {
  protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    VkPhysicalDeviceFeatures has{};
+    vkGetPhysicalDeviceFeatures(test_context().device().physical, &has);
+    if (std::get<1>(GetParam()) == ShadowRaster::hardware && has.multiViewport == VK_FALSE)
+      GTEST_SKIP() << "the device has no more than one viewport";
+  }
   static ShadowSettings settings() {
     const auto [points, raster] = GetParam();
     return {.points = points, .raster = raster, .atlas_size = ATLAS};
