@@ -296,7 +296,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   // The tool by its name: where it lies is nobody else's concern, and results are passed on.
   o->command_line = fs::path(arguments.front()).filename().string();
   for (const char* argument : arguments.subspan(1)) o->command_line += " " + shell_quoted(argument);
-  // Before pairs of options are looked at, which the whole command line is: a suite takes neither of them.
+  // While the line is parsed, before pairs of options are looked at: a suite takes neither of a pair.
   command->parse_complete_callback([o, command] { refuse_with_suite(*command, o->request.scene); });
   return [o] {
     if (!o->max_size.empty() && pixels_of(o->max_size) == 0)

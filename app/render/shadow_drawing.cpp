@@ -45,9 +45,10 @@ ShadowDrawing::ShadowDrawing(Context& context, const GpuScene& scene, const Shad
 }
 
 vulkan::Pipeline ShadowDrawing::pair_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
-                                              const char* shader, std::initializer_list<std::uint32_t> more) const {
+                                              const char* shader, std::initializer_list<std::uint32_t> more,
+                                              std::vector<vulkan::Constant> constants) const {
   vulkan::PipelineInfo info{.name = shader,
-                            .constants = {{0, views_a_batch_}},
+                            .constants = std::move(constants),
                             .bindings = {{0}, {1}, {2}, {4}},
                             .push_constant_bytes = sizeof(gpu::ShadowBatch)};
   for (const std::uint32_t binding : more) info.bindings.push_back({binding});

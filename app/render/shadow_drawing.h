@@ -46,7 +46,8 @@ class ShadowDrawing {
   /// The pipeline that finds pairs. It reads views, casters and instances; binding 4 is `pairs_`. `more`: its other
   /// buffers.
   [[nodiscard]] vulkan::Pipeline pair_pipeline(const vulkan::Device& device, const ShaderLibrary& shaders,
-                                               const char* shader, std::initializer_list<std::uint32_t> more) const;
+                                               const char* shader, std::initializer_list<std::uint32_t> more,
+                                               std::vector<vulkan::Constant> constants = {}) const;
   /// Of the `count` views from `first_view` on; `more`: what it changes besides, or reads without having to wait.
   void record_pairs(vulkan::Recorder& recorder, const vulkan::Pipeline& pipeline, std::span<const vulkan::Bound> more,
                     const ShadowJob& job, std::uint32_t first_view, std::uint32_t count, std::uint32_t views_a_thread);

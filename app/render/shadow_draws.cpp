@@ -37,7 +37,7 @@ void check_device(const Context& context, std::size_t casters) {
   vkGetPhysicalDeviceProperties(context.device().physical, &properties);
   if (casters > properties.limits.maxDrawIndirectCount)
     throw Error(fmt::format("--shadow-raster hardware: the scene has {} pieces of meshes that cast shadows, device {} "
-                            "draws {} at once",
+                            "draws {} at once; expected compute or auto",
                             casters, context.row().name, properties.limits.maxDrawIndirectCount),
                 Exit::no_device);
 }

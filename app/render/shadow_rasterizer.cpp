@@ -105,7 +105,7 @@ void ShadowRasterizer::make_pipelines(const vulkan::Device& device, const Shader
   clear_ =
       make("shadow_clear",
            {.bindings = {{1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, .push_constant_bytes = sizeof(std::uint32_t)}, {0});
-  list_ = pair_pipeline(device, shaders, "shadow_list", {3});
+  list_ = pair_pipeline(device, shaders, "shadow_list", {3}, {{0, views_a_batch_}});
   for (std::uint32_t masked = 0; masked < 2; ++masked) {
     const vulkan::PipelineInfo info{.constants = {{0, views_a_batch_}, {1, masked}},
                                     .bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},

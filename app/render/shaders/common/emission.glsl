@@ -3,9 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_EMISSION
 #define LAMP_EMISSION
+#include "common/half_range.glsl"
 
-const float LARGEST_EMISSION = 65504.0;  // the greatest half float
-
-vec3 kept_emission(vec3 emission) { return min(emission, vec3(LARGEST_EMISSION)); }
+vec3 kept_emission(vec3 emission) { return min(emission, vec3(LARGEST_HALF)); }
 
 #endif
