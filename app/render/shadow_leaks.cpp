@@ -61,7 +61,9 @@ std::vector<gpu::ShadowLeak> shadow_leaks(Renderer& renderer, Lighting& lighting
                              .end_light = lights.end,
                              .root = rays.bvh().root,
                              .two = 2,
-                             .ends_m = {static_cast<float>(RAY_END_M), static_cast<float>(RAY_SECOND_END_M)}};
+                             .ends_m = {static_cast<float>(RAY_END.m), static_cast<float>(RAY_SECOND_END.m)},
+                             .end_shares = {static_cast<float>(RAY_END.most), static_cast<float>(RAY_SECOND_END.most)},
+                             .off = {static_cast<float>(OFF_OF_DISTANCE), static_cast<float>(OFF_OF_COORDINATES)}};
   PixelPass pass{.shader = "shadow_leaks",
                  .lighting = &lighting,
                  .storage = {{2, vulkan::Resource::storage(found.handle()), VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}},

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "render/scene_occluders.h"
 #include "render/shadow_pairs.h"
@@ -38,16 +39,38 @@ class Thinned {
   std::uint64_t stride_ = 1;
 };
 
+/// Where the pixel's ray meets the triangle whose depth it has; the depth's own place if there is none so near.
+glm::dvec3 on_triangle(const Occluders& occluders, const View& view, std::uint32_t x, std::uint32_t y, float depth) {
+  const double z_view = view.z_view(double{depth});
+  const auto at = [&](double z) {
+    const glm::dvec3 position = view.view_position({x + 0.5, y + 0.5}, z);
+    return glm::dvec3(glm::dmat4(view.world_from_view()) * glm::dvec4(position, 1.0));
+  };
+  const glm::dvec3 place = at(z_view);
+  const double largest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  const double off = OFF_OF_DISTANCE * std::abs(z_view) + OFF_OF_COORDINATES * largest;
+  glm::dvec3 nearest = place;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double z : {z_view - off, z_view + off}) {
+    const Ray ray{.from = place, .to = at(z)};
+    const auto hit = occluders.first_hit(ray);
+    if (!hit || hit->at >= least) continue;
+    least = hit->at;
+    nearest = ray.from + hit->at * (ray.to - ray.from);
+  }
+  return nearest;
+}
+
 enum class Answer : std::uint8_t { arrives, stopped, unclear };
 
 Answer by_ray(const Occluders& occluders, const glm::dvec3& surface, const glm::dvec3& light) {
   const double length = glm::length(light - surface);
-  const auto stops = [&](double end_m) {
-    const double end = end_m / length;
-    return end < 0.5 && occluders.any_hit({.from = surface, .to = light, .first = end, .last = 1.0 - end});
+  const auto stops = [&](const RayEnd& of) {
+    const double end = std::min(of.m / length, of.most);
+    return occluders.any_hit({.from = surface, .to = light, .first = end, .last = 1.0 - end});
   };
-  const bool first = stops(RAY_END_M);
-  if (first != stops(RAY_SECOND_END_M)) return Answer::unclear;
+  const bool first = stops(RAY_END);
+  if (first != stops(RAY_SECOND_END)) return Answer::unclear;
   return first ? Answer::stopped : Answer::arrives;
 }
 
@@ -65,7 +88,7 @@ Answers by_rays(const Occluders& occluders, const View& view, std::span<const fl
     const std::size_t number = static_cast<std::size_t>(p.y) * view.width() + static_cast<std::size_t>(p.x);
     const auto x = static_cast<std::uint32_t>(p.x);
     const auto y = static_cast<std::uint32_t>(p.y);
-    return by_ray(occluders, view.world_position(x, y, double{depth[number]}), light);
+    return by_ray(occluders, on_triangle(occluders, view, x, y, depth[number]), light);
   };
   Answers answers{.own = answer(at)};
   for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {

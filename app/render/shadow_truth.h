@@ -12,9 +12,20 @@
 
 namespace lamp::app {
 
-/// Rays end so far before the surface and the light, and pairs whose answer is another with the second are left out.
-inline constexpr double RAY_END_M = 0.002;
-inline constexpr double RAY_SECOND_END_M = 0.008;
+/// How far a depth sample may lie off its triangle along the eye's ray. Rasterizers round, and have a triangle that is
+/// far larger than the picture off by centimetres. Shares of the distance ahead, and of the largest coordinate.
+inline constexpr double OFF_OF_DISTANCE = 0.01;
+inline constexpr double OFF_OF_COORDINATES = 0x1p-20;
+
+/// Where a ray ends before the surface and before the light.
+struct RayEnd {
+  double m = 0.0;
+  double most = 0.0;  ///< of the ray's length
+};
+/// Rays start where the eye's ray meets the pixel's triangle. Pairs whose answer is another with the second end are
+/// left out.
+inline constexpr RayEnd RAY_END{.m = 0.002, .most = 1.0 / 64.0};
+inline constexpr RayEnd RAY_SECOND_END{.m = 0.008, .most = 1.0 / 16.0};
 
 /// A pair lies away from the edge of a shadow if rays from four pixels so far away, right, left, above and below, have
 /// the same answer, those of sky aside.

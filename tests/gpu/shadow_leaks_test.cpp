@@ -136,6 +136,55 @@ TEST_F(GpuTest, NothingLeaksWhereNothingIsStopped) {
   EXPECT_GT(arriving, 0.0);
 }
 
+/// How much of a floor's light a square stops, in a scene that is scaled, then moved.
+struct StoppedPart {
+  double truth = 0.0;
+  double leaks = 0.0;
+};
+
+StoppedPart stopped_by_a_square(float scale, float shift_m) {
+  Scene scene = hall(0.4F);
+  scene.materials[0] = {.roughness = 1.0F};
+  const glm::vec3 shift(shift_m, 0.0F, shift_m);
+  for (Instance& instance : scene.instances) {
+    for (int axis = 0; axis < 3; ++axis) instance.world_from_object[axis] *= scale;
+    instance.world_from_object[3] = glm::vec4(shift, 1.0F);
+  }
+  Camera& camera = scene.cameras.front();
+  camera.world_from_camera[3] = glm::vec4(scale * glm::vec3(camera.world_from_camera[3]) + shift, 1.0F);
+  camera.near_m *= scale;
+  const GpuScene on_gpu(test_context(), scene);
+  Light light;
+  light.position = scale * glm::vec3(0.0F, 4.5F, 0.0F) + shift;
+  light.range = 20.0F * scale;
+  light.intensity = scale * scale;
+  Shadowed shadowed(on_gpu, {.filter = ShadowFilter::hard}, pack(std::vector{light}));
+  shadowed.draw();
+  const ShadowFindings truth = shadowed.truth();
+  const LeakSums leaks = sum_of(shadowed.leaks());
+  EXPECT_EQ(truth.pairs, std::uint64_t{WIDTH} * HEIGHT);
+  EXPECT_LT(truth.unclear, truth.pairs / 20);
+  return {.truth = truth.all.stopped / (truth.all.stopped + truth.all.arriving),
+          .leaks = leaks.light.stopped / (leaks.light.stopped + leaks.light.arriving)};
+}
+
+TEST_F(GpuTest, RaysAnswerInScenesOfAnySizeFarFromTheOriginToo) {
+  const StoppedPart expected = stopped_by_a_square(1.0F, 0.0F);
+  ASSERT_GT(expected.truth, 0.1);
+  ASSERT_LT(expected.truth, 0.9);
+  ASSERT_NEAR(expected.leaks, expected.truth, 0.01);
+  const auto expect_same_part = [&](float scale, float shift_m) {
+    SCOPED_TRACE(testing::Message() << "scaled by " << scale << ", moved by " << shift_m << " m");
+    const StoppedPart found = stopped_by_a_square(scale, shift_m);
+    const double row = 0.05;  // an edge lies along a row of pixels, and positions are coarse far out
+    EXPECT_NEAR(found.truth, expected.truth, row);
+    EXPECT_NEAR(found.leaks, expected.leaks, row);
+  };
+  expect_same_part(1.0F, 1e5F);
+  expect_same_part(1e-3F, 0.0F);
+  expect_same_part(100.0F, 0.0F);
+}
+
 /// A light above a ceiling, which goes and comes back.
 TEST_F(GpuTest, RaysFollowAnInstanceThatMoves) {
   Scene scene = hall(6.0F);

@@ -30,13 +30,17 @@ struct ShadowLeakAsked {
   uint first_row;    // of the picture; the buffer begins there
   uint first_light;  // entities to answer for
   uint end_light;
-  uint root;    // of the hierarchy
-  uint two;     // for loops_ended
-  vec2 ends_m;  // rays end so far before the surface and the light: the shorter, and one to see what hangs on it
+  uint root;  // of the hierarchy
+  uint two;   // for loops_ended
+  // Rays end so far before the surface and the light: the shorter, and one to see what hangs on it. Each is as much of
+  // the ray at most.
+  vec2 ends_m;
+  vec2 end_shares;
+  vec2 off;  // how far depth may be off its triangle: a share of the distance ahead, and of coordinates
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ShadowLeak) == 24 && sizeof(ShadowLeakAsked) == 28);
+static_assert(sizeof(ShadowLeak) == 24 && sizeof(ShadowLeakAsked) == 44);
 }  // namespace lamp::app::gpu
 #endif
 

@@ -25,6 +25,10 @@ layout(set = 0, binding = BVH_FIRST_BINDING + 5, scalar) readonly buffer Materia
 layout(set = 0, binding = BVH_FIRST_BINDING + 6, scalar) readonly buffer ImageBuffer { MirrorImage images[]; };
 layout(set = 0, binding = BVH_FIRST_BINDING + 7, std430) readonly buffer TexelBuffer { uint texels[]; };
 
+vec3 to_world(BvhInstance instance, vec3 direction) {
+  return instance.column_x * direction.x + instance.column_y * direction.y + instance.column_z * direction.z;
+}
+
 // The corners' vertices.
 uvec3 vertices_of(BvhTriangle t, BvhInstance instance) { return vertices_at(t.first_index, instance.vertex_offset); }
 

@@ -6,10 +6,6 @@
 #define LAMP_BVH_SURFACE
 #include "common/emission.glsl"
 
-vec3 to_world(BvhInstance instance, vec3 direction) {
-  return instance.column_x * direction.x + instance.column_y * direction.y + instance.column_z * direction.z;
-}
-
 vec3 interpolated_3(uvec3 words, vec3 weights) {
   return weights.x * vertex_3(words.x) + weights.y * vertex_3(words.y) + weights.z * vertex_3(words.z);
 }
