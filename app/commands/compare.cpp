@@ -97,6 +97,10 @@ Exit compare(const CompareOptions& o) {
     Request request = o.request;
     request.options = word.options;
     check_request(request, word.method);
+    for (const char* cut : {"occlusion=radial", "proxy=cut"})
+      if (request.shadows.filter == "off" && std::ranges::find(word.options, cut) != word.options.end())
+        throw Error(fmt::format("compare {}:{}: cuts lights by their shadow maps; expected --shadows FILTER too",
+                                word.method, cut));
   }
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);

@@ -47,6 +47,7 @@ TEST_F(MaskTests, WhatALightReachesIsNeverRejected) {
     const std::vector<shared::MaskAnswer> answers = ask(batch, seed);
     for (std::size_t i = 0; i < BATCH; ++i) {
       ASSERT_TRUE(agree(answers[i])) << "seed " << seed << " case " << i << ": look " << answers[i].look;
+      ASSERT_LE(answers[i].apart, 1U) << "seed " << seed << " case " << i << ": a depth's last digit moves its part";
       if (reach(batch.lights[i], batch.tiles[i].position_world) != Reach::inside) continue;
       ++checked;
       ASSERT_TRUE(answers[i].look != APART && answers[i].touches == 1)

@@ -240,7 +240,7 @@ std::vector<float> clearance(const Scene& s, const std::vector<glm::vec3>& point
 TEST_P(EveryScene, FlightStaysInOpenAir) {
   const Scene& s = scene();
   lamp::app::Flight flight = *s.flight;
-  flight.frames *= 5;
+  flight.frames *= 2;
   std::vector<glm::vec3> eyes;
   eyes.reserve(flight.frames);
   for (std::uint32_t frame = 0; frame < flight.frames; ++frame) {

@@ -71,7 +71,7 @@ bool sphere_touches_parts(LightBounds sphere, TileSides sides, float z_mask, flo
     if (section.slope == 0.0) break;
     z = clamp(z - 0.5 * section.slope / section.curve, z_near, z_far);
   }
-  const uint part = uint(clamp((z - z_mask) / max(step, 1e-30), 0.0, float(MASK_BITS - 1u)));
+  const uint part = uint(clamp((z - z_mask) / step, 0.0, float(MASK_BITS - 1u)));
   const uint below = parts & ~0u >> (31u - part);
   const uint above = parts & ~0u << part;
   const float z_below = min(z, z_mask + step * (float(findMSB(below)) + 1.001));

@@ -57,7 +57,7 @@ bool sphere_touches_tile_depths(LightBounds sphere, TileSides sides, TileBox box
 
 // The test, for every run of occupied parts that the sphere's depths meet.
 bool sphere_touches_runs(LightBounds sphere, TileSides sides, TileRanges ranges, uint parts) {
-  const float step = (ranges.z_far[0] - ranges.z_near[0]) / float(MASK_BITS);
+  const float step = mask_step(ranges.z_near[0], ranges.z_far[0]);
   if (TEST == TEST_EXACT) return sphere_touches_parts(sphere, sides, ranges.z_near[0], step, parts);
   while (parts != 0u) {
     const uint first = uint(findLSB(parts));

@@ -101,11 +101,11 @@ bool cone_touches_planes(SpotCone cone, TileSides sides, float z_near, float z_f
 // longer than the tile is wide: a sphere around fewer of them would hardly be smaller. None reaches across a border, a
 // bit at the part behind it.
 bool cone_touches_parts(SpotCone cone, TileSides sides, float z_near, float z_far, uint parts, uint borders) {
-  const float step = (z_far - z_near) / float(MASK_BITS);
+  const float step = mask_step(z_near, z_far);
   while (parts != 0u) {
     const uint first = uint(findLSB(parts));
     const float z_first = z_near + step * (float(first) - 0.001);
-    const float most = clamp(tile_width(sides, z_first) / max(step, 1e-30), 1.0, float(MASK_BITS));
+    const float most = clamp(tile_width(sides, z_first) / step, 1.0, float(MASK_BITS));
     const uint to_border = uint(findLSB(borders >> first & ~1u));  // without one the largest number there is
     const uint end = first + min(to_border, min(uint(most), bits_in_a_row(parts >> first)));
     if (cone_touches_sphere(cone, tile_sphere(sides, z_first, z_near + step * (float(end) + 0.001)))) return true;

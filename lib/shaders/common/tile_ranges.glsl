@@ -12,7 +12,9 @@ const uint MASK_BITS = 32u;
 const float EMPTY_NEAR = 1.0;
 const float EMPTY_FAR = -1.0;
 const float ANY_DEPTH = 1e30;  // m: beyond every light, and far enough from infinity to be added to
-
+// A part of a mask is no shorter than 16 steps between numbers as large as its depths. Else depths of one surface, which
+// differ in their last digit, would lie in parts at both ends of it.
+const float LEAST_RANGE = 1.0 / 16384.0;  // of the depth
 
 TileRanges masked_range(float z_near, float z_far, uint mask) {
   return TileRanges(float[2](z_near, EMPTY_NEAR), float[2](z_far, EMPTY_FAR), z_far, mask);
@@ -29,8 +31,20 @@ TileRanges half_ranges(float z_near, float z_far) {
   return TileRanges(float[2](z_near, split), float[2](split, z_far), split, ~0u);
 }
 
+// Halfway from the near half's farthest surface to the far half's nearest, so that a pixel is on its own side however its
+// depth was rounded.
+float split_between(TileRanges ranges) {
+  return ranges.z_near[1] > ranges.z_far[1] ? ANY_DEPTH : 0.5 * (ranges.z_far[0] + ranges.z_near[1]);
+}
+
+// The length of a part, m, and how many there are in a metre.
+float mask_step(float z_near, float z_far) {
+  const float least = max(LEAST_RANGE * max(abs(z_near), abs(z_far)), 1e-30);
+  return max(z_far - z_near, least) / float(MASK_BITS);
+}
+float mask_scale(float z_near, float z_far) { return 1.0 / mask_step(z_near, z_far); }
+
 // Which of 32 equal parts of the range a depth lies in; the slack of light bounds covers what rounding moves.
-float mask_scale(float z_near, float z_far) { return float(MASK_BITS) / max(z_far - z_near, 1e-30); }
 
 uint mask_part(float z_view, float z_near, float scale) {
   return uint(clamp((z_view - z_near) * scale, 0.0, float(MASK_BITS - 1u)));
@@ -65,9 +79,10 @@ TileRanges refined_ranges(Frame frame, DepthImage depth_image, uvec2 tile, float
     ranges.mask = s_depth_mask;
     return ranges;
   }
-  ranges.z_far[0] = z_view_of_key(frame, ~s_near_half_max);
+  ranges.z_far[0] = s_near_half_max == 0u ? z_near : z_view_of_key(frame, ~s_near_half_max);
   ranges.z_near[1] = s_far_half_min == ~0u ? EMPTY_NEAR : z_view_of_key(frame, ~s_far_half_min);
   ranges.z_far[1] = s_far_half_min == ~0u ? EMPTY_FAR : z_far;
+  ranges.split = split_between(ranges);
   return ranges;
 }
 

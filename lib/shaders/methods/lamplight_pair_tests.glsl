@@ -29,7 +29,7 @@ Target target_of(Pair pair) {
   target.sides.x_edges = x_edges_of_row(pair.row);
   target.sides.y_edges = y_edges_of_row(pair.row);
   target.depths = depths_in_reach(pair.row, target.sphere);
-  target.step = (target.depths.z_far - target.depths.z_near) / float(MASK_BITS);
+  target.step = mask_step(target.depths.z_near, target.depths.z_far);
   target.parts = parts_near(target.sphere, target.depths.z_near, target.depths.scale, target.depths.mask);
   return target;
 }

@@ -69,10 +69,11 @@ TileRanges modified_half(TileRanges halves) {
       far_half_nearest = max(far_half_nearest, key);
   }
   const uvec2 found = reduce_tree(near_half_farthest, far_half_nearest);
-  halves.z_far[0] = z_view_of_key(frame, found.x);
+  halves.z_far[0] = found.x == ~0u ? halves.z_near[0] : z_view_of_key(frame, found.x);
   const bool far_half_empty = found.y == SKY_KEY;
   halves.z_near[1] = far_half_empty ? EMPTY_NEAR : z_view_of_key(frame, found.y);
   if (far_half_empty) halves.z_far[1] = EMPTY_FAR;
+  halves.split = split_between(halves);
   return halves;
 }
 

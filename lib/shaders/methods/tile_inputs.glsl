@@ -95,7 +95,7 @@ bool passes_in_range(uint light, LightBounds sphere, TileTarget target, uint ran
   const vec4 y_edges = target.sides.y_edges;
   if (BOUNDS != BOUNDS_MASK) return passes_further_tests(cull_frame, light, sphere, x_edges, y_edges, depths);
   return passes_further_tests_in_parts(cull_frame, light, sphere, x_edges, y_edges,
-                                       depths_of_parts(depths.x, (depths.y - depths.x) / float(MASK_BITS), parts),
+                                       depths_of_parts(depths.x, mask_step(depths.x, depths.y), parts),
                                        depths.x, mask_scale(depths.x, depths.y), parts);
 }
 

@@ -18,6 +18,7 @@ struct MaskCase {
 struct MaskAnswer {
   uint look;     // APART 0, TOUCHES 1, UNDECIDED 2
   uint touches;  // 0 or 1, exactly
+  uint apart;    // parts that lie between those of a depth which is rounded in two ways, at most
 };
 
 #ifdef __cplusplus
