@@ -126,7 +126,7 @@ std::vector<Light> endless_lights(const View& view) {
 
 OddFrame frame_of(std::string name, const glm::dmat4& clip_from_view, const glm::dmat4& view_from_world) {
   const View view = take(View::create(ODD_SIZE.x, ODD_SIZE.y, clip_from_view, view_from_world));
-  const double nearest = view.orthographic() ? NEAREST_M : 0.5;
+  const double nearest = view.orthographic() ? NEAREST_M : 0.5 + clip_from_view[3][3] / clip_from_view[2][3];
   std::vector<float> depth = steps(view, nearest, FARTHEST_M);
   std::vector<Light> lights = reaching_lights(view, depth);
   return {std::move(name), view, std::move(depth), std::move(lights)};
@@ -150,6 +150,8 @@ std::vector<OddFrame> odd_frames() {
           frame_of("turned over", turned_over(usual), pose()),
           frame_of("after many turns", usual, after_many_turns()),
           frame_of("stretched and sheared", usual, stretched_and_sheared()),
+          frame_of("eye behind view space's origin", glm::translate(usual, glm::dvec3(0.0, 0.0, -3.0)), pose()),
+          frame_of("eye ahead of it", glm::translate(usual, glm::dvec3(0.0, 0.0, 3.0)), pose()),
           frame_of("larger, orthographic", looks_behind_the_eye(), glm::scale(pose(), glm::dvec3(1.000049))),
           endless(frame_of("perspective", usual, pose())),
           endless(frame_of("orthographic", leaning(looks_behind_the_eye()), pose()))};

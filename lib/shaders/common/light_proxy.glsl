@@ -6,6 +6,7 @@
 #ifndef LAMP_COMMON_LIGHT_PROXY
 #define LAMP_COMMON_LIGHT_PROXY
 #include "common/light_bounds.glsl"
+#include "common/tile_volume.glsl"
 #include "lamplight/shared/proxy.h"
 
 const float HALF_PI = 1.5707963;
@@ -64,13 +65,6 @@ LightProxy light_proxy(Frame frame, Light light, LightBounds sphere, float reach
   else
     sphere_profile(proxy, radius + margin);
   return proxy;
-}
-
-// Where the view's rays begin; a mesh that holds this point shows nothing but back faces. Perspective only.
-vec3 projection_eye(Frame frame) {
-  const mat4 m = frame.clip_from_view;
-  const float z = -m[3][3] / m[2][3];
-  return vec3(-(m[2][0] * z + m[3][0]) / m[0][0], -(m[2][1] * z + m[3][1]) / m[1][1], z);
 }
 
 // Never no when the point is inside.

@@ -22,8 +22,9 @@ bool sphere_touches_cylinder(LightBounds sphere, TileSides sides) {
 bool sphere_touches_cone_as_printed(LightBounds sphere, TileSides sides) {
   const TileCone cone = sides.cone;
   if (cone.slope < 0.0) return sphere_touches_cylinder(sphere, sides);
-  const vec3 rejection = sphere.center - dot(sphere.center, cone.axis) * cone.axis;
-  const float radius = -sphere.center.z * cone.slope + sphere.radius;
+  const vec3 center = sphere.center - sides.eye;
+  const vec3 rejection = center - dot(center, cone.axis) * cone.axis;
+  const float radius = -center.z * cone.slope + sphere.radius;
   return dot(rejection, rejection) <= radius * radius;
 }
 
@@ -32,8 +33,9 @@ bool sphere_touches_cone(LightBounds sphere, TileSides sides) {
   const TileCone cone = sides.cone;
   if (cone.slope < 0.0) return sphere_touches_cylinder(sphere, sides);
   if (cone.slope >= NO_CONE) return true;
-  const float along = dot(sphere.center, cone.axis);
-  const vec3 rejection = sphere.center - along * cone.axis;
+  const vec3 center = sphere.center - sides.eye;
+  const float along = dot(center, cone.axis);
+  const vec3 rejection = center - along * cone.axis;
   const float outside = length(rejection) - along * cone.slope;
   return outside <= sphere.radius * sqrt(1.0 + cone.slope * cone.slope);
 }

@@ -8,11 +8,24 @@
 struct TileSides {
   TilePlanes planes;
   TileCone cone;
+  vec3 eye;      // the cone's tip
   vec4 x_edges;  // x at z metres ahead lies between x[0] + x[1] z and x[2] + x[3] z
   vec4 y_edges;
 };
 
 bool is_perspective(Frame frame) { return frame.clip_from_view[2][3] != 0.0; }
+
+// Where the view's rays begin; a mesh that holds this point shows nothing but back faces. Perspective only.
+vec3 projection_eye(Frame frame) {
+  const mat4 m = frame.clip_from_view;
+  const float z = -m[3][3] / m[2][3];
+  return vec3(-(m[2][0] * z + m[3][0]) / m[0][0], -(m[2][1] * z + m[3][1]) / m[1][1], z);
+}
+
+// A depth, or that of a perspective's eye, before which nothing is seen.
+float from_eye(Frame frame, float z_view) {
+  return is_perspective(frame) ? max(z_view, -projection_eye(frame).z) : z_view;
+}
 
 // An edge at ndc: solve clip.x = ndc * clip.w for x, with z = -z_view.
 vec2 edge(float scale, float of_z, float offset, float w_of_z, float w_offset, float ndc) {
@@ -75,16 +88,20 @@ TilePlanes tile_planes(Frame frame, vec2 min_px, vec2 max_px) {
   return planes;
 }
 
+vec3 cone_tip(Frame frame) { return is_perspective(frame) ? projection_eye(frame) : vec3(0.0); }
+
 // Based on: Primal engine, Light Culling with Approximate Sphere-Cone Intersection, listing 4: radius to the top left
 // corner per metre of z. The exact test takes the widest corner, per metre of the axis.
 const float NO_CONE = 1e6;  // the slope of a tile that is wider than any cone: a large one in a tiny, wide picture
 
 TileCone tile_cone(Frame frame, vec2 min_px, vec2 max_px, bool as_printed) {
-  const float z_view = is_perspective(frame) ? 1.0 : 0.0;
-  const vec3 middle = view_position(frame, 0.5 * (min_px + max_px), z_view);
-  const vec3 corners[4] = vec3[](view_position(frame, min_px, z_view), view_position(frame, max_px, z_view),
-                                 view_position(frame, vec2(min_px.x, max_px.y), z_view),
-                                 view_position(frame, vec2(max_px.x, min_px.y), z_view));
+  const vec3 eye = cone_tip(frame);
+  const float z_view = is_perspective(frame) ? 1.0 - eye.z : 0.0;
+  const vec3 middle = view_position(frame, 0.5 * (min_px + max_px), z_view) - eye;
+  const vec3 corners[4] =
+      vec3[](view_position(frame, min_px, z_view) - eye, view_position(frame, max_px, z_view) - eye,
+             view_position(frame, vec2(min_px.x, max_px.y), z_view) - eye,
+             view_position(frame, vec2(max_px.x, min_px.y), z_view) - eye);
   if (!is_perspective(frame)) {
     float radius = 0.0;
     for (int i = 0; i < 4; ++i) radius = max(radius, distance(corners[i].xy, middle.xy));

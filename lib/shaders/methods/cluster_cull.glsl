@@ -22,8 +22,7 @@ shared LightBounds s_bounds[BATCH];
 
 // The view-space box around the part of a tile between two depths.
 void cluster_box(uvec2 tile, float z_begin, float z_end, out vec3 box_min, out vec3 box_max) {
-  const bool perspective = frame.clip_from_view[2][3] != 0.0;
-  if (perspective) z_begin = max(z_begin, 0.0);
+  z_begin = from_eye(frame, z_begin);
   box_min = vec3(3e38);
   box_max = vec3(-3e38);
   for (uint i = 0u; i < 8u; ++i) {
@@ -40,8 +39,7 @@ bool passes_in_cluster(uint light, LightBounds sphere, uvec2 tile, float z_begin
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
-  return passes_further_tests(frame, light, sphere, x_edges, y_edges,
-                              vec2(is_perspective(frame) ? max(z_begin, 0.0) : z_begin, z_end));
+  return passes_further_tests(frame, light, sphere, x_edges, y_edges, vec2(from_eye(frame, z_begin), z_end));
 }
 
 uint cluster_index(uvec2 tile, uint slice) {

@@ -59,7 +59,7 @@ layout(set = 0, binding = DEPTH_BINDING + 1) uniform DepthImage depth_image;
 TileDepths depths_of_row(Cell cell, uvec2 tile) {
 #ifdef SLICED
   const uint slice = cell.first_slice + cell.first_row / TILES;
-  const float begin = is_perspective(frame) ? max(slice_begin(slice), 0.0) : slice_begin(slice);
+  const float begin = from_eye(frame, slice_begin(slice));
   return slice < SLICES ? TileDepths(begin, slice_end(slice), 0.0, ~0u) : TileDepths(EMPTY_NEAR, EMPTY_FAR, 0.0, 0u);
 #else
   const uint tiles_wide = squares_across(frame, TILE_PX).x;

@@ -23,7 +23,7 @@ vec2 depths_of_cell(uint cell) {
 #ifdef SLICED
   const uvec2 across = cells_across();
   const uint first = cell / (across.x * across.y) * CELL_SLICES;
-  const float eye = is_perspective(frame) ? 0.0 : -BEYOND_ALL_M;
+  const float eye = from_eye(frame, -BEYOND_ALL_M);
   return vec2(max(slice_begin(first), eye), slice_end(first + CELL_SLICES - 1u));
 #else
   return unpackHalf2x16(cell_depths[cell]);

@@ -29,7 +29,7 @@ bool narrow_to_mesh(uint light, inout LightProxy proxy) {
   const mat3 axes = mesh_world_axes(kind, meshes[light].axis_x, meshes[light].axis_z);
   const vec3 ahead = transpose(axes) * -vec3(frame.view_from_world[0].z, frame.view_from_world[1].z,
                                              frame.view_from_world[2].z);
-  const bool perspective = frame.clip_from_view[2][3] != 0.0;
+  const bool perspective = is_perspective(frame);
   vec3 eye = vec3(0.0);
   if (perspective)
     eye = transpose(axes) * ((frame.world_from_view * vec4(projection_eye(frame), 1.0)).xyz - meshes[light].position);
@@ -64,7 +64,7 @@ void main() {
   const LightBounds sphere = light_bounds(frame, lights[light]);
   if (sphere.radius < 0.0) return;
   LightProxy proxy = light_proxy(frame, lights[light], sphere, float(REACH_1024) / 1024.0);
-  const bool perspective = frame.clip_from_view[2][3] != 0.0;
+  const bool perspective = is_perspective(frame);
   const bool everywhere = lights[light].range > EVERYWHERE_M;
   uint which = PROXIES_OUTSIDE;
   if (is_cut(light, proxy))

@@ -58,7 +58,7 @@ bool passes_in_cluster(uvec2 tile, uint slice, LightProxy proxy) {
   vec4 x_edges;
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
-  const float eye = is_perspective(frame) ? 0.0 : -BEYOND_ALL_M;
+  const float eye = from_eye(frame, -BEYOND_ALL_M);
   return passes_in_proxy(x_edges, y_edges,
                          vec2(max(max(slice_begin(slice), proxy.z_near), eye), min(slice_end(slice), proxy.z_far)));
 }

@@ -45,6 +45,7 @@ TileSides tile_sides(uvec2 tile) {
   const bool cone = TEST == TEST_CONE || TEST == TEST_CONE_APPROXIMATE;
   TileSides sides;
   tile_edges(cull_frame, min_px, max_px, sides.x_edges, sides.y_edges);
+  if (cone) sides.eye = cone_tip(cull_frame);
   if (!CACHED_FRUSTA) {
     sides.planes = tile_planes(cull_frame, min_px, max_px);
     if (cone) sides.cone = tile_cone(cull_frame, min_px, max_px, TEST == TEST_CONE_APPROXIMATE);

@@ -30,7 +30,7 @@ bool passes_in_tile(uint rank, uvec2 tile) {
   vec4 y_edges;
   tile_edges(frame, vec2(tile * TILE_PX), vec2((tile + 1u) * TILE_PX), x_edges, y_edges);
   return passes_further_tests(frame, order[rank], sorted[rank], x_edges, y_edges,
-                              vec2(is_perspective(frame) ? 0.0 : -3e38, 3e38));
+                              vec2(from_eye(frame, -3e38), 3e38));
 }
 
 void main() {

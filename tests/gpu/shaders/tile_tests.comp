@@ -30,6 +30,7 @@ void main() {
   TileSides sides;
   tile_edges(frame, c.min_px, c.max_px, sides.x_edges, sides.y_edges);
   sides.planes = tile_planes(frame, c.min_px, c.max_px);
+  sides.eye = cone_tip(frame);
   sides.cone = tile_cone(frame, c.min_px, c.max_px, TEST == TEST_CONE_APPROXIMATE);
   const TileBox box = tile_box(sides, z_near, z_far);
 
