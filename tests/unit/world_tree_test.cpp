@@ -247,6 +247,16 @@ TEST(WorldTree, IsBuiltAnewWhenThereIsNoRoomForAChange) {
   expect_no_miss(tree, points_in(1, 1000, glm::vec3(-15.0F), glm::vec3(15.0F)));
 }
 
+/// What rounding adds to a light counts as its range: cells by the range alone would be without number.
+TEST(WorldTree, SmallLightsThatFarEyesSeeTakeFewCells) {
+  for (const float eyes_m : {1e5F, 1e6F, 1e9F, 1e15F}) {
+    const PackedLights lights = lights_around({}, 10.0F, 0.001F, 0.01F, 50);
+    const WorldTree tree = built({.lights = lights, .eyes_m = eyes_m});
+    EXPECT_LT(tree.counts().leaves, 50U * 5000) << eyes_m;
+    expect_no_miss(tree, points_in(1, 1000, glm::vec3(-12.0F), glm::vec3(12.0F)));
+  }
+}
+
 TEST(WorldTree, NamesWhatIsWrong) {
   PackedLights lights = lights_around({}, 1.0F, 1.0F, 2.0F, 4);
   lights[2].position.x = std::nanf("");
@@ -258,6 +268,7 @@ TEST(WorldTree, NamesWhatIsWrong) {
   EXPECT_EQ(WorldTree::build({.lights = lights, .detail = 0}).error().source, "detail");
   EXPECT_EQ(WorldTree::build({.lights = lights, .texels = 1025}).error().source, "texels");
   EXPECT_EQ(WorldTree::build({.lights = lights, .eyes_m = std::nanf("")}).error().source, "eyes_m");
+  EXPECT_EQ(WorldTree::build({.lights = lights, .eyes_m = 1e16F}).error().source, "eyes_m");
   lights[2].type = lamp::shared::LIGHT_SPOT;
   lights[2].direction = {0, 0, 2};
   EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");

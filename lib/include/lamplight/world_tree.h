@@ -28,7 +28,8 @@ struct WorldTreeInfo {
   std::uint32_t detail = 16;  ///< cells in a light's range, at most, 1 .. 64; fewer where the budget holds no more
   std::uint32_t texels = 32;  ///< a side of a face of OcclusionMap, 1 .. 1024
   std::uint32_t threads = 0;  ///< that build; 0: as many as the machine has
-  float eyes_m = 0.0F;        ///< the most that an eye is away from the origin: rounding moves its pixels' positions
+  float eyes_m =
+      0.0F;  ///< the most that an eye is away from the origin, 0 .. 1e15: rounding moves its pixels' positions
 };
 
 /// What the options of the method `world-tree` say; without occlusion=ahead, no occluders.

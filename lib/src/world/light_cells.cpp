@@ -35,8 +35,10 @@ glm::dvec3 TreeGrid::corner(std::uint32_t level, const glm::uvec3& brick) const 
 }
 
 double TreeGrid::slack_m() const {
-  return 2.0 * double{shared::ROUND_POSITION} * (sum_of(low * cell_m) + 3.0 * (side_m() + eyes_m));
+  return 2.0 * double{shared::ROUND_POSITION} * (sum_of(low * cell_m) + 3.0 * side_m()) + eye_slack_m(eyes_m);
 }
+
+double eye_slack_m(double eyes_m) { return 6.0 * double{shared::ROUND_POSITION} * eyes_m; }
 
 void LightCells::look(const shared::Light& light, const TreeGrid& grid, const StillOccluders* occluders) {
   grid_ = grid;

@@ -27,6 +27,9 @@ struct TreeGrid {
   [[nodiscard]] double slack_m() const;  ///< what rounding may move a position in or near the root
 };
 
+/// What rounding moves a position that an eye so far from the origin sees.
+[[nodiscard]] double eye_slack_m(double eyes_m);
+
 /// A brick that a light is in; bit x + 4 y + 16 z of its cells is set where it may light something.
 struct LitBrick {
   std::uint64_t place = 0;  ///< Morton code of its low corner, in finest bricks

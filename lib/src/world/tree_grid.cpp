@@ -65,10 +65,11 @@ TreeGrid grid_of(const WorldTreeInfo& info) {
   const double reach = usual_reach(info.lights);
   SceneBounds bounds;
   double least = std::numeric_limits<double>::infinity();
+  const double room = eye_slack_m(info.eyes_m);
   for (const shared::Light& light : info.lights) {
     if (!reaches_something(light) || double{light.range} > reach) continue;
-    bounds.add(glm::dvec3(glm::vec3(light.position)), light.range * (1.0 + 1e-3));
-    least = std::min(least, double{light.range});
+    bounds.add(glm::dvec3(glm::vec3(light.position)), light.range * (1.0 + 1e-3) + room);
+    least = std::min(least, double{light.range} + room);
   }
   if (!(least < std::numeric_limits<double>::infinity())) return {};
   const double farthest = std::max({glm::length(bounds.min), glm::length(bounds.max), bounds.longest()});
@@ -88,19 +89,19 @@ BrickLevels::BrickLevels(const WorldTreeInfo& info, const TreeGrid& grid) : grid
   const auto bytes = [&] {
     double sum = 0.0;
     for (const shared::Light& light : info.lights)
-      if (reaches_something(light)) {
-        const double range = std::min(double{light.range}, grid_.side_m());
-        sum += ENTRY_BYTES * mean_bricks(grid_.brick_m(of(light)) / range);
-      }
+      if (reaches_something(light)) sum += ENTRY_BYTES * mean_bricks(grid_.brick_m(of(light)) / reach_m(light));
     return sum;
   };
   while (detail_ > LEAST_DETAIL && bytes() > most) detail_ *= 0.7071;
 }
 
+double BrickLevels::reach_m(const shared::Light& light) const {
+  return std::min(double{light.range} + grid_.slack_m(), grid_.side_m());
+}
+
 std::uint32_t BrickLevels::of(const shared::Light& light) const {
-  const double range = std::min(double{light.range}, grid_.side_m());
-  const double halvings = std::ceil(
-      std::log2(4.0 * grid_.cell_m * std::ldexp(1.0, static_cast<int>(grid_.levels)) * detail_ / (4.0 * range)));
+  const double halvings = std::ceil(std::log2(4.0 * grid_.cell_m * std::ldexp(1.0, static_cast<int>(grid_.levels)) *
+                                              detail_ / (4.0 * reach_m(light))));
   return static_cast<std::uint32_t>(std::clamp(halvings, 0.0, static_cast<double>(grid_.levels)));
 }
 

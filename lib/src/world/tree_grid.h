@@ -22,6 +22,8 @@ class BrickLevels {
   [[nodiscard]] double detail() const { return detail_; }
 
  private:
+  [[nodiscard]] double reach_m(const shared::Light& light) const;  ///< widened by rounding; no farther than the root
+
   TreeGrid grid_;
   double detail_;
 };
