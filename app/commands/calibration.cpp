@@ -1,10 +1,12 @@
 // Finds the calibration that `auto` goes by.
-// Promise: a damaged or foreign file in the cache is measured anew, never trusted. SPDX-License-Identifier: Apache-2.0
+// Promise: a damaged or foreign file in the cache is never trusted: a GPU is measured anew. SPDX-License-Identifier:
+// Apache-2.0
 #include "commands/calibration.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
@@ -37,7 +39,12 @@ KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders
   if (named != MEASURE) {
     if (auto cached = read_cached_calibration(file, row.name, row.driver))
       return {.calibration = std::move(*cached), .origin = file};
-    if (row.kind == "CPU") return built_in_calibration();
+    if (row.kind == "CPU") {
+      if (std::error_code error; std::filesystem::exists(file, error))
+        print_error("auto: {} is damaged, or of another version or driver: --calibration measure makes it anew\n",
+                    file);
+      return built_in_calibration();
+    }
   }
   const bool terminal = shows_progress();
   if (terminal) print_error("auto: measures {} once ...", row.name);

@@ -51,6 +51,21 @@ Side measure(const CompareOptions& o, Session& session, const Setup& setup, cons
   return side;
 }
 
+/// Of one of the methods, as it was typed.
+void check_side(const CompareOptions& o, const std::string& typed, const MethodWord& word) {
+  Request request = o.request;
+  request.options = word.options;
+  try {
+    check_request(request, word.method);
+  } catch (const Error& error) {
+    throw Error(fmt::format("compare {}: {}", typed, error.what()));
+  }
+  for (const char* cut : {"occlusion=radial", "proxy=cut"})
+    if (request.shadows.filter == "off" && std::ranges::find(word.options, cut) != word.options.end())
+      throw Error(
+          fmt::format("compare {}: {} cuts lights by their shadow maps; expected --shadows FILTER too", typed, cut));
+}
+
 /// The two methods, as options ask for them.
 std::vector<MethodChoice> chosen_sides(const CompareOptions& o, Session& session, const Setup& setup,
                                        std::span<const MethodWord> words) {
@@ -93,15 +108,7 @@ Exit compare(const CompareOptions& o) {
   if (o.panels) return compare_panels(o);
   if (o.a.empty() || o.b.empty()) throw Error("compare: expected the names of two methods, or --panels and a scene");
   const MethodWord words[] = {parse_method_word(o.a), parse_method_word(o.b)};
-  for (const MethodWord& word : words) {
-    Request request = o.request;
-    request.options = word.options;
-    check_request(request, word.method);
-    for (const char* cut : {"occlusion=radial", "proxy=cut"})
-      if (request.shadows.filter == "off" && std::ranges::find(word.options, cut) != word.options.end())
-        throw Error(fmt::format("compare {}:{}: cuts lights by their shadow maps; expected --shadows FILTER too",
-                                word.method, cut));
-  }
+  for (std::size_t i = 0; i < std::size(words); ++i) check_side(o, i == 0 ? o.a : o.b, words[i]);
   const Setup setup = make_setup(o.request);
   Session session(o.request, setup);
   const std::vector<MethodChoice> chosen = chosen_sides(o, session, setup, words);

@@ -18,6 +18,8 @@ bool is_given(const CLI::App& command, const char* name) {
   return option != nullptr && option->count() != 0;
 }
 
+bool is_off(const CLI::Option& option) { return option.results().size() == 1 && option.results().front() == "off"; }
+
 /// A state that lamp-view saved may have shadows. With `--shadows off` the others may stay where they are.
 bool may_have_shadows(const CLI::App& command) {
   return command.get_option_no_throw("--shadows") == nullptr || is_given(command, "--shadows") ||
@@ -44,7 +46,7 @@ void check_point_options(const CLI::App& command) {
                               "--cut",    "--json",   "--calibration"};
   if (!is_given(command, "--points") || is_given(command, "--still-lists")) return;
   for (const CLI::Option* option : command.get_options())
-    if (option->count() != 0 && std::ranges::find(MATTER, option->get_name()) == MATTER.end())
+    if (option->count() != 0 && std::ranges::find(MATTER, option->get_name()) == MATTER.end() && !is_off(*option))
       throw Error(fmt::format("{}: says nothing of look-ups at points; expected no --points, or --still-lists with it",
                               option->get_name()));
 }

@@ -59,7 +59,7 @@ View captured_view(const Request& request, const Scene& scene) {
     throw Error(fmt::format("--depth-samples {}: the capture {} has one sample a pixel, expected 1",
                             request.depth_samples, request.scene));
   static_cast<void>(find_camera(scene, request.camera));
-  if (request.frame >= 0) throw Error(fmt::format("--frame: the capture {} is one frame", request.scene));
+  if (request.frame >= 0) throw Error(fmt::format("--frame, --frames: the capture {} is one frame", request.scene));
   if (request.stereo_m > 0.0F || request.views != 1)
     throw Error(
         fmt::format("{}: the capture {} is one view", request.views != 1 ? "--views" : "--stereo", request.scene));

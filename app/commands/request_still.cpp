@@ -88,8 +88,9 @@ void check_still(const Request& request) {
     throw Error(fmt::format("--still-lists {}: path standard-deferred walks no lists, expected another --path",
                             request.still_lists));
   if (request.still_lists == OFF && request.still_bytes != Request{}.still_bytes)
-    throw Error(fmt::format("--still-bytes {}: there are no lists to hold, expected --still-lists triangle-lists",
-                            request.still_bytes));
+    throw Error(
+        fmt::format("--still-bytes {}: there are no lists to hold, expected --still-lists triangle-lists or world-tree",
+                    request.still_bytes));
   if (request.still_lists == OFF && request.still_occlusion != 0)
     throw Error(
         fmt::format("--still-occlusion {}: there are no lists to leave lights out of, expected --still-lists "

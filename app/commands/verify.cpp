@@ -67,7 +67,7 @@ std::vector<std::string> wanted_methods(const VerifyOptions& o) {
   if (wanted.empty())
     for (const Method& method : methods()) wanted.emplace_back(method.name);
   if (wanted.size() != 1 && !o.request.options.empty())
-    throw Error("--option: belongs to one method; name it with --method");
+    throw Error("--option: belongs to one method; name that one, and no other, with --method");
   for (const std::string& method : wanted) check_request(o.request, method);
   return wanted;
 }
@@ -243,16 +243,16 @@ std::uint64_t pairs_of(const Setup& setup, std::uint32_t samples = 1) {
 }
 
 /// The GPU verifier knows of lights alone, and of one view with one sample a pixel.
-Verifier verifier_of(const VerifyOptions& o, const Setup& setup, const Context& context) {
-  const VerifierChoice choice = parse_verifier(o.verifier, context);
-  const bool several = o.request.depth_samples > 1 || setup.views.size() > 1;
-  if (setup.boxes() == 0 && !several) return chosen(choice, pairs_of(setup));
-  if (choice == VerifierChoice::gpu)
-    throw Error(fmt::format("--verifier gpu: {} are checked by the oracle alone; use --verifier oracle",
-                            setup.views.size() > 1        ? "several views"
-                            : o.request.depth_samples > 1 ? "several samples a pixel"
-                                                          : "decals and probes"));
-  return Verifier::oracle;
+bool knows_all(const VerifyOptions& o, const Setup& setup) {
+  return setup.boxes() == 0 && o.request.depth_samples <= 1 && setup.views.size() == 1;
+}
+
+void check_verifier(const VerifyOptions& o, const Setup& setup) {
+  if (o.verifier != "gpu" || knows_all(o, setup)) return;
+  throw Error(fmt::format("--verifier gpu: {} are checked by the oracle alone; use --verifier oracle",
+                          setup.views.size() > 1        ? "several views"
+                          : o.request.depth_samples > 1 ? "several samples a pixel"
+                                                        : "decals and probes"));
 }
 
 Exit verify(const VerifyOptions& o) {
@@ -263,9 +263,11 @@ Exit verify(const VerifyOptions& o) {
   constexpr std::string_view PICTURES[] = {".png"};
   if (!o.out.empty()) check_output("--out", o.out, PICTURES);
   const Setup setup = make_setup(o.request);
+  check_verifier(o, setup);
   Session session(o.request, setup);
   const std::uint64_t pairs = pairs_of(setup, o.request.depth_samples);
-  const Verifier verifier = verifier_of(o, setup, session.context());
+  const VerifierChoice choice = parse_verifier(o.verifier, session.context());
+  const Verifier verifier = knows_all(o, setup) ? chosen(choice, pairs_of(setup)) : Verifier::oracle;
   std::vector<Stats> refused;
   std::vector<Candidate> candidates = make_candidates(o, session, setup, wanted, refused);
   show_progress("verify picture: brute force");

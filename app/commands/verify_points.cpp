@@ -73,7 +73,7 @@ std::vector<Asked> methods_at_points(const Request& request, const PointsRequest
       throw Error(fmt::format("--points: {} has no look-up by position; expected one of: {}", name, names));
   }
   if (found.size() != 1 && !request.options.empty())
-    throw Error("--option: belongs to one method; name it with --method");
+    throw Error("--option: belongs to one method; name that one, and no other, with --method");
   std::vector<Asked> asked;
   for (const Method* method : found) {
     asked.push_back({method, request.options});

@@ -120,6 +120,11 @@ TEST_F(Auto, IsMeasuredOnceAndKept) {
 
   const Outcome second = lamp(explain, first_use("cache"));
   EXPECT_NE(second.out.find("calibration: " + kept.string() + "\n"), std::string::npos) << second.out;
+
+  write("cache/lamplight/" + kept.filename().string(), "broken");
+  const Outcome third = lamp(explain, first_use("cache"));
+  EXPECT_TRUE(third.err.starts_with("auto: " + kept.string() + " is damaged")) << third.err;
+  EXPECT_NE(third.out.find("calibration: built in, of "), std::string::npos) << third.out;
 }
 
 TEST_F(Auto, WorksWithoutACache) {

@@ -58,10 +58,11 @@ TEST_F(BadInput, OptionsOfAMethod) {
   expect_error(BAD_INPUT, with("tile"), {"option 'tile'", "expected KEY=VALUE"});
   expect_error(BAD_INPUT, with("tile=8\n16"), {"option tile: '8\\n16'"});
   expect_error(BAD_INPUT, {"verify", "--verifier", "cpu"}, {"--verifier", "cpu", "oracle"});
-  expect_error(BAD_INPUT, {"verify", "--option", "tile=8"}, {"--option", "name it with --method"});
+  expect_error(BAD_INPUT, {"verify", "--option", "tile=8"}, {"--option", "with --method"});
   expect_error(BAD_INPUT, {"compare", "tiled"}, {"names of two methods"});
   expect_error(BAD_INPUT, {"compare", "all", "tiled:tle=8"}, {"option 'tle'", "has the options tile, "});
-  expect_error(BAD_INPUT, {"compare", "tiled:tile=5", "all"}, {"option tile: '5'", "8, 16, 32"});
+  expect_error(BAD_INPUT, {"compare", "tiled:tile=5", "all"},
+               {"compare tiled:tile=5: ", "option tile: '5'", "8, 16, 32"});
   expect_error(BAD_INPUT, {"compare", "tiled:", "all"}, {"option ''", "expected KEY=VALUE"});
   expect_error(BAD_INPUT, {"compare", "tiled:tile=8,tile=16", "all"}, {"tile: is given twice"});
   expect_error(BAD_INPUT, {"compare", "auto:tile=8", "all"}, {"method 'auto:tile=8'", "chooses its own options"});
