@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "error.h"
+#include "files/content_hash.h"
 #include "files/json_values.h"
 #include "files/read_file.h"
 #include "files/read_json.h"
@@ -36,13 +37,6 @@ std::array<double, COUNT> parse_terms(const json& entry, const char* key, const 
     terms[i] = entry[key][i].get<double>();
   }
   return terms;
-}
-
-/// FNV-1a: file names for any device name.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-  return hash;
 }
 
 }  // namespace
@@ -103,7 +97,8 @@ std::string cached_calibration_file(const std::string& device, const std::string
   else if (home != nullptr && *home != '\0')
     folder = fs::path(home) / ".cache";
   if (folder.empty()) return {};
-  return (folder / "lamplight" / fmt::format("calibration-{:016x}.json", hash_of(device + "\n" + driver))).string();
+  const std::string name = hash_text(hash_of(device + "\n" + driver));  // any device's name gives one of a file
+  return (folder / "lamplight" / fmt::format("calibration-{}.json", name)).string();
 }
 
 std::optional<Calibration> read_cached_calibration(const std::string& file, const std::string& device,

@@ -124,6 +124,15 @@ CapturedFrame frame_of(const fs::path& folder, const Manifest& manifest) {
   return frame;
 }
 
+/// frame.json and what it names.
+std::vector<fs::path> files_of(const fs::path& folder, const Manifest& manifest) {
+  std::vector<fs::path> files{folder / CAPTURE_FILE, folder / manifest.depth};
+  if (!manifest.lights_file.empty()) files.push_back(folder / manifest.lights_file);
+  for (const auto* name : {&manifest.albedo, &manifest.normal, &manifest.material, &manifest.emission})
+    if (*name) files.push_back(folder / **name);
+  return files;
+}
+
 Scene read_capture(const fs::path& folder) {
   const fs::path manifest_file = folder / CAPTURE_FILE;
   const std::vector<std::byte> text = read_file(manifest_file, {.expected = "a capture's frame.json"});
@@ -138,6 +147,7 @@ Scene read_capture(const fs::path& folder) {
   scene.directional_lights = manifest.directional_lights;
   scene.lights = lights_of(folder, manifest, manifest_file.string());
   scene.captured = frame_of(folder, manifest);
+  scene.files = files_of(folder, manifest);
   return scene;
 }
 

@@ -19,6 +19,7 @@
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_probes.h"
+#include "scene/gltf_resources.h"
 
 namespace lamp::app {
 namespace {
@@ -33,6 +34,21 @@ void check_extent(const Box& box, const std::string& file) {
   if (!(furthest <= FURTHEST_M)) {
     gltf_fail(file, "scene", fmt::format("reaches {} m, expected at most {} m from the origin", furthest, FURTHEST_M));
   }
+}
+
+/// The files of its buffers, and those of the images that it shows, each once.
+std::vector<std::filesystem::path> files_beside(const GltfDocument& document, std::span<const GltfImageUse> uses) {
+  std::vector<std::filesystem::path> files;
+  const auto add = [&files](const std::filesystem::path& file) {
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+  };
+  for (const std::filesystem::path& file : document.files) add(file);
+  for (const GltfImageUse& use : uses) {
+    const GltfImage& image = document.images[static_cast<std::size_t>(use.image)];
+    if (image.buffer_view >= 0) continue;
+    if (const auto file = external_file(image.uri, document.origin, image.name)) add(*file);
+  }
+  return files;
 }
 
 Scene to_scene(GltfDocument document, std::string name) {
@@ -61,6 +77,7 @@ Scene to_scene(GltfDocument document, std::string name) {
 
   // Last, as it takes longest: every other mistake in the file has been found by now.
   scene.images = read_images(document, materials.images);
+  scene.files = files_beside(document, materials.images);
   scene.notes = std::move(document.notes);
   return scene;
 }
@@ -72,7 +89,9 @@ Scene load_gltf(const std::filesystem::path& file) {
   GltfOrigin origin{file.string(), file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")};
   return within_memory(origin.file, [&] {
     const std::vector<std::byte> bytes = read_file(file, {.expected = "a glTF file", .most_bytes = LARGEST});
-    return to_scene(read_document(bytes, origin), file.stem().string());
+    Scene scene = to_scene(read_document(bytes, origin), file.stem().string());
+    scene.files.insert(scene.files.begin(), file);
+    return scene;
   });
 }
 

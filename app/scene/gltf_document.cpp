@@ -110,6 +110,17 @@ std::vector<std::vector<std::byte>> read_buffers(const json& document, const Glt
   return buffers;
 }
 
+/// Without those of images, of which only some are used.
+std::vector<std::filesystem::path> buffer_files(const json& document, const GltfOrigin& origin) {
+  std::vector<std::filesystem::path> files;
+  for (const json& buffer : elements(document, "buffers")) {
+    if (!buffer.contains("uri")) continue;
+    if (auto file = external_file(buffer["uri"].get_ref<const std::string&>(), origin, "buffers"))
+      files.push_back(*std::move(file));
+  }
+  return files;
+}
+
 std::vector<GltfImage> read_images(const json& document, const std::string& file) {
   std::vector<GltfImage> images;
   std::map<std::pair<std::string_view, int>, int> sources;
@@ -228,6 +239,7 @@ GltfDocument read_document(std::span<const std::byte> bytes, GltfOrigin origin) 
   note_left_out(parsed, document.notes);
 
   document.buffers = read_buffers(parsed, document.origin, container.binary);
+  document.files = buffer_files(parsed, document.origin);
   document.images = read_images(parsed, file);
   document.model = convert(std::move(parsed), file);
   check_buffer_views(document);

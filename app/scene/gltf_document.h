@@ -7,6 +7,7 @@
 #include <tiny_gltf.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ struct GltfDocument {
   tinygltf::Model model;  ///< without buffers and images, which are here
   std::vector<std::vector<std::byte>> buffers;
   std::vector<GltfImage> images;
-  std::vector<std::string> notes;  ///< what was left out, for Scene::notes
+  std::vector<std::string> notes;            ///< what was left out, for Scene::notes
+  std::vector<std::filesystem::path> files;  ///< that the buffers were read from, besides its own
 
   /// The bytes of a buffer view.
   [[nodiscard]] std::span<const std::byte> view_bytes(int buffer_view) const;

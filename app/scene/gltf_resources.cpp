@@ -88,13 +88,9 @@ std::vector<std::byte> read_data_uri(const std::string& uri, const GltfOrigin& o
 
 }  // namespace
 
-std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin, const std::string& element,
-                                std::size_t limit) {
-  if (uri.starts_with("data:")) {
-    std::vector<std::byte> bytes = read_data_uri(uri, origin, element);
-    if (bytes.size() > limit) bytes.resize(limit);
-    return bytes;
-  }
+std::optional<std::filesystem::path> external_file(const std::string& uri, const GltfOrigin& origin,
+                                                   const std::string& element) {
+  if (uri.starts_with("data:")) return std::nullopt;
   const std::filesystem::path relative = decode_percent(uri);
   if (!stays_below(relative) || uri.find("://") != std::string::npos) {
     gltf_fail(origin.file, element,
@@ -104,10 +100,20 @@ std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin
     gltf_fail(origin.file, element,
               fmt::format("uri is '{}', expected a data URI, as the scene does not come from a folder", uri));
   }
-  const std::filesystem::path file = origin.folder / relative.lexically_normal();
-  return read_file(file, {.name = fmt::format("{}: {}: file '{}'", origin.file, element, file.string()),
-                          .most_bytes = LARGEST_FILE,
-                          .first_bytes = limit});
+  return origin.folder / relative.lexically_normal();
+}
+
+std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin, const std::string& element,
+                                std::size_t limit) {
+  const std::optional<std::filesystem::path> file = external_file(uri, origin, element);
+  if (!file) {
+    std::vector<std::byte> bytes = read_data_uri(uri, origin, element);
+    if (bytes.size() > limit) bytes.resize(limit);
+    return bytes;
+  }
+  return read_file(*file, {.name = fmt::format("{}: {}: file '{}'", origin.file, element, file->string()),
+                           .most_bytes = LARGEST_FILE,
+                           .first_bytes = limit});
 }
 
 }  // namespace lamp::app

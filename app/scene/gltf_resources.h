@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct GltfOrigin {
   std::string file;
   std::filesystem::path folder;
 };
+
+/// The file that a URI leads to; nothing where it is data. Throws Error unless it lies below the folder.
+[[nodiscard]] std::optional<std::filesystem::path> external_file(const std::string& uri, const GltfOrigin& origin,
+                                                                 const std::string& element);
 
 /// The first `limit` bytes of what a URI names: base64 data, or a file by a relative path.
 [[nodiscard]] std::vector<std::byte> read_uri(const std::string& uri, const GltfOrigin& origin,

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -142,11 +143,12 @@ struct Scene {
   std::vector<DirectionalLight> directional_lights;
   std::vector<Camera> cameras;  ///< at least one after loading; the first is the default
   std::optional<Flight> flight;
-  LightPlacement placement;               ///< of generated lights
-  glm::vec3 sky{0.0F};                    ///< radiance of pixels that nothing covers
-  glm::vec3 ambient{0.0F};                ///< irradiance from everywhere, so that unlit surfaces are not black
-  std::optional<CapturedFrame> captured;  ///< then there are no meshes, and this is the only camera's view
-  std::vector<std::string> notes;         ///< what a loader left out or replaced, one line each
+  LightPlacement placement;                  ///< of generated lights
+  glm::vec3 sky{0.0F};                       ///< radiance of pixels that nothing covers
+  glm::vec3 ambient{0.0F};                   ///< irradiance from everywhere, so that unlit surfaces are not black
+  std::optional<CapturedFrame> captured;     ///< then there are no meshes, and this is the only camera's view
+  std::vector<std::string> notes;            ///< what a loader left out or replaced, one line each
+  std::vector<std::filesystem::path> files;  ///< that it was read from, none of a built-in one
 };
 
 /// World-space bounds of all instances; an empty scene gives a unit box around the origin.

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "lamplight/view.h"
 #include "unit/capture_folder.h"
@@ -96,6 +97,9 @@ TEST_F(Capture, IsReadAsItWasWritten) {
     EXPECT_EQ(read.directional_lights[0].illuminance, scene.directional_lights[0].illuminance);
     ASSERT_EQ(read.lights.size(), scene.lights.size());
     for (std::size_t i = 0; i < scene.lights.size(); ++i) expect_same_light(read.lights[i], scene.lights[i]);
+    std::set<std::filesystem::path> there;
+    for (const auto& entry : std::filesystem::directory_iterator(path("out"))) there.insert(entry.path());
+    EXPECT_EQ(std::set(read.files.begin(), read.files.end()), there) << "reads all that was written";
   }
 }
 

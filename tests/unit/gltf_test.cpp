@@ -8,6 +8,8 @@
 #include <fstream>
 #include <set>
 
+#include "image/image.h"
+#include "temporary_folder.h"
 #include "unit/gltf_builder.h"
 
 namespace {
@@ -47,12 +49,34 @@ TEST(Gltf, LoadsBuffersAndImagesNextToTheFile) {
   const Scene scene = lamp::app::load_gltf(folder / "scene.gltf");
   EXPECT_EQ(scene.name, "scene");
   EXPECT_EQ(scene.vertices.at(2).position, glm::vec3(0, 1, 0));
+  EXPECT_EQ(scene.files, (std::vector{folder / "scene.gltf", folder / "a buffer.bin"}));
 
   std::ofstream(folder / "a buffer.bin", std::ios::binary) << contents.substr(0, 35);
   const std::string error = error_text(builder.document.dump(), folder);
   EXPECT_NE(error.find("test.gltf: buffer 0: byteLength is 36, expected at most the 35 bytes"), std::string::npos)
       << error;
   std::filesystem::remove_all(folder);
+}
+
+TEST(Gltf, SaysWhichFilesItRead) {
+  const lamp::app::TemporaryFolder folder;
+  GltfBuilder builder = triangle();
+  std::ofstream(folder.path() / "scene.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(builder.bytes.data()), static_cast<std::streamsize>(builder.bytes.size()));
+  for (const char* name : {"used.png", "unused.png"})
+    lamp::app::write_png(folder.path() / name, {1, 1, {glm::u8vec4(255)}});
+  builder.document["buffers"][0] = {{"byteLength", builder.bytes.size()}, {"uri", "scene.bin"}};
+  for (const char* name : {"unused.png", "used.png"}) builder.add("images", {{"uri", name}});
+  builder.add("images", {{"uri", "data:image/png;base64," + std::string(PNG)}});
+  for (const int source : {1, 2}) builder.add("textures", {{"source", source}});
+  builder.add("materials", {{"pbrMetallicRoughness",
+                             {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
+                            {"emissiveTexture", {{"index", 1}}}});
+  builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+  std::ofstream(folder.path() / "scene.gltf") << builder.document.dump();
+  EXPECT_EQ(lamp::app::load_gltf(folder.path() / "scene.gltf").files,
+            (std::vector{folder.path() / "scene.gltf", folder.path() / "scene.bin", folder.path() / "used.png"}));
+  EXPECT_TRUE(load(triangle()).files.empty()) << "from memory";
 }
 
 TEST(Gltf, PlacesNodesByMatrixAndByTranslationRotationScale) {
