@@ -60,7 +60,11 @@ Chart parse_chart(const json& value, const Series& series, const std::string& wh
 
 /// `auto` has no options: it chooses them.
 void check_method(const SuiteMethod& method, const std::string& where) {
-  if (method.name == "auto" && method.options.empty()) return;
+  if (method.name == "auto") {
+    if (method.options.empty()) return;
+    throw Error(fmt::format("{}: method auto: chooses its own options; expected none, got {}", where,
+                            fmt::join(method.options, " ")));
+  }
   const auto known = find_method(method.name);
   if (!known.ok()) throw Error(where + ": " + known.error().text());
   const auto options = resolve_options(*known.value(), method.options);
@@ -149,7 +153,8 @@ std::optional<LightWave> parse_flight(SuiteJson& object) {
   flight.read("to", wave.to, 0, MAX_LIGHTS);
   flight.read("waves", wave.waves, 1, 1000);
   flight.finish();
-  if (wave.to < wave.from) object.wrong("flight", "from <= to");
+  if (!flight.has("to")) flight.missing("to", "the most lights of the flight");
+  if (wave.to < wave.from) flight.wrong("to", fmt::format("{} or more, as from says", wave.from));
   return wave;
 }
 

@@ -47,6 +47,10 @@ void SuiteJson::wrong(std::string_view key, const std::string& expected) const {
   throw Error(fmt::format("{}: {}: expected {}, got {}", where_, key, expected, shown(at(key))));
 }
 
+void SuiteJson::missing(std::string_view key, const std::string& expected) const {
+  throw Error(fmt::format("{}: {}: is missing; expected {}", where_, key, expected));
+}
+
 void SuiteJson::read(std::string_view key, std::string& out) {
   if (!has(key)) return;
   if (!at(key).is_string()) wrong(key, "a text");
@@ -55,7 +59,7 @@ void SuiteJson::read(std::string_view key, std::string& out) {
 
 void SuiteJson::require(std::string_view key, std::string& out) {
   read(key, out);
-  if (out.empty()) throw Error(fmt::format("{}: {}: is missing; expected a text", where_, key));
+  if (out.empty()) missing(key, "a text");
 }
 
 void SuiteJson::read(std::string_view key, bool& out) {

@@ -36,6 +36,7 @@ class SuiteJson {
   void finish() const;
 
   [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
+  [[noreturn]] void missing(std::string_view key, const std::string& expected) const;
   [[nodiscard]] const std::string& where() const { return where_; }
 
  private:

@@ -88,16 +88,24 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   return scene_suite(std::move(series));
 }
 
+/// Runs a check of a group. Errors begin with the suite and the series; with neither where a scene was named (empty).
+template <class Check>
+void check_in(const std::string& suite, const Group& group, const Check& check) {
+  try {
+    check();
+  } catch (const Error& error) {
+    if (suite.empty()) throw;
+    throw Error(fmt::format("{}: series '{}': {}", suite, group.series, error.what()), error.exit());
+  }
+}
+
 /// Checks what a suite's file cannot know by itself to be wrong, before any work.
-void check_groups(const std::string& source, std::span<const Group> groups) {
+void check_groups(const std::string& suite, std::span<const Group> groups) {
   for (const Group& group : groups)
-    for (const GroupEntry& entry : group.entries) {
-      try {
-        check_request(request_of(group, entry), entry.method);
-      } catch (const Error& error) {
-        throw Error(fmt::format("{}: series '{}': {}", source, group.series, error.what()));
-      }
-    }
+    for (const GroupEntry& entry : group.entries)
+      check_in(suite, group, [&] { check_request(request_of(group, entry), entry.method); });
+  SceneCheck scenes;
+  for (const Group& group : groups) check_in(suite, group, [&] { scenes.check(group); });
 }
 
 void check_folder(const std::string& out) {
@@ -189,8 +197,7 @@ Exit bench(const BenchOptions& o) {
                                              .most_walked = brute_force_lights(device.context()),
                                              .verifier = parse_verifier(o.verifier, device.context()),
                                              .every_list = !device.software()});
-  check_groups(from_suite ? o.request.scene : "lamp bench", expansion.groups);
-  check_views(expansion.groups);
+  check_groups(from_suite ? o.request.scene : "", expansion.groups);
   check_folder(o.out);
   const DeviceRow& row = device.context().row();
   json results = new_results({.command = o.command_line,
@@ -300,6 +307,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   // While the line is parsed, before pairs of options are looked at: a suite takes neither of a pair.
   command->parse_complete_callback([o, command] { refuse_with_suite(*command, o->request.scene); });
   return [o] {
+    if (o->out.empty()) throw Error("--out '': expected the name of a folder");
     if (!o->max_size.empty() && pixels_of(o->max_size) == 0)
       throw Error(
           fmt::format("--max-size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1920x1080", o->max_size));

@@ -32,9 +32,8 @@ View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
   glm::uvec2 size = parse_size(group.size);
   const HostDepth depth = host_depth_of(group);
   if (group.stereo_m > 0.0 && (size.x % 2 != 0 || scene.captured))
-    throw Error(
-        fmt::format("series '{}': stereo: expected an even width and a scene that is no captured frame, got {} of {}",
-                    group.series, group.size, group.scene));
+    throw Error(fmt::format("stereo: expected an even width and a scene that is no captured frame, got {} of {}",
+                            group.size, group.scene));
   if (scene.captured) {
     const View& view = scene.captured->view;
     if (size != glm::uvec2(view.width(), view.height()) || group.projection != "camera" || group.frame >= 0 ||
@@ -115,14 +114,12 @@ std::uint32_t standing_lights(const BenchScene& scene, const Group& group) {
   return still_lights(request_of(group, group.entries.front()), scene.scene, group.lights);
 }
 
-void check_views(std::span<const Group> groups) {
-  std::string name;
-  Scene scene;
-  for (const Group& group : groups) {
-    if (group.scene != name) scene = load_scene(group.scene);
-    name = group.scene;
-    static_cast<void>(view_at(scene, group, 0));
+void SceneCheck::check(const Group& group) {
+  if (group.scene != name_) {
+    scene_ = load_scene(group.scene);
+    name_ = group.scene;
   }
+  static_cast<void>(view_at(scene_, group, 0));
 }
 
 BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t number) {

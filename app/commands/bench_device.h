@@ -59,8 +59,16 @@ struct BenchFrame {
   std::uint32_t still = 0;  ///< how many of them stand still, the last ones
   std::span<const gpu::DecalData> decals;
 };
-/// Throws Error for a scene, camera, flight or projection that is not there.
-void check_views(std::span<const Group> groups);
+/// Looks at scenes before any work, one group after the other.
+class SceneCheck {
+ public:
+  /// Throws Error for a scene, camera, flight or projection that is not there.
+  void check(const Group& group);
+
+ private:
+  std::optional<std::string> name_;  ///< of the scene that was loaded last
+  Scene scene_;
+};
 
 [[nodiscard]] BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t number);
 

@@ -84,13 +84,17 @@ TEST(BenchSuite, ValuesThatAreWrong) {
   expect_error(suite_with(R"("frames": 0)"), {"frames", "from 1"});
   expect_error(suite_with(R"("methods": ["tield"])"), {"method 'tield'", "tiled"});
   expect_error(suite_with(R"("methods": [{"name": "tiled", "options": ["tile=9"]}])"), {"tiled", "tile", "9"});
+  expect_error(suite_with(R"("methods": [{"name": "auto", "options": ["tile=8"]}])"),
+               {"series 'one': method auto: chooses its own options; expected none, got tile=8"});
   expect_error(suite_with(R"("methods": [])"), {"methods"});
   expect_error(suite_with(R"("chart": {"y": "speed"})"), {"chart", "y", "cull+shade", "speed"});
   expect_error(suite_with(R"("chart": {"x": "weather"})"), {"chart", "x", "option:KEY"});
   expect_error(suite_with(R"("chart": {"x": "option:weather"})"), {"chart", "x", "option:KEY of a KEY"});
   expect_error(suite_with(R"("chart": {"x": "option:tile"}, "options": {"test": ["aabb"]})"), {"chart", "x"});
   EXPECT_EQ(error_of(suite_with(R"("chart": {"x": "option:tile"}, "options": {"tile": ["8"]})")), "no error");
-  expect_error(suite_with(R"("flight": {"from": 9, "to": 3})"), {"flight", "from <= to"});
+  expect_error(suite_with(R"("flight": {"from": 9, "to": 3})"),
+               {"series 'one': flight: to: expected 9 or more, as from says, got 3"});
+  expect_error(suite_with(R"("flight": {"from": 7})"), {"series 'one': flight: to: is missing; expected the most"});
   expect_error(suite_with(R"("flight": {"from": 1, "to": 3}, "chart": {"y": "bytes"})"),
                {"chart", "y", "cull, shade, cull+shade, frame, as each frame of a flight has them alone"});
   expect_error(suite_with(R"("verify": 3)"), {"verify", "true, false or"});
