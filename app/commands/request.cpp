@@ -265,7 +265,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_path(request.path));
   static_cast<void>(parse_brdf(request.brdf));
   static_cast<void>(parse_depth(request.depth, request.depth_samples));
-  static_cast<void>(requested_shadows(request));
+  check_shadow_choice(request);
   check_still(request);
   check_mirror(request);
   check_probes_show(request);

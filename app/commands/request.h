@@ -184,6 +184,8 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] HostDepth parse_depth(const std::string& text, std::uint32_t samples);
 /// Of `--shadows` and what goes with it; nothing if they are off.
 [[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request);
+/// Throws Error for what they cannot be, on any device.
+void check_shadow_choice(const Request& request);
 /// Throws Error, naming `--probes-show`.
 void check_probes_show(const Request& request);
 /// What `--probes-show` takes.

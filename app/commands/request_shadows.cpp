@@ -9,6 +9,8 @@
 
 #include "commands/command_line.h"
 #include "commands/request.h"
+#include "gpu/check.h"
+#include "lamplight/shadow_atlas.h"
 
 namespace lamp::app {
 namespace {
@@ -70,6 +72,12 @@ std::optional<ShadowSettings> requested_shadows(const Request& request) {
   if (filter == 0) return std::nullopt;
   check_cuts(request, settings);
   return settings;
+}
+
+void check_shadow_choice(const Request& request) {
+  if (!requested_shadows(request)) return;
+  const std::uint32_t size = request.shadows.atlas;
+  static_cast<void>(take(ShadowAtlas::create({.size = size, .max_image_size = size})));  // the device may take less
 }
 
 void add_shadow_options(CLI::App& command, Request& r) {

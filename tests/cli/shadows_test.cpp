@@ -111,6 +111,11 @@ TEST_F(Shadows, SayWhatIsWrong) {
                {"lamplight:occlusion=radial", "expected --shadows FILTER too"});
   expect_error(BAD_INPUT, {"render", "plane", "--lights", "1", "--shadows", "pcf", "--atlas", "1000"},
                {"shadow atlas: size", "power of two", "1000"});
+  expect_error(BAD_INPUT, {"bench", "plane", "--lights", "1", "--shadows", "pcf", "--atlas", "1000"},
+               {"lamp: shadow atlas: size", "power of two", "1000"});
+  write("mine.json", R"({"version": 1, "name": "mine", "series": [{"name": "s", "scenes": ["plane"], "lights": [1],
+    "shadows": "pcf", "atlas": 1000}]})");
+  expect_error(BAD_INPUT, {"bench", "mine.json"}, {"lamp: mine.json: series 's': shadow atlas: size", "1000"});
 }
 
 }  // namespace
