@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "files/printable.h"
+
 namespace lamp::app {
 namespace {
 
@@ -262,14 +264,14 @@ std::string key_of(const Group& group, const GroupEntry& entry) {
   if (group.flight)
     lights = fmt::format("{}..{} in {} waves", group.flight->from, group.flight->to, group.flight->waves);
   std::vector<std::string> options = entry.options;
-  return fmt::format(
+  return printable(fmt::format(
       "{}: {} {} lights={} spots={} range={} seed={} camera={} projection={} frame={} brdf={}{}{} | {} {}{}{}{} | "
       "frames={}+{} verify={}{}",
       group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
       group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
       unusual_words(group), shadow_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ",
       entry.path, host_words(entry), group.warm_up, group.frames, words_of(group.verify),
-      group.pictures ? " pictures" : "");
+      group.pictures ? " pictures" : ""));
 }
 
 std::uint32_t lights_at(const LightWave& wave, std::uint32_t frame, std::uint32_t frames) {

@@ -19,6 +19,7 @@ struct GroupEntry {
   std::string still_lists = "off";
   std::uint32_t still_occlusion = 0;
   std::vector<std::pair<std::string, std::string>> swept;  ///< the series' options here: for the chart's x axis
+  std::string calibration_hash;  ///< of what `auto` goes by; empty: no concern of this method's
 };
 
 /// Everything that the entries of a group share.
@@ -43,6 +44,7 @@ struct Group {
   Verify verify;
   std::string unchecked;  ///< what of the output is not checked, and why; empty when all is
   bool pictures = false;
+  std::string scene_hash;  ///< of the files that the scene is read from; empty: it is built in
   std::vector<GroupEntry> entries;
 };
 
@@ -72,7 +74,7 @@ struct Expansion {
 };
 [[nodiscard]] Expansion expand(const Suite& suite, const Limits& limits);
 
-/// Names a configuration by all that decides its result, one line of text.
+/// Names a configuration by all that decides its result but the content of files, in one printable line.
 [[nodiscard]] std::string key_of(const Group& group, const GroupEntry& entry);
 
 /// "picture", "64 rows", "64 rows, lists alone", "64 rows, every list, by gpu", "nothing".

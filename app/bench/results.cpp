@@ -28,9 +28,19 @@ json to_json(const Series& series) {
        {{"x", series.chart.x}, {"y", series.chart.y}, {"log_x", series.chart.log_x}, {"log_y", series.chart.log_y}}}};
 }
 
-bool has_key(const json& results, const std::string& key) {
-  return std::ranges::any_of(results["results"],
-                             [&](const json& entry) { return entry["key"].get_ref<const std::string&>() == key; });
+bool has_result(const json& results, const Group& group, const GroupEntry& entry) {
+  const std::string key = key_of(group, entry);
+  const json hashes = hashes_of(group, entry);
+  return std::ranges::any_of(results["results"], [&](const json& result) {
+    return result["key"].get_ref<const std::string&>() == key && result.value("hashes", json::object()) == hashes;
+  });
+}
+
+std::set<std::string> keys_of(std::span<const Group> groups) {
+  std::set<std::string> keys;
+  for (const Group& group : groups)
+    for (const GroupEntry& entry : group.entries) keys.insert(key_of(group, entry));
+  return keys;
 }
 
 /// Throws Error unless both runs agree on a field of `run`.
@@ -38,8 +48,9 @@ void check_same(const json& results, const json& earlier, const std::string& fil
   const json& now = results["run"][field];
   const json& then = earlier["run"][field];
   if (now == then) return;
-  throw Error(fmt::format("{}: was measured with {} {}, and now it is {}; expected the same, or another --out", file,
-                          field, shown(then), shown(now)));
+  throw Error(
+      fmt::format("{}: was measured with {} {}, and now it is {}; expected the same, another --out, or --overwrite",
+                  file, field, shown(then), shown(now)));
 }
 
 /// A cell of the table: quoted where it must be.
@@ -137,22 +148,45 @@ json new_results(const RunInfo& run, const Suite& suite) {
           {"results", json::array()}};
 }
 
-void take_over(json& results, const json& earlier, const std::string& file, std::span<const Group> groups) {
+void check_earlier(const json& results, const json& earlier, const std::string& file, std::span<const Group> groups) {
   if (earlier["suite"]["name"] != results["suite"]["name"])
-    throw Error(fmt::format("{}: holds the suite {}; expected {}, or another --out", file,
+    throw Error(fmt::format("{}: holds the suite {}; expected {}, another --out, or --overwrite", file,
                             shown(earlier["suite"]["name"]), shown(results["suite"]["name"])));
   for (const char* field : {"device", "driver", "commit"}) check_same(results, earlier, file, field);
-  std::set<std::string> wanted;
+  const std::set<std::string> wanted = keys_of(groups);
+  std::vector<std::string> lost;
+  for (const json& result : earlier["results"])
+    if (!wanted.contains(result["key"])) lost.push_back(result["key"]);
+  if (lost.empty()) return;
+  throw Error(
+      fmt::format("{}: {} of its {} results would be lost, as this run does not measure them, such as '{}'; expected "
+                  "another --out, or --overwrite",
+                  file, lost.size(), earlier["results"].size(), lost.front()));
+}
+
+std::size_t take_over(json& results, const json& earlier, std::span<const Group> groups) {
+  std::set<std::string> kept;
   for (const Group& group : groups)
-    if (has_group(earlier, group))
-      for (const GroupEntry& entry : group.entries) wanted.insert(key_of(group, entry));
-  for (const json& entry : earlier["results"])
-    if (wanted.contains(entry["key"])) results["results"].push_back(entry);
+    if (has_group(earlier, group)) kept.merge(keys_of({&group, 1}));
+  std::size_t left = 0;
+  for (const json& result : earlier["results"]) {
+    if (kept.contains(result["key"]))
+      results["results"].push_back(result);
+    else
+      ++left;
+  }
+  return left;
+}
+
+json hashes_of(const Group& group, const GroupEntry& entry) {
+  json hashes = json::object();
+  if (!group.scene_hash.empty()) hashes["scene"] = group.scene_hash;
+  if (!entry.calibration_hash.empty()) hashes["calibration"] = entry.calibration_hash;
+  return hashes;
 }
 
 bool has_group(const json& results, const Group& group) {
-  return std::ranges::all_of(group.entries,
-                             [&](const GroupEntry& entry) { return has_key(results, key_of(group, entry)); });
+  return std::ranges::all_of(group.entries, [&](const GroupEntry& entry) { return has_result(results, group, entry); });
 }
 
 void add_group(json& results, const std::vector<json>& entries) {

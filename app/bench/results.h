@@ -3,8 +3,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -33,12 +35,19 @@ struct RunInfo {
 /// The same from a file.
 [[nodiscard]] nlohmann::json load_results(const std::filesystem::path& file);
 
-/// Takes over from an earlier run the results that the same configurations would give again. Throws Error when the
-/// earlier run was another suite, or made on another device, driver or commit: its times cannot stand beside new ones.
-void take_over(nlohmann::json& results, const nlohmann::json& earlier, const std::string& file,
-               std::span<const Group> groups);
+/// Throws Error when going on with an earlier run would lose any of its results: when it was another suite, was made on
+/// another device, driver or commit (its times cannot stand beside new ones), or measured what this run does not.
+void check_earlier(const nlohmann::json& results, const nlohmann::json& earlier, const std::string& file,
+                   std::span<const Group> groups);
+/// Takes over from an earlier run the results that the same groups would give again. Returns how many it left: they are
+/// to be measured again.
+[[nodiscard]] std::size_t take_over(nlohmann::json& results, const nlohmann::json& earlier,
+                                    std::span<const Group> groups);
 
-/// Whether every entry of the group has its result.
+/// {"scene": …, "calibration": …}: hashes of files that decide a result; without what is of no concern.
+[[nodiscard]] nlohmann::json hashes_of(const Group& group, const GroupEntry& entry);
+
+/// Whether every entry of the group has its result, of files as they are now.
 [[nodiscard]] bool has_group(const nlohmann::json& results, const Group& group);
 /// Adds results of a group; those of the same keys go.
 void add_group(nlohmann::json& results, const std::vector<nlohmann::json>& entries);

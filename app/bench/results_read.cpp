@@ -76,6 +76,7 @@ constexpr auto RULES = std::to_array<Rule>({
 
     {.key = "results", .want = Want::objects, .required = true, .size = MOST_CONFIGURATIONS},
     text(RESULT, "key"),
+    {.at = RESULT, .key = "hashes", .want = Want::named_texts},
     text(RESULT, "series"),
     text(RESULT, "label"),
     {.at = RESULT, .key = "parameters", .want = Want::object, .required = true},

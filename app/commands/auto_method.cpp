@@ -33,14 +33,18 @@ std::string words_of(const Choice& choice, const std::string& origin) {
 
 }  // namespace
 
-MethodChoice AutoMethod::choose(Renderer& renderer, const AutoFrame& frame) {
+const KnownCalibration& AutoMethod::known() {
   if (!known_) known_ = find_calibration(context_, shaders_, file_);
+  return *known_;
+}
+
+MethodChoice AutoMethod::choose(Renderer& renderer, const AutoFrame& frame) {
   const std::vector<float> depth = frame.scene.captured ? frame.scene.captured->depth : renderer.draw_depth();
   Workload workload = estimate_workload(frame.view, depth, frame.lights);
   workload.capacity = frame.light_capacity;
   workload.boxes = frame.boxes;
-  const Choice choice = lamp::choose(known_->calibration, workload, context_.device().traits);
-  explanation_ = words_of(workload) + words_of(choice, known_->origin);
+  const Choice choice = lamp::choose(known().calibration, workload, context_.device().traits);
+  explanation_ = words_of(workload) + words_of(choice, known().origin);
   return {.method = &parse_method(choice.method), .options = choice.options, .by_auto = true};
 }
 

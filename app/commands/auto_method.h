@@ -37,10 +37,15 @@ class AutoMethod {
   /// The renderer's frame must be set; draws its surfaces, unless they were captured, to know their depth.
   [[nodiscard]] MethodChoice choose(Renderer& renderer, const AutoFrame& frame);
 
+  /// What it goes by.
+  [[nodiscard]] const Calibration& calibration() { return known().calibration; }
+
   /// What was predicted for the last choice: workload, candidates, which and why, and by what calibration.
   [[nodiscard]] const std::string& explanation() const { return explanation_; }
 
  private:
+  const KnownCalibration& known();
+
   Context& context_;
   const ShaderLibrary& shaders_;
   std::string file_;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
 #include "bench/regret.h"
 #include "bench/report.h"
@@ -19,6 +20,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
+#include "files/content_hash.h"
 #include "files/read_json.h"
 #include "image/write_file.h"
 #include "render/judgement.h"
@@ -44,6 +46,7 @@ struct BenchOptions {
   std::uint32_t max_lights = MAX_LIGHTS;
   double scale = 1.0;
   std::optional<std::uint32_t> frames, warm_up;
+  bool overwrite = false;
   std::string command_line;
 };
 
@@ -100,12 +103,32 @@ void check_in(const std::string& suite, const Group& group, const Check& check) 
 }
 
 /// Checks what a suite's file cannot know by itself to be wrong, before any work.
-void check_groups(const std::string& suite, std::span<const Group> groups) {
+void check_groups(const std::string& suite, std::span<Group> groups) {
   for (const Group& group : groups)
     for (const GroupEntry& entry : group.entries)
       check_in(suite, group, [&] { check_request(request_of(group, entry), entry.method); });
   SceneCheck scenes;
-  for (const Group& group : groups) check_in(suite, group, [&] { scenes.check(group); });
+  for (Group& group : groups) check_in(suite, group, [&] { scenes.check(group); });
+}
+
+/// What `auto` chooses depends on its calibration, which may be measured now.
+void name_calibration(BenchDevice& device, std::span<Group> groups) {
+  std::string hash;
+  for (Group& group : groups)
+    for (GroupEntry& entry : group.entries) {
+      if (!is_auto(entry.method) || group.frames == 0) continue;
+      if (hash.empty()) hash = hash_text(hash_of(json_text(to_json(device.chooser().calibration()), -1)));
+      entry.calibration_hash = hash;
+    }
+}
+
+/// Goes on with the results of an earlier run, and says how many of them it does not take.
+void go_on(json& results, const json& earlier, const std::string& file, std::span<const Group> groups) {
+  if (const std::size_t again = take_over(results, earlier, groups); again != 0)
+    print_out(
+        "{}: {} of its {} results are measured again: the files of a scene, the calibration of auto or the methods "
+        "beside them have changed\n",
+        file, again, earlier["results"].size());
 }
 
 void check_folder(const std::string& out) {
@@ -181,56 +204,77 @@ void check_name(const std::string& name) {
                           fmt::join(nearest_names(name, names), ", ")));
 }
 
-Exit bench(const BenchOptions& o) {
-  check_name(o.request.scene);
-  const bool from_suite = is_suite(o.request.scene);
-  const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o, load_scene(o.request.scene));
-  const fs::path folder = o.out;
-  BenchDevice device(o.request);
-  const Expansion expansion = expand(suite, {.frames = o.frames,
-                                             .warm_up = o.warm_up,
-                                             .scale = o.scale,
-                                             .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,
-                                             .max_lights = o.max_lights,
-                                             .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
-                                             .most_pairs = brute_force_pairs(device.context()),
-                                             .most_walked = brute_force_lights(device.context()),
-                                             .verifier = parse_verifier(o.verifier, device.context()),
-                                             .every_list = !device.software()});
-  check_groups(from_suite ? o.request.scene : "", expansion.groups);
-  check_folder(o.out);
-  const DeviceRow& row = device.context().row();
-  json results = new_results({.command = o.command_line,
-                              .device = row.name,
-                              .device_kind = row.kind,
-                              .driver = row.driver,
-                              .commit = std::string(built_from()),
-                              .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))},
-                             suite);
-  if (fs::exists(folder / "results.json"))
-    take_over(results, load_results(folder / "results.json"), (folder / "results.json").string(), expansion.groups);
-  const int signal = measure_all(device, folder, expansion.groups, results, o.request.explain);
-  const bool complete = std::ranges::all_of(expansion.groups, [&](const Group& g) { return has_group(results, g); });
-  results["run"]["complete"] = complete;
-  results["run"]["left_out"] = expansion.left_out;
-  add_regret(results);
-  write_text(folder / "results.json", json_text(results, 1) + "\n");
-  write_text(folder / "results.csv", results_csv(results));
-  const ReportRun run{.results = results, .file = folder / "results.json"};
-  write_text(folder / "report.html", report_html({&run, 1}));
-  print_faults(results);
+/// What a run came to.
+Exit conclude(const json& results, std::size_t left_out, const std::string& report) {
   const auto count = [&](std::string_view verdict) {
     return std::ranges::count_if(results["results"], [&](const json& entry) { return entry["verdict"] == verdict; });
   };
   const auto wrong = count("wrong");
   const auto unchecked = count(name_of(Verdict::unchecked));
+  print_faults(results);
   if (const std::string words = regret_words(results); !words.empty()) print_out("{}\n", words);
   print_out("{} configurations measured, {} wrong, {} could not be checked, {} beyond the limits: {}\n",
-            results["results"].size(), wrong, unchecked, expansion.left_out, (folder / "report.html").string());
-  if (!complete) print_out("stopped before its end; the same command goes on\n");
-  if (signal != 0) throw Interrupted{signal};
+            results["results"].size(), wrong, unchecked, left_out, report);
   if (wrong != 0) return Exit::check_failed;
   return unchecked != 0 ? Exit::unchecked : Exit::done;
+}
+
+void write_all(const fs::path& folder, const json& results) {
+  write_text(folder / "results.json", json_text(results, 1) + "\n");
+  write_text(folder / "results.csv", results_csv(results));
+  const ReportRun run{.results = results, .file = folder / "results.json"};
+  write_text(folder / "report.html", report_html({&run, 1}));
+}
+
+json results_of(const BenchOptions& o, const DeviceRow& row, const Suite& suite) {
+  return new_results({.command = o.command_line,
+                      .device = row.name,
+                      .device_kind = row.kind,
+                      .driver = row.driver,
+                      .commit = std::string(built_from()),
+                      .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))},
+                     suite);
+}
+
+Exit bench(const BenchOptions& o) {
+  check_name(o.request.scene);
+  const bool from_suite = is_suite(o.request.scene);
+  const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o, load_scene(o.request.scene));
+  BenchDevice device(o.request);
+  Expansion expansion = expand(suite, {.frames = o.frames,
+                                       .warm_up = o.warm_up,
+                                       .scale = o.scale,
+                                       .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,
+                                       .max_lights = o.max_lights,
+                                       .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
+                                       .most_pairs = brute_force_pairs(device.context()),
+                                       .most_walked = brute_force_lights(device.context()),
+                                       .verifier = parse_verifier(o.verifier, device.context()),
+                                       .every_list = !device.software()});
+  const std::span<Group> groups = expansion.groups;
+  check_groups(from_suite ? o.request.scene : "", groups);
+  json results = results_of(o, device.context().row(), suite);
+  const fs::path folder = o.out;
+  const std::string file = (folder / "results.json").string();
+  std::optional<json> earlier;
+  if (std::error_code none; !o.overwrite && fs::exists(file, none)) {
+    earlier = load_results(file);
+    check_earlier(results, *earlier, file, groups);
+  }
+  name_calibration(device, groups);
+  check_folder(o.out);
+  if (earlier) go_on(results, *earlier, file, groups);
+  const int signal = measure_all(device, folder, groups, results, o.request.explain);
+  const bool complete = std::ranges::all_of(groups, [&](const Group& g) { return has_group(results, g); });
+  results["run"]["complete"] = complete;
+  results["run"]["left_out"] = expansion.left_out;
+  add_regret(results);
+  write_all(folder, results);
+  const Exit exit = conclude(results, expansion.left_out, (folder / "report.html").string());
+  if (!complete)
+    print_out("stopped before its end; the same command{} goes on\n", o.overwrite ? " without --overwrite" : "");
+  if (signal != 0) throw Interrupted{signal};
+  return exit;
 }
 
 /// Options that speak of a scene: a suite says its own.
@@ -279,6 +323,8 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add_probe_option(*command, o->request);
   add_out_option(*command, o->out, "write to this folder; what it has results of is not measured again")
       .type_name("FOLDER");
+  command->add_flag("--overwrite", o->overwrite, "measure anew, in place of all results that the folder has")
+      ->group("Output");
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command->add_option(name, value, help)->type_name("N")->group("Measuring");
   };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "files/content_hash.h"
 #include "scene/flight.h"
 #include "scene/number_triangles.h"
 #include "scene/place_lights.h"
@@ -114,12 +115,14 @@ std::uint32_t standing_lights(const BenchScene& scene, const Group& group) {
   return still_lights(request_of(group, group.entries.front()), scene.scene, group.lights);
 }
 
-void SceneCheck::check(const Group& group) {
+void SceneCheck::check(Group& group) {
   if (group.scene != name_) {
     scene_ = load_scene(group.scene);
+    hash_ = hash_of_files(scene_.files);
     name_ = group.scene;
   }
   static_cast<void>(view_at(scene_, group, 0));
+  group.scene_hash = hash_;
 }
 
 BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t number) {

@@ -62,12 +62,13 @@ struct BenchFrame {
 /// Looks at scenes before any work, one group after the other.
 class SceneCheck {
  public:
-  /// Throws Error for a scene, camera, flight or projection that is not there.
-  void check(const Group& group);
+  /// Throws Error for a scene, camera, flight or projection that is not there. Fills in the hash of the scene's files.
+  void check(Group& group);
 
  private:
   std::optional<std::string> name_;  ///< of the scene that was loaded last
   Scene scene_;
+  std::string hash_;
 };
 
 [[nodiscard]] BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t number);

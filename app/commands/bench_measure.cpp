@@ -167,6 +167,7 @@ json result_json(const MeasureInfo& info, Candidate& candidate, const BenchFrame
               {"reason", candidate.checked.reason},
               {"times", times_json(candidate)},
               {"stats", stats_json(info, candidate, frame)}};
+  if (json hashes = hashes_of(info.group, *candidate.entry); !hashes.empty()) result["hashes"] = std::move(hashes);
   if (candidate.clock_moved) result["clock_moved"] = true;
   if (info.group.flight && candidate.timed()) result["samples"] = samples_json(candidate);
   if (has_auto(info.group) && candidate.timed()) result["rounds"] = values_of(candidate.times, cull_and_shade);

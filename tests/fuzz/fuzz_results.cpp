@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   expect(!lamp::app::results_csv(results).empty());
   nlohmann::json again = results;
-  lamp::app::take_over(again, results, "fuzz.json", {});
+  expect(lamp::app::take_over(again, results, {}) == results["results"].size());
   lamp::app::add_regret(again);
   static_cast<void>(lamp::app::regret_words(again));
   const ReportRun run{.results = again, .file = "/nonexistent/results.json"};

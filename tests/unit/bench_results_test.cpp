@@ -13,6 +13,7 @@
 #include "bench/report.h"
 #include "bench/summary.h"
 #include "error.h"
+#include "files/read_json.h"
 #include "image/image.h"
 
 namespace lamp::app {
@@ -165,17 +166,44 @@ TEST_F(BenchResults, ARunGoesOnWhereItStopped) {
   json earlier = run_of(SWEEP);
   earlier["results"].erase(3);  // of the second group, one entry
   json results = new_results(RUN, SWEEP);
-  take_over(results, earlier, "results.json", groups);
+  EXPECT_EQ(take_over(results, earlier, groups), 1U);
   EXPECT_TRUE(has_group(results, groups[0]));
   EXPECT_FALSE(has_group(results, groups[1])) << "entries of a group were timed in the same rounds, or not at all";
   EXPECT_EQ(results["results"].size(), 2U);
 }
 
-TEST_F(BenchResults, ResultsOfOtherSettingsAreNotTakenOver) {
-  const std::vector<Group> longer = expand(SWEEP, {.frames = 500}).groups;
-  json results = new_results(RUN, SWEEP);
-  take_over(results, run_of(SWEEP), "results.json", longer);
-  EXPECT_TRUE(results["results"].empty());
+TEST_F(BenchResults, OfFilesThatHaveChangedAreNotTakenOver) {
+  std::vector<Group> groups = expand(SWEEP, {}).groups;
+  json earlier = run_of(SWEEP);
+  const auto left = [&] {
+    json results = new_results(RUN, SWEEP);
+    check_earlier(results, earlier, "results.json", groups);  // the keys are the same
+    return take_over(results, earlier, groups);
+  };
+  EXPECT_EQ(left(), 0U);
+  groups[0].scene_hash = "1";
+  EXPECT_EQ(left(), 2U) << "nobody knows of which files they are";
+  for (int i : {0, 1}) earlier["results"][i]["hashes"] = {{"scene", "1"}};
+  EXPECT_EQ(left(), 0U);
+  groups[0].scene_hash = "2";
+  EXPECT_EQ(left(), 2U);
+  groups[0].scene_hash = "1";
+  groups[1].entries[1].calibration_hash = "3";
+  EXPECT_EQ(left(), 2U) << "both of the group";
+  earlier["results"][3]["hashes"] = {{"calibration", "3"}};
+  EXPECT_EQ(left(), 0U);
+  EXPECT_EQ(load_error(earlier.dump()), "no error");
+}
+
+// No JSON can hold bytes that are no UTF-8.
+TEST_F(BenchResults, OfASceneWithAnyNameAreFoundAgain) {
+  std::vector<Group> groups = expand(SWEEP, {}).groups;
+  groups[0].scene = "caf\xe9 \x1b.glb";
+  const GroupEntry& entry = groups[0].entries[0];
+  json earlier = run_of(SWEEP);
+  earlier["results"] = json::array();
+  add_group(earlier, {result_of(groups[0], entry, 1.0), result_of(groups[0], groups[0].entries[1], 1.0)});
+  EXPECT_TRUE(has_group(json::parse(json_text(earlier, 1)), groups[0]));
 }
 
 TEST_F(BenchResults, AnotherSuiteDeviceOrCommitIsRefused) {
@@ -183,8 +211,8 @@ TEST_F(BenchResults, AnotherSuiteDeviceOrCommitIsRefused) {
   const auto line = [&](const RunInfo& then, const std::string& suite) {
     json earlier = run_of(SWEEP, then);
     earlier["suite"]["name"] = suite;
-    json results = new_results(RUN, SWEEP);
-    return error_of([&] { take_over(results, earlier, "out/results.json", groups); });
+    const json results = new_results(RUN, SWEEP);
+    return error_of([&] { check_earlier(results, earlier, "out/results.json", groups); });
   };
   EXPECT_EQ(line(RUN, "mine"), "no error");
   EXPECT_NE(line(RUN, "other").find("out/results.json: holds the suite \"other\""), std::string::npos);
@@ -193,7 +221,22 @@ TEST_F(BenchResults, AnotherSuiteDeviceOrCommitIsRefused) {
   EXPECT_NE(line(other, "mine").find("device \"Device 3\""), std::string::npos);
   other = RUN;
   other.commit = "def";
-  EXPECT_NE(line(other, "mine").find("another --out"), std::string::npos);
+  EXPECT_NE(line(other, "mine").find("another --out, or --overwrite"), std::string::npos);
+}
+
+TEST_F(BenchResults, WhatWouldBeLostIsRefused) {
+  const json earlier = run_of(SWEEP);
+  const json results = new_results(RUN, SWEEP);
+  const auto line = [&](const Limits& limits) {
+    const std::vector<Group> groups = expand(SWEEP, limits).groups;
+    return error_of([&] { check_earlier(results, earlier, "results.json", groups); });
+  };
+  EXPECT_EQ(line({}), "no error");
+  const std::string fewer = line({.max_lights = 16});
+  EXPECT_TRUE(fewer.starts_with("results.json: 2 of its 4 results would be lost")) << fewer;
+  EXPECT_NE(fewer.find("'one: atrium 1280x720 lights=64 "), std::string::npos) << fewer;
+  EXPECT_NE(fewer.find("expected another --out, or --overwrite"), std::string::npos) << fewer;
+  EXPECT_TRUE(line({.frames = 500}).starts_with("results.json: 4 of its 4 results would be lost"));
 }
 
 TEST_F(BenchResults, TheTableHasARowAResult) {
