@@ -211,10 +211,11 @@ Exit conclude(const json& results, std::size_t left_out, const std::string& repo
   };
   const auto wrong = count("wrong");
   const auto unchecked = count(name_of(Verdict::unchecked));
+  const auto impossible = count("impossible");
   print_faults(results);
   if (const std::string words = regret_words(results); !words.empty()) print_out("{}\n", words);
-  print_out("{} configurations measured, {} wrong, {} could not be checked, {} beyond the limits: {}\n",
-            results["results"].size(), wrong, unchecked, left_out, report);
+  print_out("{} configurations measured, {} wrong, {} could not be checked, {} impossible, {} beyond the limits: {}\n",
+            std::ssize(results["results"]) - impossible, wrong, unchecked, impossible, left_out, report);
   if (wrong != 0) return Exit::check_failed;
   return unchecked != 0 ? Exit::unchecked : Exit::done;
 }

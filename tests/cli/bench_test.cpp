@@ -285,6 +285,21 @@ TEST_F(Bench, ACapturedFrameIsAScene) {
   expect_error(BAD_INPUT, MINE, {"'frame'", "48x27", "got 8x8"});
 }
 
+// The second needs more room for its lists than many devices have.
+TEST_F(Bench, WhatIsImpossibleIsNotCountedAsMeasured) {
+  write("mine.json", R"({"version": 1, "name": "mine", "series": [{"name": "memory", "methods": ["tiled"],
+    "options": {"tile": ["8"], "mean_capacity": ["1024"]}, "scenes": ["plane"], "sizes": ["64x36", "7680x4320"],
+    "lights": [16], "timed": false}]})");
+  const std::string text = output_of(MINE);
+  const json all = results().at("results");
+  const auto impossible =
+      std::ranges::count_if(all, [](const json& result) { return result.at("verdict") == "impossible"; });
+  const std::string line = std::to_string(2 - impossible) +
+                           " configurations measured, 0 wrong, 0 could not be checked, " + std::to_string(impossible) +
+                           " impossible, 0 beyond the limits: out/report.html\n";
+  EXPECT_TRUE(text.ends_with(line)) << text << "expected " << line;
+}
+
 TEST_F(Bench, AFlightHasASampleAFrame) {
   write("mine.json",
         R"({"version": 1, "name": "mine", "series": [{"name": "flight", "methods": ["tiled"], "scenes": ["posts"],
