@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "complete_options.h"
 #include "lamplight/method.h"
 
 namespace lamp {
@@ -40,12 +41,10 @@ std::vector<Demand> demands(const Method& method, const Options& options, const 
 }
 
 Options with_demands(const Method& method, const Options& options, std::span<const Demand> demands) {
+  auto values = options.all();
+  for (const Demand& demand : demands) values[std::string(demand.option)] = std::to_string(demand.now + demand.more);
   std::vector<std::string> settings;
-  const auto set = [&](std::string setting, const std::string& value) {
-    settings.push_back(setting.append("=").append(value));
-  };
-  for (const auto& [key, value] : options.all()) set(key, value);
-  for (const Demand& demand : demands) set(std::string(demand.option), std::to_string(demand.now + demand.more));
+  for (const auto& [key, value] : values) settings.push_back(std::string(key).append("=").append(value));
   return resolve_options(method, settings).value();
 }
 
@@ -60,11 +59,13 @@ bool has_more_room(const Plan& plan, const Plan& than) {
 std::optional<GrownPlan> grow_plan(const Method& method, const Problem& problem, const Plan& plan,
                                    std::span<const std::uint32_t> needed) {
   assert(needed.size() == plan.capacities.size() && "one count for each capacity of the plan");
-  std::vector<Demand> more = demands(method, problem.options, plan, needed);
+  const Result<Options> options = complete_options(method, problem.options);
+  if (!options) return std::nullopt;
+  std::vector<Demand> more = demands(method, options.value(), plan, needed);
   // What a device refuses is asked for by halves.
   while (std::ranges::any_of(more, [](const Demand& demand) { return demand.more != 0; })) {
     Problem larger = problem;
-    larger.options = with_demands(method, problem.options, more);
+    larger.options = with_demands(method, options.value(), more);
     Result<Plan> grown = make_plan(method, larger);
     if (grown && has_more_room(grown.value(), plan))
       return GrownPlan{std::move(larger.options), std::move(grown.value())};

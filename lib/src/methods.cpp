@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <utility>
 
+#include "complete_options.h"
 #include "lamplight/method.h"
 #include "methods/methods.h"
 #include "own_inputs.h"
@@ -90,9 +92,8 @@ void read_many_samples(Plan& plan) {
   plan.fused.reset();
 }
 
-}  // namespace
-
-Result<Plan> make_plan(const Method& method, const Problem& problem) {
+/// Sizes, capacities and counts, whatever the method.
+std::optional<Error> check_problem(const Problem& problem) {
   const std::uint32_t limit = std::min(problem.traits.max_image_size, MAX_IMAGE_SIZE);
   if (problem.width == 0 || problem.height == 0 || problem.width > limit || problem.height > limit)
     return Error{"size " + std::to_string(problem.width) + "x" + std::to_string(problem.height),
@@ -107,7 +108,17 @@ Result<Plan> make_plan(const Method& method, const Problem& problem) {
   if (problem.frames_in_flight == 0 || problem.frames_in_flight > MAX_FRAMES_IN_FLIGHT)
     return Error{"frames in flight", "expected 1 to " + std::to_string(MAX_FRAMES_IN_FLIGHT) + ", got " +
                                          std::to_string(problem.frames_in_flight)};
-  if (auto error = problem.light_layout.check()) return *error;
+  return problem.light_layout.check();
+}
+
+}  // namespace
+
+Result<Plan> make_plan(const Method& method, const Problem& asked) {
+  if (auto error = check_problem(asked)) return *error;
+  Result<Options> options = complete_options(method, asked.options);
+  if (!options) return options.error();
+  Problem problem = asked;
+  problem.options = std::move(options.value());
   if (method.check != nullptr)
     if (auto error = method.check(problem)) return *error;
   Plan plan = method.plan(of_a_view(problem));

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <string>
 
+#include "complete_options.h"
 #include "lamplight/method.h"
 
 namespace lamp {
@@ -74,6 +76,7 @@ const std::string& Options::word(std::string_view key) const {
 Result<Options> resolve_options(const Method& method, const std::vector<std::string>& settings) {
   Options options;
   for (const OptionSpec& spec : method.options) options.values_.emplace(spec.key, spec.fallback);
+  std::set<std::string_view> set;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) return Error{"option '" + setting + "'", "expected KEY=VALUE"};
@@ -87,9 +90,16 @@ Result<Options> resolve_options(const Method& method, const std::vector<std::str
     }
     const std::string value = setting.substr(equals + 1);
     if (auto error = check_value(*spec, value)) return *error;
+    if (!set.insert(spec->key).second) return Error{"option " + key, "is given twice, expected once"};
     options.values_[key] = value;
   }
   return options;
+}
+
+Result<Options> complete_options(const Method& method, const Options& options) {
+  std::vector<std::string> settings;
+  for (const auto& [key, value] : options.all()) settings.push_back(std::string(key).append("=").append(value));
+  return resolve_options(method, settings);
 }
 
 std::vector<std::string> nearest_names(std::string_view wanted, std::span<const std::string_view> names,

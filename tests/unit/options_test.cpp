@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lamplight/method.h"
@@ -15,10 +16,53 @@ using lamp::Method;
 TEST(Options, HoldDefaultsAndWhatWasSet) {
   const Method& tiled = *lamp::find_method("tiled").value();
   EXPECT_EQ(lamp::resolve_options(tiled, {}).value().integer("tile"), 16U);
-  const auto set = lamp::resolve_options(tiled, {"tile=8", "tile=32"});
+  const auto set = lamp::resolve_options(tiled, {"tile=32"});
   ASSERT_TRUE(set);
-  EXPECT_EQ(set.value().integer("tile"), 32U) << "the last setting counts";
+  EXPECT_EQ(set.value().integer("tile"), 32U);
   EXPECT_EQ(set.value().word("tile"), "32");
+}
+
+TEST(Options, AreGivenOnce) {
+  const Method& tiled = *lamp::find_method("tiled").value();
+  for (const char* again : {"tile=16", "tile=64"}) {
+    const auto twice = lamp::resolve_options(tiled, {"tile=16", "test=exact", again});
+    ASSERT_FALSE(twice) << again;
+    EXPECT_TRUE(twice.error().source == "option tile") << twice.error().text();
+  }
+  EXPECT_EQ(lamp::resolve_options(tiled, {"tile=16", "tile=32"}).error().text(),
+            "option tile: is given twice, expected once");
+}
+
+lamp::Problem problem_with(lamp::Options options) {
+  return {.width = 640, .height = 360, .light_capacity = 5000, .options = std::move(options)};
+}
+
+TEST(Options, ThatAProblemDoesNotHaveAreTheMethodsDefaults) {
+  int growing = 0;
+  for (const Method& method : lamp::methods()) {
+    SCOPED_TRACE(method.name);
+    const auto bare = lamp::make_plan(method, problem_with({}));
+    const auto defaults = lamp::make_plan(method, problem_with(lamp::resolve_options(method, {}).value()));
+    ASSERT_EQ(bare.ok(), defaults.ok()) << (bare ? defaults : bare).error().text();
+    if (!bare) continue;
+    EXPECT_EQ(bare.value().bytes(), defaults.value().bytes());
+    EXPECT_EQ(bare.value().lookup.constants, defaults.value().lookup.constants);
+    const std::vector<std::uint32_t> needed(bare.value().capacities.size(), ~0U);
+    const auto grown = lamp::grow_plan(method, problem_with({}), bare.value(), needed);
+    if (grown) {
+      EXPECT_EQ(grown->options.all().size(), method.options.size());
+      ++growing;
+    }
+  }
+  EXPECT_GT(growing, 0);
+}
+
+TEST(Options, OfAnotherMethodAreAnError) {
+  const Method& tiled = *lamp::find_method("tiled").value();
+  const auto made =
+      lamp::make_plan(*lamp::find_method("all").value(), problem_with(lamp::resolve_options(tiled, {}).value()));
+  ASSERT_FALSE(made);
+  EXPECT_TRUE(made.error().text().ends_with(": method all has no options")) << made.error().text();
 }
 
 TEST(Options, AnUnknownKeyBringsTheKnownOnes) {

@@ -28,9 +28,11 @@ struct OptionSpec {
 /// Values to try of an option: each word, or both ends and the middle of a range.
 [[nodiscard]] LAMPLIGHT_API std::vector<std::string> sample_values(const OptionSpec& spec);
 
-/// Options that have been checked against a method and completed with its defaults.
+/// Options that have been checked against a method and completed with its defaults (`resolve_options`). `Options()` has
+/// none.
 class LAMPLIGHT_API Options {
  public:
+  /// Of the method's row; others assert.
   [[nodiscard]] std::uint32_t integer(std::string_view key) const;
   [[nodiscard]] const std::string& word(std::string_view key) const;
   [[nodiscard]] const std::map<std::string, std::string, std::less<>>& all() const { return values_; }
@@ -52,7 +54,7 @@ struct Problem {
   std::uint32_t height = 0;
   std::uint32_t views = 1;  ///< that a frame has, 1 .. MAX_VIEWS: eyes, faces of a cube, parts of a split screen
   std::uint32_t light_capacity = 0;
-  Options options;
+  Options options;  ///< `resolve_options` of the method; options that are not among them have its defaults
   DeviceTraits traits;
   /// What the host brings of its lights. Where it is not records of 64 bytes, one behind the other, the plan makes
   /// those itself, if it reads them.
@@ -92,11 +94,12 @@ struct Method {
 [[nodiscard]] LAMPLIGHT_API Result<const Method*> find_method(std::string_view name);
 
 /// Checks "key=value" settings against the method's options and completes them.
-/// Errors name the option, what was given and what was expected.
+/// Errors name the option, what was given and what was expected: also where one is given twice.
 [[nodiscard]] LAMPLIGHT_API Result<Options> resolve_options(const Method& method,
                                                             const std::vector<std::string>& settings);
 
-/// Checks sizes and capacity, makes the plan and checks it (`plan_check`).
+/// Checks sizes, capacity and options, makes the plan and checks it (`plan_check`). Errors: what of these a method or
+/// the device does not allow, options of another method among them.
 [[nodiscard]] LAMPLIGHT_API Result<Plan> make_plan(const Method& method, const Problem& problem);
 
 /// A plan with more room, and the options that made it.
