@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "check_traits.h"
 #include "complete_options.h"
 #include "lamplight/method.h"
 #include "methods/methods.h"
@@ -92,8 +93,9 @@ void read_many_samples(Plan& plan) {
   plan.fused.reset();
 }
 
-/// Sizes, capacities and counts, whatever the method.
+/// The device, sizes, capacities and counts, whatever the method.
 std::optional<Error> check_problem(const Problem& problem) {
+  if (auto error = check_traits(problem.traits)) return error;
   const std::uint32_t limit = std::min(problem.traits.max_image_size, MAX_IMAGE_SIZE);
   if (problem.width == 0 || problem.height == 0 || problem.width > limit || problem.height > limit)
     return Error{"size " + std::to_string(problem.width) + "x" + std::to_string(problem.height),

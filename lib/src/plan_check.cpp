@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "check_traits.h"
 #include "lamplight/plan.h"
 #include "lamplight/shader_code.h"
 #include "lamplight/shared/counters.h"
@@ -315,6 +316,7 @@ std::optional<Error> check_kept(const std::vector<Pass>& passes, const std::vect
 }  // namespace
 
 std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits) {
+  if (auto error = check_traits(traits)) return error;
   for (const BufferDesc& buffer : plan.buffers)
     if (auto error = check_buffer(plan, buffer, traits)) return error;
   const LightLayout& layout = plan.light_layout;

@@ -177,6 +177,9 @@ TEST(LoopLimits, LamplightWalksInAsManyStepsARoundAsItTakes) {
   EXPECT_EQ(plan(1U << 20).notes.front(),
             "a pixel that walks more than 1015791 lights can lose some: the device ends a thread's loops after 65535 "
             "rounds");
+  traits.max_loop_rounds = 1;
+  EXPECT_EQ(plan(1U << 20).lookup.most_walked, 0U) << "words without a light take all the rounds";
+  ASSERT_EQ(plan(1U << 20).notes.size(), 1U);
 }
 
 // Pieces of cells are work groups of an indirect dispatch, which no check sees while it runs.

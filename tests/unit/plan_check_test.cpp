@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "lamplight/method.h"
 #include "lamplight/plan.h"
 #include "lamplight/shader_code.h"
 #include "lamplight/shared/counters.h"
@@ -104,6 +105,31 @@ TEST(PlanCheck, StorageBuffersOfAStageAreCounted) {
   const auto error = lamp::plan_check(lookup_alone, {.max_storage_buffers = 5});
   ASSERT_TRUE(error.has_value());
   EXPECT_EQ(error->text(), "look-up lists: binds 6 storage buffers, a shader on this device sees at most 5");
+}
+
+// Plans divide by these.
+TEST(PlanCheck, TraitsThatNoDeviceHasAreNamed) {
+  const auto expect_error = [](const DeviceTraits& traits, const std::string& text) {
+    const auto error = lamp::plan_check(sound_plan(), traits);
+    ASSERT_TRUE(error.has_value()) << text;
+    EXPECT_EQ(error->text(), text);
+    for (const lamp::Method& method : lamp::methods()) {
+      const auto plan = lamp::make_plan(method, {.width = 64, .height = 64, .light_capacity = 1000, .traits = traits});
+      ASSERT_FALSE(plan.ok()) << method.name;
+      EXPECT_EQ(plan.error().text(), text) << method.name;
+    }
+  };
+  expect_error({.subgroup_size = 0}, "device trait subgroup_size: expected a power of two, got 0");
+  expect_error({.subgroup_size = 24}, "device trait subgroup_size: expected a power of two, got 24");
+  expect_error({.max_subgroup_size = 0}, "device trait max_subgroup_size: expected a power of two, got 0");
+  expect_error({.storage_offset_alignment = 0},
+               "device trait storage_offset_alignment: expected a power of two, got 0");
+  expect_error({.storage_offset_alignment = 48},
+               "device trait storage_offset_alignment: expected a power of two, got 48");
+  expect_error({.max_group_invocations = 0},
+               "device trait max_group_invocations: expected at least 128, which Vulkan guarantees, got 0");
+  expect_error({.max_loop_rounds = 0}, "device trait max_loop_rounds: expected at least 1, got 0");
+  expect_error({.sub_pixel_bits = 32}, "device trait sub_pixel_bits: expected at most 31, got 32");
 }
 
 TEST(PlanCheck, APassMayDispatchNoGroupForNoLight) {

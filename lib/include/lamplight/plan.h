@@ -244,25 +244,27 @@ struct DeviceTraits {
   std::uint64_t max_storage_buffer_bytes = 1ULL << 27;
   std::uint64_t memory_bytes = ~0ULL;  ///< of the largest heap of the device's own
   std::array<std::uint32_t, 3> max_groups{65535, 65535, 65535};
-  std::uint32_t max_group_invocations = 128;
+  std::uint32_t max_group_invocations = 128;  ///< not less
   std::uint32_t shared_memory_bytes = 16384;
   std::uint32_t max_image_size = 4096;     ///< pixels a side
   std::uint32_t max_storage_buffers = 16;  ///< that a shader stage sees; Vulkan guarantees 4, too few for most methods
   std::uint32_t storage_offset_alignment = 256;  ///< bytes, minStorageBufferOffsetAlignment; a power of two
-  std::uint32_t subgroup_size = 32;              ///< threads, of most pipelines
-  std::uint32_t max_subgroup_size = 32;  ///< of any pipeline: some drivers choose for each; at least `subgroup_size`
-  std::uint32_t max_loop_rounds = ~0U;   ///< of all loops of a thread together; llvmpipe ends them after 65 535
+  std::uint32_t subgroup_size = 32;              ///< threads, of most pipelines; a power of two
+  std::uint32_t max_subgroup_size = 32;  ///< of any pipeline: some drivers choose for each; at least `subgroup_size`,
+                                         ///< a power of two
+  std::uint32_t max_loop_rounds = ~0U;   ///< of all loops of a thread together, > 0; llvmpipe ends them after 65 535
   SubgroupOperations compute_subgroups = ALL_SUBGROUP_OPERATIONS;   ///< in compute shaders; none are guaranteed
   SubgroupOperations fragment_subgroups = ALL_SUBGROUP_OPERATIONS;  ///< in fragment shaders; likewise
-  std::uint32_t sub_pixel_bits = 4;  ///< triangles' corners are snapped to 1 / 2^that of a pixel; Vulkan guarantees 4
+  std::uint32_t sub_pixel_bits = 4;  ///< triangles' corners are snapped to 1 / 2^that of a pixel; Vulkan guarantees 4;
+                                     ///< at most 31
   bool conservative_raster = false;  ///< VK_EXT_conservative_rasterization is enabled
 };
 
-/// Everything about a plan that would fail on a device with these traits, found before there is one: a buffer beyond
-/// the limit (the light buffer that the plan reads included), all of them beyond the memory, a binding to nothing, a
-/// read of what nothing wrote, too many groups or storage buffers, a host pass after a GPU pass, a shader that does not
-/// exist or asks for subgroup operations that the device lacks, work groups that subgroups cannot fill. The first such
-/// problem, or nothing.
+/// Everything about a plan that would fail on a device with these traits, found before there is one: traits that no
+/// device has, a buffer beyond the limit (the light buffer that the plan reads included), all of them beyond the
+/// memory, a binding to nothing, a read of what nothing wrote, too many groups or storage buffers, a host pass after a
+/// GPU pass, a shader that does not exist or asks for subgroup operations that the device lacks, work groups that
+/// subgroups cannot fill. The first such problem, or nothing.
 [[nodiscard]] LAMPLIGHT_API std::optional<Error> plan_check(const Plan& plan, const DeviceTraits& traits);
 
 }  // namespace lamp

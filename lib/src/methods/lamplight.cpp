@@ -298,7 +298,7 @@ void walk_in_steps(LookUp& lookup, const Problem& problem) {
   const std::uint64_t steps = std::min(std::bit_ceil((lights + idle) / rounds + 1), MOST_STEPS);
   lookup.name += "_stepped";
   lookup.constants.push_back(static_cast<std::uint32_t>(steps));
-  lookup.most_walked = steps * rounds - idle;
+  lookup.most_walked = steps * rounds - std::min(steps * rounds, idle);
 }
 
 Plan plan_lamplight(const Problem& problem) {
