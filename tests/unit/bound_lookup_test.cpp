@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "lamplight/light_layout.h"
+#include "lamplight/method.h"
 
 namespace {
 
@@ -86,6 +87,36 @@ TEST(LightLayout, IsThatOfAHostsRecord) {
   const auto points = lamp::LightLayout::interleaved(sizeof(HostLight), offsetof(HostLight, color));
   EXPECT_EQ(points.form, lamp::LightForm::points);
   EXPECT_EQ(points.lights, (lamp::RecordPlaces{16, 48}));
+}
+
+// What does not fit would else be cut to 32 bits, or read as another layout that is sound.
+TEST(LightLayout, OfWhatIsNoRecordSaysWhatIsWrong) {
+  const auto error_of = [](std::size_t bytes, std::size_t position, std::optional<std::size_t> direction = {}) {
+    const auto layout = lamp::LightLayout::interleaved(bytes, position, direction);
+    const auto error = layout.check();
+    const lamp::Result<lamp::Plan> plan = lamp::make_plan(
+        *lamp::find_method("all").value(), {.width = 64, .height = 64, .light_capacity = 10, .light_layout = layout});
+    EXPECT_EQ(plan.ok(), !error);
+    return error ? error->text() : "none";
+  };
+  const std::string record = "record of a light: expected a multiple of 16 bytes, 16 to 4294967280, got ";
+  const std::string position = "position in the record of a light: expected ";
+  const std::string direction = "direction in the record of a light: expected ";
+  const std::string within = "a multiple of 16, at most 64 in a record of 80 bytes, got ";
+  EXPECT_EQ(error_of(80, 64), "none");
+  EXPECT_EQ(error_of(16, 0), "none");
+  EXPECT_EQ(error_of(80, 16, 64), "none");
+  EXPECT_EQ(error_of(80, 64, 0), "none");
+  EXPECT_EQ(error_of(0, 0), record + "0");
+  EXPECT_EQ(error_of(40, 0), record + "40");
+  EXPECT_EQ(error_of((1ULL << 32) + 80, 16), record + "4294967295 or more");
+  EXPECT_EQ(error_of(1ULL << 40, 16), record + "4294967295 or more");
+  EXPECT_EQ(error_of(80, 20), position + within + "20");
+  EXPECT_EQ(error_of(80, 80), position + within + "80");
+  EXPECT_EQ(error_of(80, 1ULL << 33), position + within + "4294967295 or more");
+  EXPECT_EQ(error_of(80, 16, 72), direction + within + "72");
+  EXPECT_EQ(error_of(80, 16, (1ULL << 32) + 32), direction + within + "4294967295 or more");
+  EXPECT_EQ(error_of(80, 16, 16), direction + "other 16 bytes than those of position and range, got 16");
 }
 
 }  // namespace
