@@ -70,7 +70,7 @@ class Label {
 }  // namespace
 
 void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands, std::span<const Use> uses) {
-  VkMemoryBarrier2 memory = std::exchange(besides_, {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2});
+  VkMemoryBarrier2 memory = std::exchange(besides_, no_barrier());
   images_.clear();
   for (const Use& use : uses) {
     State& state = state_of(use.resource);

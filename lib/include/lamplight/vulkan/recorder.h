@@ -60,7 +60,7 @@ class LAMPLIGHT_API AccessTracker {
   /// Forgets all, and keeps the memory for it.
   void reset() {
     known_.clear();
-    besides_ = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    besides_ = no_barrier();
   }
   /// Memory for as many resources, of which so many are images.
   void reserve(std::size_t resources, std::size_t images) {
@@ -82,13 +82,19 @@ class LAMPLIGHT_API AccessTracker {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   };
   State& state_of(const Resource& resource);
+  /// Not `{.sType = ...}`: hosts that include this may have -Wmissing-field-initializers on.
+  static VkMemoryBarrier2 no_barrier() {
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    return barrier;
+  }
   struct Known {
     std::uint64_t key = 0;
     State state;
   };
   std::vector<Known> known_;                   ///< as many as a frame touches, a few dozen
   std::vector<VkImageMemoryBarrier2> images_;  ///< of one barrier; here so that the next one allocates nothing
-  VkMemoryBarrier2 besides_{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  VkMemoryBarrier2 besides_ = no_barrier();
 };
 
 /// Begin and end times of named passes, or of runs of passes that belong together.
