@@ -97,6 +97,7 @@ TEST_F(CullerErrors, OfFramesNameTheElementAndRecordNothing) {
             "depth view: expected a view of the depth image, got none");
   EXPECT_EQ(with([](auto& f) { f.depth_layout = VK_IMAGE_LAYOUT_UNDEFINED; }),
             "depth layout: expected the layout that the image is in, got VK_IMAGE_LAYOUT_UNDEFINED");
+  EXPECT_EQ(with([](auto&) {}), "commands: expected a command buffer, got null");
   EXPECT_EQ(next_number(culler, good), 2);
 }
 

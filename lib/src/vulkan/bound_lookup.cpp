@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "null_handles.h"
+
 namespace lamp::vulkan {
 
 VkSpecializationInfo SpecializationConstants::info() const {
@@ -68,6 +70,7 @@ Result<std::vector<VkDeviceAddress>> BoundLookUp::addresses(const Device& device
     return Error{"look-up " + std::string(name),
                  "expected a device with the feature bufferDeviceAddress that says Device::buffer_addresses, "
                  "got one without"};
+  if (auto error = check_made(device)) return *error;
   std::vector<VkDeviceAddress> found;
   for (const Bound& bound : resources) {
     const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamplight/vulkan/buffer.h"
 
+#include "null_handles.h"
+
 namespace lamp::vulkan {
 namespace {
 
@@ -76,6 +78,7 @@ Result<Allocation> Buffer::allocate(const Device& device, const BufferInfo& info
 }
 
 Result<Buffer> Buffer::create(const Device& device, const BufferInfo& info) {
+  if (auto error = check_made(device)) return *error;
   Buffer buffer;
   buffer.bytes_ = info.bytes;
   const VkBufferCreateInfo create{

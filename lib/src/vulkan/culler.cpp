@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "null_handles.h"
+
 namespace lamp::vulkan {
 namespace {
 
@@ -41,6 +43,7 @@ Result<Buffer> make_records(const Device& device, const CullerInfo& info) {
 }  // namespace
 
 Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
+  if (auto error = check_made(device)) return *error;
   if (info.readers == 0) return Error{"readers", "expected the stages that read the look-up, got none"};
   const Result<const Method*> method = find_method(info.method);
   if (!method) return method.error();
@@ -145,6 +148,7 @@ Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame
                     .host_frame = views.value().records.data()};
   if (problem_.views > 1) inputs.depths = depths;
   if (auto error = runner_.check(inputs)) return *error;
+  if (commands == VK_NULL_HANDLE) return Error{"commands", "expected a command buffer, got null"};
   inputs.slot = last_slot_ = take_slot(++frames_);
   // Passes that wait for nothing of the Culler's own read records that the host has written; the look-up's follow them.
   const bool waits = !host_barriers_ || gpu_counts;

@@ -48,6 +48,10 @@ std::optional<Error> DescriptorSets::add_pool(const Pipeline& pipeline) {
 }
 
 Result<VkDescriptorSet> DescriptorSets::allocate(const Pipeline& pipeline) {
+  if (device_ == VK_NULL_HANDLE || vk_.vkCreateDescriptorPool == nullptr) {
+    if (!error_) error_ = Error{"descriptor sets", "expected a device that make_device gave, got null"};
+    return *error_;
+  }
   const VkDescriptorSetLayout layout = pipeline.set_layout();
   for (;; ++current_) {
     const bool is_new = current_ == pools_.size();

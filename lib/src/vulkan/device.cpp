@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "null_handles.h"
 #include "version_text.h"
 
 namespace lamp::vulkan {
@@ -72,6 +73,8 @@ bool has_pipeline_robustness(const Instance& instance, VkPhysicalDevice physical
 }
 
 std::optional<Error> check_device(const Instance& instance, VkPhysicalDevice physical) {
+  if (auto error = check_loaded(instance)) return error;
+  if (physical == VK_NULL_HANDLE) return Error{"device", "expected a VkPhysicalDevice, got null"};
   VkPhysicalDeviceProperties properties{};
   instance.vk.vkGetPhysicalDeviceProperties(physical, &properties);
   const std::string source = "device " + std::string(properties.deviceName);
@@ -144,6 +147,7 @@ void Device::name(VkObjectType type, std::uint64_t object, std::string_view text
 }
 
 Result<Device> make_device(const Instance& instance, VkPhysicalDevice physical, VkDevice handle) {
+  if (auto error = check_handle(handle)) return *error;
   if (auto error = check_device(instance, physical)) return *error;
   const Result<DeviceFunctions> functions = load_device(instance, handle);
   if (!functions) return functions.error();

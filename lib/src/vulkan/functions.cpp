@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "null_handles.h"
 #include "version_text.h"
 
 namespace lamp::vulkan {
@@ -62,6 +63,8 @@ Result<Instance> load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instanc
 }
 
 Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device) {
+  if (auto error = check_loaded(instance)) return *error;
+  if (auto error = check_handle(device)) return *error;
   DeviceFunctions vk;
   Loader loader(instance.vk.vkGetDeviceProcAddr, device);
   loader.required("vkAllocateDescriptorSets", vk.vkAllocateDescriptorSets);

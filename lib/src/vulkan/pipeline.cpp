@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "null_handles.h"
 #include "pipeline_store.h"
 
 namespace lamp::vulkan {
@@ -253,6 +254,7 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
 
 Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& info,
                                    std::span<const std::uint32_t> spirv) {
+  if (auto error = check_made(device)) return *error;
   const auto make = [&] { return make_compute(device, info, spirv); };
   if (device.pipelines == nullptr) return make();
   return device.pipelines->find_or_make((Description(device) << info << spirv).bytes(), make);
@@ -261,6 +263,7 @@ Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& inf
 Result<Pipeline> Pipeline::graphics(const Device& device, const PipelineInfo& info,
                                     std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
                                     const GraphicsState& state) {
+  if (auto error = check_made(device)) return *error;
   const auto make = [&] { return make_graphics(device, info, vertex, fragment, state); };
   if (device.pipelines == nullptr) return make();
   return device.pipelines->find_or_make((Description(device) << info << vertex << fragment << state).bytes(), make);

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "lamplight/shared/world_tree.h"
+#include "null_handles.h"
 #include "pass_use.h"
 
 namespace lamp::vulkan {
@@ -108,6 +109,7 @@ VkDescriptorSet PlanRunner::set(const BuiltPass& built, std::uint32_t slot, std:
 }
 
 Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const ShaderSource& shaders) {
+  if (auto error = check_made(device)) return *error;
   PlanRunner runner;
   runner.plan_ = std::move(plan);
   runner.sets_ = DescriptorSets(device);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lamplight/vulkan/descriptor_sets.h"
+#include "null_handles.h"
 
 namespace lamp::vulkan {
 namespace {
@@ -145,6 +146,7 @@ void AccessTracker::forget(VkBuffer buffer) {
 }
 
 Result<Timestamps> Timestamps::create(const Device& device, std::uint32_t max_passes) {
+  if (auto error = check_made(device)) return *error;
   Timestamps timestamps;
   const VkQueryPoolCreateInfo create{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,

@@ -30,8 +30,8 @@ struct CullerInfo {
   /// Barriers that a renderer records anyway, before the passes and behind them, order what the Culler's own two would:
   /// they contain Culler::barrier_before and Culler::barrier_behind. The Culler then records neither.
   bool host_barriers = false;
-  /// Only for world-tree: a storage buffer with WorldTree::words, which the caller keeps, and brings up to date after
-  /// changes. None: every point walks every light.
+  /// Only for world-tree: a storage buffer with WorldTree::words, which the caller keeps, and brings up
+  /// to date after changes. None: every point walks every light.
   BufferPart still;
 };
 
@@ -87,15 +87,16 @@ enum class Growth : std::uint8_t {
 class LAMPLIGHT_API Culler {
  public:
   Culler() = default;
-  /// Errors: an unknown method or option (with the nearest names), a size or capacity beyond the device's limits, no
-  /// memory left.
+  /// Errors: a device that `make_device` did not make, an unknown method (with the nearest names), an unknown option
+  /// (with all that the method has), an option twice, a size or capacity beyond
+  /// the device's limits, no memory left.
   [[nodiscard]] static Result<Culler> create(const Device& device, const CullerInfo& info);
 
   /// Records the passes. What they wrote is visible to CullerInfo::readers recorded later. Returns the frame's number,
   /// from 1 on. A recorded frame may be dropped (`drop`): none relies on what another one would have done. Errors, and
-  /// then nothing is recorded: no view or a larger one, another number of views, a handle that the method needs and
-  /// that is missing, more lights than the capacity, fewer host lights than lights, a count on the GPU for an option
-  /// that works on the CPU.
+  /// then nothing is recorded: no command buffer, no view or a larger one, another number of views, a handle that the
+  /// method needs and that is missing, more lights than the capacity, fewer host lights than lights, a count on the GPU
+  /// for an option that works on the CPU.
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from

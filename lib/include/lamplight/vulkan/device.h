@@ -47,7 +47,8 @@ struct LAMPLIGHT_API RequiredFeatures {
 /// The name of the first of the required features that is VK_FALSE, or nothing.
 [[nodiscard]] LAMPLIGHT_API std::optional<std::string_view> missing_feature(const RequiredFeatures& has);
 
-/// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing.
+/// Why this device cannot run Lamplight, naming the first missing version, feature or extension; or nothing. Errors
+/// too: an instance that is not `load_instance`'s, no device.
 [[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(const Instance& instance, VkPhysicalDevice physical);
 
 /// Limits for planning.
@@ -56,7 +57,8 @@ struct LAMPLIGHT_API RequiredFeatures {
 class DescriptorSets;
 class PipelineStore;
 
-/// An engine's device, with what recording needs at hand. Plain handles; destroys nothing.
+/// An engine's device, with what recording needs at hand. Plain handles; destroys nothing. Whatever is created on one
+/// that `make_device` did not make is an error.
 struct LAMPLIGHT_API Device {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice handle = VK_NULL_HANDLE;
@@ -90,7 +92,7 @@ struct LAMPLIGHT_API Device {
   void name(VkObjectType type, std::uint64_t object, std::string_view text) const;
 };
 
-/// Errors: `check_device`'s, or a function that the device does not know.
+/// Errors: `check_device`'s, no device, or a function that it does not know.
 [[nodiscard]] LAMPLIGHT_API Result<Device> make_device(const Instance& instance, VkPhysicalDevice physical,
                                                        VkDevice device);
 

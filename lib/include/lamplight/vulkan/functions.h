@@ -89,7 +89,8 @@ struct Instance {
 [[nodiscard]] LAMPLIGHT_API Result<Instance> load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance,
                                                            std::uint32_t api_version);
 
-/// Errors: a function of Vulkan 1.3 that the device does not know, by its name.
+/// Errors: an instance that is not `load_instance`'s, no device, a function of Vulkan 1.3 that the device does not
+/// know, by its name.
 [[nodiscard]] LAMPLIGHT_API Result<DeviceFunctions> load_device(const Instance& instance, VkDevice device);
 
 }  // namespace lamp::vulkan
