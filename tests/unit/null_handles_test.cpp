@@ -71,5 +71,25 @@ TEST(NullHandles, NothingIsCreatedOnNoDevice) {
   }
 }
 
+/// A device on which every buffer fails: for errors that come before the first.
+Device full_device() {
+  Device device;
+  device.handle = some<VkDevice>();
+  device.vk.vkCreateBuffer = [](VkDevice, const VkBufferCreateInfo*, const VkAllocationCallbacks*, VkBuffer*) {
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  };
+  return device;
+}
+
+TEST(StillLights, AreForMethodsThatReadThem) {
+  const auto created = [](const char* method) {
+    return error_of(Culler::create(
+        full_device(), {.width = 64, .height = 64, .light_capacity = 10, .method = method, .still = some<VkBuffer>()}));
+  };
+  EXPECT_EQ(created("clustered"),
+            "still lights: expected no buffer for method clustered, which reads none; world-tree does");
+  EXPECT_TRUE(created("world-tree").starts_with("buffer ")) << created("world-tree");
+}
+
 }  // namespace
 }  // namespace lamp::vulkan

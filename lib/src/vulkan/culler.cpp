@@ -47,6 +47,9 @@ Result<Culler> Culler::create(const Device& device, const CullerInfo& info) {
   if (info.readers == 0) return Error{"readers", "expected the stages that read the look-up, got none"};
   const Result<const Method*> method = find_method(info.method);
   if (!method) return method.error();
+  if (info.still.buffer != VK_NULL_HANDLE && !method.value()->still)
+    return Error{"still lights",
+                 "expected no buffer for method " + info.method + ", which reads none; world-tree does"};
   Result<Options> options = resolve_options(*method.value(), info.options);
   if (!options) return options.error();
   Culler culler;

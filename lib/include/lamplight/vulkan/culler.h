@@ -30,7 +30,7 @@ struct CullerInfo {
   /// Barriers that a renderer records anyway, before the passes and behind them, order what the Culler's own two would:
   /// they contain Culler::barrier_before and Culler::barrier_behind. The Culler then records neither.
   bool host_barriers = false;
-  /// Only for world-tree: a storage buffer with WorldTree::words, which the caller keeps, and brings up
+  /// Only for world-tree, else an error: a storage buffer with WorldTree::words, which the caller keeps, and brings up
   /// to date after changes. None: every point walks every light.
   BufferPart still;
 };
@@ -88,7 +88,7 @@ class LAMPLIGHT_API Culler {
  public:
   Culler() = default;
   /// Errors: a device that `make_device` did not make, an unknown method (with the nearest names), an unknown option
-  /// (with all that the method has), an option twice, a size or capacity beyond
+  /// (with all that the method has), an option twice, `still` for a method that reads none, a size or capacity beyond
   /// the device's limits, no memory left.
   [[nodiscard]] static Result<Culler> create(const Device& device, const CullerInfo& info);
 
