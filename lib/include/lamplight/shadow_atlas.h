@@ -60,10 +60,12 @@ struct ShadowFrameInfo {
   std::span<const shared::Light> lights;
   /// Which light is which from frame to frame: each once, less than the capacity. Empty: light i has id i.
   std::span<const std::uint32_t> ids;
-  /// Geometry that moved since the last frame: a sphere around where it was and one around where it is.
+  /// Geometry that moved since the last frame: a sphere around where it was and one around where it is. A sphere with a
+  /// number that is not finite touches every light.
   std::span<const shared::LightSphere> moved;
-  /// Texels that may be drawn in this frame. No light gets squares that take more than this. 0: nothing is drawn, what
-  /// is there is kept.
+  /// Texels that may be drawn in this frame. No light gets squares that take more than this, so another budget means
+  /// other sizes, and draws, also where nothing moves. A light whose least squares take more keeps what it has; 0: all
+  /// do, and nothing is drawn.
   std::uint64_t budget_texels = ALL_TEXELS;
 };
 
@@ -113,7 +115,8 @@ struct ShadowFrame {
 
 class LAMPLIGHT_API ShadowAtlas {
  public:
-  /// Errors: a size that is no power of two or beyond the device's, a capacity of 0, texels that are not > 0.
+  /// Errors: a size that is no power of two or beyond the device's, a capacity of 0, texels that are not > 0, points or
+  /// a filter that are none of those named.
   [[nodiscard]] static Result<ShadowAtlas> create(const ShadowAtlasInfo& info);
   ShadowAtlas(ShadowAtlas&&) noexcept;
   ShadowAtlas& operator=(ShadowAtlas&&) noexcept;

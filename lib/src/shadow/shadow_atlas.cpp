@@ -22,7 +22,8 @@ struct Candidate {
   std::uint32_t light = 0;  ///< index
   Holding* holding = nullptr;
   Wish wish;
-  int level = NO_LEVEL;  ///< that it is to have
+  bool keeps_size = false;  ///< for the budget allows it no square at all
+  int level = NO_LEVEL;     ///< that it is to have
   float priority = 0.0F;
   enum class Left : std::uint8_t { nothing, budget, room } left = Left::nothing;  ///< what it still lacks
 };
@@ -57,9 +58,15 @@ bool casts_alike(const shared::Light& a, const shared::Light& b) {
          (!spots || (a.direction == b.direction && a.outer_angle == b.outer_angle));
 }
 
+bool is_finite(const shared::LightSphere& sphere) {
+  return std::isfinite(sphere.center.x) && std::isfinite(sphere.center.y) && std::isfinite(sphere.center.z) &&
+         std::isfinite(sphere.radius);
+}
+
+/// Nobody knows where a sphere is that is not finite.
 bool touches(const shared::Light& light, const shared::LightSphere& moved) {
-  return glm::length(glm::vec3(light.position) - glm::vec3(moved.center)) <=
-         (light.range + moved.radius) * (1.0F + 1e-5F);
+  return !is_finite(moved) || glm::length(glm::vec3(light.position) - glm::vec3(moved.center)) <=
+                                  (light.range + moved.radius) * (1.0F + 1e-5F);
 }
 
 double shown_by(std::span<const View> views, const shared::Light& light) {
@@ -139,7 +146,11 @@ void ShadowAtlas::State::add_candidate(const ShadowFrameInfo& frame, std::uint32
   // One square holds all directions of an octahedron, a quarter of its texels what a face holds.
   const bool folded = squares == 1 && (light.type != shared::LIGHT_SPOT || light.outer_angle > WIDEST_SPOT_SQUARE);
   const double side = shown * double{info.texels_per_pixel} * (folded ? 2.0 : 1.0);
-  const std::uint64_t most = std::min<std::uint64_t>(std::uint64_t{info.size} * info.size, frame.budget_texels);
+  // Where even its least squares are beyond the budget, it is not drawn at any size.
+  const bool keeps_size =
+      holding.level != NO_LEVEL && shadow::texels_of(shadow::LEAST_LEVEL, squares) > frame.budget_texels;
+  const std::uint64_t all = std::uint64_t{info.size} * info.size;
+  const std::uint64_t most = keeps_size ? all : std::min(all, frame.budget_texels);
   int most_level = shadow::LEAST_LEVEL;
   while (most_level < shadow::MOST_LEVEL && shadow::texels_of(most_level + 1, squares) <= most) ++most_level;
   const Wish wish{
@@ -148,6 +159,7 @@ void ShadowAtlas::State::add_candidate(const ShadowFrameInfo& frame, std::uint32
   candidates.push_back({.light = i,
                         .holding = &holding,
                         .wish = wish,
+                        .keeps_size = keeps_size,
                         .priority = static_cast<float>(shown) * static_cast<float>(holding.waited + 1)});
 }
 
@@ -173,7 +185,7 @@ void ShadowAtlas::State::meet_lights(const ShadowFrameInfo& frame) {
 
 void ShadowAtlas::State::choose_sizes() {
   fall = shadow::choose_fall(wishes, std::uint64_t{info.size} * info.size, fall);
-  for (Candidate& c : candidates) c.level = shadow::level_of(c.wish, fall);
+  for (Candidate& c : candidates) c.level = c.keeps_size ? c.holding->level : shadow::level_of(c.wish, fall);
 }
 
 void ShadowAtlas::State::draw(const ShadowFrameInfo& frame, Candidate& c) {
@@ -281,6 +293,12 @@ Result<ShadowAtlas> ShadowAtlas::create(const ShadowAtlasInfo& info) {
   if (info.light_capacity == 0) return wrong("light capacity must be >= 1, got 0");
   if (!(info.texels_per_pixel > 0.0F) || !std::isfinite(info.texels_per_pixel))
     return wrong("texels per pixel must be finite and > 0, got " + std::to_string(info.texels_per_pixel));
+  if (info.points != PointShadows::faces && info.points != PointShadows::octahedron)
+    return wrong("points must be faces or octahedron, got " + std::to_string(static_cast<std::uint32_t>(info.points)));
+  if (info.filter != ShadowFilter::hard && info.filter != ShadowFilter::pcf && info.filter != ShadowFilter::vsm &&
+      info.filter != ShadowFilter::evsm)
+    return wrong("filter must be hard, pcf, vsm or evsm, got " +
+                 std::to_string(static_cast<std::uint32_t>(info.filter)));
   return ShadowAtlas(std::make_unique<State>(info));
 }
 
