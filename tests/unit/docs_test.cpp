@@ -39,6 +39,25 @@ TEST(Docs, QuotesStandInTheFilesTheyName) {
   EXPECT_GE(quotes, 10);
 }
 
+// A command that is taken over without its end would hand both include folders to the compiler as one.
+TEST(Docs, CommandsOfCMakeArePrintedToTheirEnd) {
+  int commands = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(LAMPLIGHT_SOURCE_DIR) / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = read(entry.path());
+    constexpr std::string_view BLOCK = "```cmake\n";
+    for (std::size_t at = text.find(BLOCK); at != std::string::npos; at = text.find(BLOCK, at + 1)) {
+      const std::size_t begin = at + BLOCK.size();
+      const std::string block = text.substr(begin, text.find("```", begin) - begin);
+      if (block.find("COMMAND ") == std::string::npos) continue;
+      EXPECT_NE(block.find("add_custom_command("), std::string::npos) << entry.path() << ":\n" << block;
+      EXPECT_NE(block.find("COMMAND_EXPAND_LISTS VERBATIM)\n"), std::string::npos) << entry.path() << ":\n" << block;
+      ++commands;
+    }
+  }
+  EXPECT_GE(commands, 3);
+}
+
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
   std::set<std::string> found;
   for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) found.insert((*at)[1]);
