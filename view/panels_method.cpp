@@ -137,7 +137,11 @@ void method_panel(PanelFrame& p) {
 void shadow_panel(PanelFrame& p) {
   if (!p.widgets.header("Shadows and depth", false)) return;
   Request& r = p.state.request;
-  p.widgets.choose("shadows", r.shadows.filter, shadow_names(), "How shadows are filtered.");
+  p.widgets.choose(
+      "shadows", r.shadows.filter, shadow_names(), "How shadows are filtered.", [&](std::string_view filter) {
+        return p.shown.captured && filter != shadow_names().front() ? "a capture has no triangles that could cast one"
+                                                                    : std::string();
+      });
   if (r.shadows.filter != shadow_names().front()) {
     p.widgets.choose("point shadows", r.shadows.points, point_shadow_names(), "A point light's map.");
     p.widgets.choose("shadow raster", r.shadows.raster, shadow_raster_names(),

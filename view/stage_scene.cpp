@@ -63,6 +63,8 @@ void Stage::move_scene(const Request& request) {
 }
 
 void Stage::make_renderer(const Request& request, const View& view, std::string key) {
+  const std::optional<ShadowSettings> shadows = requested_shadows(request, scene_->scene);
+  const std::optional<MirrorSettings> mirror = requested_mirror(request, scene_->scene);
   display_.reset();
   renderer_.reset();
   probes_.reset();
@@ -72,8 +74,6 @@ void Stage::make_renderer(const Request& request, const View& view, std::string 
   move_scene(request);
   const auto lights = static_cast<std::uint32_t>(lights_->lights->size());
   const auto decals = static_cast<std::uint32_t>(lights_->decals.size());
-  const std::optional<ShadowSettings> shadows = requested_shadows(request);
-  const std::optional<MirrorSettings> mirror = requested_mirror(request, scene_->scene);
   auto renderer = std::make_unique<Renderer>(context_, shaders_, *scene_->gpu, view.width(), view.height(), lights,
                                              decals, parse_depth(request.depth, request.depth_samples));
   if (!probes.empty()) {

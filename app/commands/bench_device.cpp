@@ -66,8 +66,8 @@ HostDepth host_depth_of(const Group& group) {
   return depth;
 }
 
-std::optional<ShadowSettings> shadows_of(const Group& group) {
-  return requested_shadows(request_of(group, group.entries.front()));
+std::optional<ShadowSettings> shadows_of(const Group& group, const Scene& scene) {
+  return requested_shadows(request_of(group, group.entries.front()), scene);
 }
 
 std::optional<MirrorSettings> mirror_of(const Group& group, const Scene& scene) {
@@ -122,6 +122,7 @@ void SceneCheck::check(Group& group) {
     name_ = group.scene;
   }
   static_cast<void>(view_at(scene_, group, 0));
+  static_cast<void>(shadows_of(group, scene_));
   group.scene_hash = hash_;
 }
 

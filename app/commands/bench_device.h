@@ -62,7 +62,8 @@ struct BenchFrame {
 /// Looks at scenes before any work, one group after the other.
 class SceneCheck {
  public:
-  /// Throws Error for a scene, camera, flight or projection that is not there. Fills in the hash of the scene's files.
+  /// Throws Error for a scene, camera, flight or projection that is not there, and for shadows of a captured
+  /// frame. Fills in the hash of the scene's files.
   void check(Group& group);
 
  private:
@@ -82,7 +83,7 @@ class SceneCheck {
 /// Depth and views as the group has them.
 [[nodiscard]] HostDepth host_depth_of(const Group& group);
 /// Nothing: lights cast none.
-[[nodiscard]] std::optional<ShadowSettings> shadows_of(const Group& group);
+[[nodiscard]] std::optional<ShadowSettings> shadows_of(const Group& group, const Scene& scene);
 /// Mirrored light, whose look-ups have a time of their own.
 [[nodiscard]] std::optional<MirrorSettings> mirror_of(const Group& group, const Scene& scene);
 

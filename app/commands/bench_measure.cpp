@@ -369,7 +369,7 @@ std::vector<json> measure(const MeasureInfo& info) {
       probes.emplace(info.device.context(), info.device.shaders(), scene.probes);
       renderer->light_probes(&probes->set);
     }
-    if (const auto shadows = shadows_of(info.group)) renderer->cast_shadows(*shadows);
+    if (const auto shadows = shadows_of(info.group, scene.scene)) renderer->cast_shadows(*shadows);
     if (const auto mirror = mirror_of(info.group, scene.scene)) renderer->mirror(*mirror);
     checker.emplace(info.device, info.group, *renderer, frame);
     candidates = make_candidates(info, scene, choose_for(info, scene, *renderer, frame));

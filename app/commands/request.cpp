@@ -332,7 +332,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
     : setup_(setup),
       brdf_(parse_brdf(request.brdf)),
       depth_(parse_depth(request.depth, request.depth_samples)),
-      shadows_(requested_shadows(request)),
+      shadows_(requested_shadows(request, setup.scene)),
       grow_(request.grow),
       probe_budget_(request.probe_budget),
       shaders_(request.shader_dir) {

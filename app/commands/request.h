@@ -182,8 +182,9 @@ void check_scene_lights(const Request& request, const Scene& scene);
 [[nodiscard]] Brdf parse_brdf(const std::string& text);
 /// "reversed" or "standard"; 1, 2, 4 or 8 samples.
 [[nodiscard]] HostDepth parse_depth(const std::string& text, std::uint32_t samples);
-/// Of `--shadows` and what goes with it; nothing if they are off.
+/// Of `--shadows` and what goes with it; nothing if they are off. Throws Error for a capture, where it is known.
 [[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request);
+[[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request, const Scene& scene);
 /// Throws Error for what they cannot be, on any device.
 void check_shadow_choice(const Request& request);
 /// Throws Error, naming `--probes-show`.

@@ -74,6 +74,14 @@ std::optional<ShadowSettings> requested_shadows(const Request& request) {
   return settings;
 }
 
+std::optional<ShadowSettings> requested_shadows(const Request& request, const Scene& scene) {
+  const std::optional<ShadowSettings> settings = requested_shadows(request);
+  if (settings && scene.captured)
+    throw Error(fmt::format("--shadows {}: the capture {} has no triangles that could cast one, expected off",
+                            request.shadows.filter, request.scene));
+  return settings;
+}
+
 void check_shadow_choice(const Request& request) {
   if (!requested_shadows(request)) return;
   const std::uint32_t size = request.shadows.atlas;

@@ -12,7 +12,7 @@ bool is_cut(Session& session, const Lighting& lighting) { return is_cut(session.
 
 std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
   Renderer& renderer = session.renderer();
-  if (renderer.shadows() == nullptr || setup.scene.captured || renderer.depth().several()) return std::nullopt;
+  if (renderer.shadows() == nullptr || renderer.depth().several()) return std::nullopt;
   std::optional<Progress> progress;  // of one part
   std::string part;
   const auto show = [&](const std::string& what, double done) {

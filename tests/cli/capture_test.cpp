@@ -101,6 +101,18 @@ TEST_F(Capture, HasOneViewAlone) {
   (void)output_of({"render", "frame", "--size", "64x36", "--camera", "capture", "--projection", "camera"});
 }
 
+TEST_F(Capture, HasNothingThatCastsAShadow) {
+  (void)output_of(small({"capture", "--out", "frame"}));
+  for (const Arguments& command :
+       {Arguments{"render", "frame"}, Arguments{"verify", "frame"}, Arguments{"compare", "tiled", "all", "frame"},
+        Arguments{"bench", "frame", "--out", "measured"}}) {
+    Arguments with = command;
+    with.insert(with.end(), {"--shadows", "pcf"});
+    expect_error(BAD_INPUT, with, {"--shadows pcf: the capture frame has no triangles", "expected off"});
+  }
+  (void)output_of({"render", "frame", "--shadows", "off"});
+}
+
 TEST_F(Capture, FoldersThatCannotBeWritten) {
   expect_error(BAD_INPUT, {"capture", "plane"}, {"--out", "required"});
   expect_error(BAD_INPUT, {"capture", "plane", "--out", ""}, {"--out ''", "expected the name of a folder"});
