@@ -108,7 +108,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "materials/*", .key = "alphaCutoff", .want = Want::number, .min = 0},
     {.at = "materials/*", .key = "doubleSided", .want = Want::flag},
     {.at = "materials/*", .key = "pbrMetallicRoughness", .want = Want::object},
-    {.at = PBR, .key = "baseColorFactor", .want = Want::numbers, .min = 0, .size = 4},
+    {.at = PBR, .key = "baseColorFactor", .want = Want::numbers, .min = 0, .max = 1, .size = 4},
     {.at = PBR, .key = "metallicFactor", .want = Want::number, .min = 0, .max = 1},
     {.at = PBR, .key = "roughnessFactor", .want = Want::number, .min = 0, .max = 1},
     {.at = PBR, .key = "baseColorTexture", .want = Want::object},
