@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -39,7 +38,7 @@ void set_projection(const tinygltf::Camera& from, Camera& camera) {
     return;
   }
   camera.orthographic = true;
-  camera.half_height = static_cast<float>(std::abs(from.orthographic.ymag));
+  camera.half_height = static_cast<float>(from.orthographic.ymag);
   camera.near_m = static_cast<float>(from.orthographic.znear);
   camera.far_m = static_cast<float>(from.orthographic.zfar);
 }

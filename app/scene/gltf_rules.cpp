@@ -147,10 +147,11 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "cameras/*", .key = "perspective", .want = Want::object, .required = true, .when = "perspective"},
     {.at = "cameras/*/perspective", .key = "yfov", .want = Want::number, .required = true, .min = POSITIVE},
     {.at = "cameras/*/perspective", .key = "znear", .want = Want::number, .required = true, .min = POSITIVE},
+    {.at = "cameras/*/perspective", .key = "aspectRatio", .want = Want::number, .min = POSITIVE},
     {.at = "cameras/*/perspective", .key = "zfar", .want = Want::number, .min = POSITIVE},
     {.at = "cameras/*", .key = "orthographic", .want = Want::object, .required = true, .when = "orthographic"},
-    {.at = "cameras/*/orthographic", .key = "xmag", .want = Want::number, .required = true},
-    {.at = "cameras/*/orthographic", .key = "ymag", .want = Want::number, .required = true},
+    {.at = "cameras/*/orthographic", .key = "xmag", .want = Want::number, .required = true, .min = POSITIVE},
+    {.at = "cameras/*/orthographic", .key = "ymag", .want = Want::number, .required = true, .min = POSITIVE},
     {.at = "cameras/*/orthographic", .key = "znear", .want = Want::number, .required = true, .min = 0},
     {.at = "cameras/*/orthographic", .key = "zfar", .want = Want::number, .required = true, .min = POSITIVE},
 
