@@ -23,6 +23,14 @@ constexpr std::size_t VERTICES_MAX = std::size_t{1} << 26;
 constexpr std::size_t INDICES_MAX = std::size_t{1} << 28;
 constexpr std::size_t INSTANCES_MAX = std::size_t{1} << 22;
 
+/// Whether one of the material's textures is looked up by coordinates that the primitive does not have.
+bool lacks_coordinates(const tinygltf::Primitive& primitive, const Material& material) {
+  for (const Texture* texture : {&material.base_color_texture, &material.metallic_roughness_texture,
+                                 &material.normal_texture, &material.occlusion_texture, &material.emissive_texture})
+    if (texture->image >= 0 && !primitive.attributes.contains(fmt::format("TEXCOORD_{}", texture->uv))) return true;
+  return false;
+}
+
 class MeshBuilder {
  public:
   MeshBuilder(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
@@ -35,6 +43,7 @@ class MeshBuilder {
   }
 
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
+  [[nodiscard]] std::size_t without_coordinates() const { return without_coordinates_; }
 
  private:
   std::vector<std::uint32_t> convert(std::size_t mesh) {
@@ -46,8 +55,12 @@ class MeshBuilder {
       const Texture& normal_texture = scene_.materials[material].normal_texture;
       const auto normal_uv = normal_texture.image < 0 ? std::nullopt : std::optional(normal_texture.uv);
       const std::optional<Triangles> triangles = read_primitive(document_, {mesh, i}, normal_uv, document_.notes);
-      if (!triangles) ++left_out_;
-      if (triangles) result.push_back(append(*triangles, static_cast<std::uint32_t>(material), mesh));
+      if (!triangles) {
+        ++left_out_;
+        continue;
+      }
+      if (lacks_coordinates(primitives[i], scene_.materials[material])) ++without_coordinates_;
+      result.push_back(append(*triangles, static_cast<std::uint32_t>(material), mesh));
     }
     return result;
   }
@@ -94,6 +107,7 @@ class MeshBuilder {
   Scene& scene_;
   std::map<std::pair<std::size_t, bool>, std::vector<std::uint32_t>> made_;
   std::size_t left_out_ = 0;
+  std::size_t without_coordinates_ = 0;
 };
 
 }  // namespace
@@ -113,6 +127,10 @@ void add_meshes(GltfDocument& document, std::span<const PlacedNode> nodes, Scene
   }
   if (builder.left_out() > 0) {
     document.notes.push_back(fmt::format("{} primitives of points or lines left out", builder.left_out()));
+  }
+  if (builder.without_coordinates() > 0) {
+    document.notes.push_back(fmt::format("{} primitives lack texture coordinates: a texture of theirs is one colour",
+                                         builder.without_coordinates()));
   }
   if (scene.instances.empty()) {
     gltf_fail(document.origin.file, "scene", "has no triangles, expected a node with a mesh that has some");

@@ -147,6 +147,17 @@ TEST(GltfMaterial, ReadsTextureTransforms) {
   EXPECT_EQ(material.emissive_texture.uv, 1U);
 }
 
+TEST(GltfMaterial, NotesTexturesThatPrimitivesHaveNoCoordinatesFor) {
+  const std::vector<std::string> note{"1 primitives lack texture coordinates: a texture of theirs is one colour"};
+  GltfBuilder builder = with_material({{"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}});
+  json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(load(builder).notes, note);
+  attributes["TEXCOORD_0"] = builder.floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+  EXPECT_EQ(load(builder).notes, note) << "of the other set";
+  attributes["TEXCOORD_1"] = attributes["TEXCOORD_0"];
+  EXPECT_TRUE(load(builder).notes.empty());
+}
+
 TEST(GltfMaterial, NotesTexturesWithoutAnImageItCanRead) {
   GltfBuilder builder = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
   builder.document["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
