@@ -6,82 +6,33 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numeric>
 #include <string_view>
 #include <utility>
 
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_error.h"
+#include "scene/gltf_attributes.h"
 
 namespace lamp::app {
 namespace {
 
-/// The primitive that is read, and how to speak of it.
-struct Reader {
-  const GltfDocument& document;
-  const tinygltf::Primitive& primitive;
-  std::string element;
-
-  [[noreturn]] void fail(const std::string& problem) const { gltf_fail(document.origin.file, element, problem); }
-  [[nodiscard]] bool has(const char* attribute) const { return primitive.attributes.contains(attribute); }
-};
-
-/// What the elements of an attribute must be.
-struct AttributeWant {
-  const char* name;
-  std::size_t min_width;
-  std::size_t max_width;
-  bool raw_integers;  ///< integers that are not normalized have a meaning (KHR_mesh_quantization)
-};
-
-constexpr float LARGEST = 1e15F;  // products of two stay well within floats
-
-constexpr AttributeWant POSITION{"POSITION", 3, 3, true};
-constexpr AttributeWant NORMAL{"NORMAL", 3, 3, false};
-constexpr AttributeWant TANGENT{"TANGENT", 4, 4, false};
-constexpr AttributeWant TEXCOORD_0{"TEXCOORD_0", 2, 2, true};
-constexpr AttributeWant TEXCOORD_1{"TEXCOORD_1", 2, 2, true};
-constexpr AttributeWant COLOR_0{"COLOR_0", 3, 4, false};
-
-GltfFloats read_attribute(const Reader& reader, const AttributeWant& want, std::size_t vertices) {
-  const int index = reader.primitive.attributes.at(want.name);
-  const tinygltf::Accessor& accessor = reader.document.model.accessors[static_cast<std::size_t>(index)];
-  const int type = accessor.componentType;
-  const bool is_float = type == TINYGLTF_COMPONENT_TYPE_FLOAT;
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT || (!is_float && !accessor.normalized && !want.raw_integers)) {
-    reader.fail(fmt::format("{} (accessor {}) has componentType {}{}, expected floats or {}8 or 16 bit integers",
-                            want.name, index, type, accessor.normalized ? " normalized" : "",
-                            want.raw_integers ? "" : "normalized "));
-  }
-  if (vertices != 0 && accessor.count != vertices) {
-    reader.fail(fmt::format("{} (accessor {}) has {} elements, expected {}, as many as POSITION", want.name, index,
-                            accessor.count, vertices));
-  }
-  GltfFloats floats = read_floats(reader.document, index);
-  if (floats.width < want.min_width || floats.width > want.max_width) {
-    reader.fail(fmt::format("{} (accessor {}) has {} components an element, expected {}", want.name, index,
-                            floats.width, want.max_width));
-  }
-  for (std::size_t i = 0; i < floats.values.size(); ++i) {
-    if (!(std::abs(floats.values[i]) <= LARGEST)) {
-      reader.fail(fmt::format("{} (accessor {}) of vertex {} holds {}, expected finite numbers up to {:g}", want.name,
-                              index, i / floats.width, floats.values[i], LARGEST));
-    }
-  }
-  return floats;
-}
+constexpr AttributeWant POSITION{"POSITION", 3, 3, Integers::any};
+constexpr AttributeWant NORMAL{"NORMAL", 3, 3, Integers::normalized};
+constexpr AttributeWant TANGENT{"TANGENT", 4, 4, Integers::normalized};
+constexpr AttributeWant TEXCOORD_0{"TEXCOORD_0", 2, 2, Integers::any};
+constexpr AttributeWant TEXCOORD_1{"TEXCOORD_1", 2, 2, Integers::any};
+constexpr AttributeWant COLOR_0{"COLOR_0", 3, 4, Integers::normalized};
 
 /// Calls put(vertex, floats of the element) for all vertices, if the attribute is there.
 template <class Put>
-void for_attribute(const Reader& reader, const AttributeWant& want, std::vector<Vertex>& vertices, const Put& put) {
+void for_attribute(const PrimitiveReader& reader, const AttributeWant& want, std::vector<Vertex>& vertices,
+                   const Put& put) {
   if (!reader.has(want.name)) return;
   const GltfFloats floats = read_attribute(reader, want, vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) put(vertices[i], floats[i], floats.width);
 }
 
 /// Eight bits hold 0 .. 1; what lies outside is counted.
-void read_colors(const Reader& reader, std::vector<Vertex>& vertices, std::vector<std::string>& notes) {
+void read_colors(const PrimitiveReader& reader, std::vector<Vertex>& vertices, std::vector<std::string>& notes) {
   std::size_t outside = 0;
   for_attribute(reader, COLOR_0, vertices, [&outside](Vertex& vertex, const float* from, std::size_t width) {
     const glm::vec4 color(from[0], from[1], from[2], width == 4 ? from[3] : 1.0F);
@@ -92,7 +43,7 @@ void read_colors(const Reader& reader, std::vector<Vertex>& vertices, std::vecto
   if (outside > 0) notes.push_back(fmt::format("{}: {} colors clamped to 0 .. 1", reader.element, outside));
 }
 
-std::vector<Vertex> read_vertices(const Reader& reader, std::vector<std::string>& notes) {
+std::vector<Vertex> read_vertices(const PrimitiveReader& reader, std::vector<std::string>& notes) {
   if (!reader.has(POSITION.name)) reader.fail("POSITION is missing, expected an attribute of that name");
   const GltfFloats positions = read_attribute(reader, POSITION, 0);
   std::vector<Vertex> vertices(positions.count());
@@ -112,7 +63,7 @@ std::vector<Vertex> read_vertices(const Reader& reader, std::vector<std::string>
   return vertices;
 }
 
-std::vector<std::uint32_t> read_corners(const Reader& reader, std::size_t vertices) {
+std::vector<std::uint32_t> read_corners(const PrimitiveReader& reader, std::size_t vertices) {
   if (reader.primitive.indices < 0) {
     std::vector<std::uint32_t> indices(vertices);
     std::iota(indices.begin(), indices.end(), 0U);
@@ -129,7 +80,7 @@ std::vector<std::uint32_t> read_corners(const Reader& reader, std::size_t vertic
 }
 
 /// Strips and fans to lists, every triangle facing the way it did.
-std::vector<std::uint32_t> to_triangle_list(const Reader& reader, std::vector<std::uint32_t> corners) {
+std::vector<std::uint32_t> to_triangle_list(const PrimitiveReader& reader, std::vector<std::uint32_t> corners) {
   if (reader.primitive.mode == TINYGLTF_MODE_TRIANGLES) {
     if (corners.size() % 3 != 0) {
       reader.fail(fmt::format("{} indices, expected a multiple of 3 for triangles", corners.size()));
@@ -150,7 +101,8 @@ std::vector<std::uint32_t> to_triangle_list(const Reader& reader, std::vector<st
   return list;
 }
 
-void note_repairs(const Reader& reader, std::size_t count, std::string_view what, std::vector<std::string>& notes) {
+void note_repairs(const PrimitiveReader& reader, std::size_t count, std::string_view what,
+                  std::vector<std::string>& notes) {
   if (count > 0) notes.push_back(fmt::format("{}: {} {} of length 0 replaced", reader.element, count, what));
 }
 
@@ -158,8 +110,8 @@ void note_repairs(const Reader& reader, std::size_t count, std::string_view what
 
 std::optional<Triangles> read_primitive(const GltfDocument& document, GltfPrimitive where,
                                         std::optional<std::uint32_t> normal_uv, std::vector<std::string>& notes) {
-  const Reader reader{document, document.model.meshes[where.mesh].primitives[where.primitive],
-                      fmt::format("mesh {} primitive {}", where.mesh, where.primitive)};
+  const PrimitiveReader reader{document, document.model.meshes[where.mesh].primitives[where.primitive],
+                               fmt::format("mesh {} primitive {}", where.mesh, where.primitive)};
   if (reader.primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
 
   Triangles triangles;
