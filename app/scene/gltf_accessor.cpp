@@ -189,4 +189,20 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index)
   return indices;
 }
 
+std::vector<glm::dmat4> read_matrices(const GltfDocument& document, int index) {
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const auto fail = [&](const std::string& problem) {
+    gltf_fail(document.origin.file, fmt::format("accessor {}", index), problem);
+  };
+  if (accessor.type != TINYGLTF_TYPE_MAT4) fail("type is not MAT4, expected that, as it holds matrices");
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    fail(fmt::format("componentType is {}, expected 5126, as it holds matrices", accessor.componentType));
+  const Located located = locate(document, index, accessor);
+  std::vector<glm::dmat4> matrices(accessor.count, glm::dmat4(0.0));
+  for_each_element(located, [&](std::size_t element, const std::byte* from) {
+    for (int i = 0; i < 16; ++i) matrices[element][i / 4][i % 4] = load<float>(from + sizeof(float) * i);
+  });
+  return matrices;
+}
+
 }  // namespace lamp::app

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ struct GltfFloats {
 
 /// Unsigned scalars. Throws Error.
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const GltfDocument& document, int accessor);
+
+/// 4 x 4 matrices of floats. Throws Error.
+[[nodiscard]] std::vector<glm::dmat4> read_matrices(const GltfDocument& document, int accessor);
 
 }  // namespace lamp::app

@@ -66,10 +66,8 @@ const json& elements(const json& document, const char* array) {
 
 /// Says which parts of the file have no effect here.
 void note_left_out(const json& document, std::vector<std::string>& notes) {
-  for (const char* part : {"animations", "skins"}) {
-    const std::size_t count = elements(document, part).size();
-    if (count > 0) notes.push_back(fmt::format("{} {} left out: the scene stands still", count, part));
-  }
+  if (const std::size_t count = elements(document, "animations").size(); count > 0)
+    notes.push_back(fmt::format("{} animations left out: the scene stands still", count));
   std::size_t morphed = 0;
   for (const json& mesh : elements(document, "meshes")) {
     for (const json& primitive : mesh["primitives"]) morphed += primitive.contains("targets") ? 1 : 0;

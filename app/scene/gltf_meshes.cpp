@@ -1,5 +1,5 @@
 // The meshes of a glTF file that its scene places, as meshes and instances of a Scene.
-// Based on: Khronos, glTF 2.0 specification, sections 3.7.2 (meshes) and 3.5.3 (transforms that mirror).
+// Based on: Khronos, glTF 2.0 specification, sections 3.7.2 (meshes), 3.7.3 (skins), 3.5.3 (mirroring).
 // Promise: front faces stay counter-clockwise: a mesh that is placed mirrored gets a mirrored copy.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_meshes.h"
@@ -7,12 +7,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <compare>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "scene/gltf_error.h"
 #include "scene/gltf_primitive.h"
+#include "scene/gltf_skins.h"
 #include "scene/normal_matrix.h"
 
 namespace lamp::app {
@@ -31,22 +35,33 @@ bool lacks_coordinates(const tinygltf::Primitive& primitive, const Material& mat
   return false;
 }
 
+/// A mesh of the file as nodes use it: each of these is a copy.
+struct MeshUse {
+  std::size_t mesh = 0;
+  int skin = -1;  ///< that poses it, in the world; -1: none
+  bool mirrored = false;
+
+  auto operator<=>(const MeshUse&) const = default;
+};
+
 class MeshBuilder {
  public:
-  MeshBuilder(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
+  MeshBuilder(GltfDocument& document, std::span<const PlacedNode> nodes, Scene& scene)
+      : document_(document), scene_(scene), poses_(document, nodes) {}
 
   /// The scene's meshes, one a primitive, of a mesh of the file; made when first asked for.
-  const std::vector<std::uint32_t>& meshes(std::size_t mesh, bool mirrored) {
-    const auto [found, added] = made_.try_emplace({mesh, mirrored});
-    if (added) found->second = mirrored ? mirror(meshes(mesh, false)) : convert(mesh);
+  const std::vector<std::uint32_t>& meshes(const MeshUse& use) {
+    const auto [found, added] = made_.try_emplace(use);
+    if (added) found->second = use.mirrored ? mirror(meshes({use.mesh, use.skin})) : convert(use.mesh, use.skin);
     return found->second;
   }
 
-  [[nodiscard]] std::size_t left_out() const { return left_out_; }
-  [[nodiscard]] std::size_t without_coordinates() const { return without_coordinates_; }
+  [[nodiscard]] std::size_t left_out() const { return left_out_.size(); }
+  [[nodiscard]] std::size_t without_coordinates() const { return without_coordinates_.size(); }
 
  private:
-  std::vector<std::uint32_t> convert(std::size_t mesh) {
+  std::vector<std::uint32_t> convert(std::size_t mesh, int skin) {
+    const GltfPose* const pose = skin < 0 ? nullptr : &poses_.of(skin);
     std::vector<std::uint32_t> result;
     const auto& primitives = document_.model.meshes[mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -54,15 +69,23 @@ class MeshBuilder {
           primitives[i].material < 0 ? scene_.materials.size() - 1 : static_cast<std::size_t>(primitives[i].material);
       const Texture& normal_texture = scene_.materials[material].normal_texture;
       const auto normal_uv = normal_texture.image < 0 ? std::nullopt : std::optional(normal_texture.uv);
-      const std::optional<Triangles> triangles = read_primitive(document_, {mesh, i}, normal_uv, document_.notes);
+      std::vector<std::string> notes;
+      const std::optional<Triangles> triangles = read_primitive(document_, {mesh, i, pose}, normal_uv, notes);
+      note_once(notes);
       if (!triangles) {
-        ++left_out_;
+        left_out_.emplace(mesh, i);
         continue;
       }
-      if (lacks_coordinates(primitives[i], scene_.materials[material])) ++without_coordinates_;
+      if (lacks_coordinates(primitives[i], scene_.materials[material])) without_coordinates_.emplace(mesh, i);
       result.push_back(append(*triangles, static_cast<std::uint32_t>(material), mesh));
     }
     return result;
+  }
+
+  /// Copies of a mesh would say the same again.
+  void note_once(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes)
+      if (noted_.insert(note).second) document_.notes.push_back(note);
   }
 
   std::uint32_t append(const Triangles& triangles, std::uint32_t material, std::size_t mesh) {
@@ -105,21 +128,24 @@ class MeshBuilder {
 
   GltfDocument& document_;
   Scene& scene_;
-  std::map<std::pair<std::size_t, bool>, std::vector<std::uint32_t>> made_;
-  std::size_t left_out_ = 0;
-  std::size_t without_coordinates_ = 0;
+  GltfPoses poses_;
+  std::map<MeshUse, std::vector<std::uint32_t>> made_;
+  std::set<std::string> noted_;
+  std::set<std::pair<std::size_t, std::size_t>> left_out_;             ///< mesh and primitive
+  std::set<std::pair<std::size_t, std::size_t>> without_coordinates_;  ///< likewise
 };
 
 }  // namespace
 
 void add_meshes(GltfDocument& document, std::span<const PlacedNode> nodes, Scene& scene) {
-  MeshBuilder builder(document, scene);
+  MeshBuilder builder(document, nodes, scene);
   for (const PlacedNode& placed : nodes) {
-    const int mesh = document.model.nodes[static_cast<std::size_t>(placed.node)].mesh;
-    if (mesh < 0) continue;
-    const glm::mat4 world_from_object(placed.world_from_node);
-    for (const std::uint32_t made : builder.meshes(static_cast<std::size_t>(mesh), is_mirroring(world_from_object)))
-      scene.instances.push_back({made, world_from_object});
+    const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(placed.node)];
+    if (node.mesh < 0) continue;
+    // A skinned mesh is where its joints are, wherever its own node is.
+    const glm::mat4 world_from_object(node.skin < 0 ? placed.world_from_node : glm::dmat4(1.0));
+    const MeshUse use{static_cast<std::size_t>(node.mesh), node.skin, is_mirroring(world_from_object)};
+    for (const std::uint32_t made : builder.meshes(use)) scene.instances.push_back({made, world_from_object});
     if (scene.instances.size() > INSTANCES_MAX) {
       gltf_fail(document.origin.file, fmt::format("node {}", placed.node),
                 fmt::format("the scene grows beyond {} instances, expected fewer", INSTANCES_MAX));

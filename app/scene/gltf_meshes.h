@@ -1,5 +1,5 @@
 // The meshes of a glTF file that its scene places, as meshes and instances of a Scene.
-// Based on: Khronos, glTF 2.0 specification, sections 3.7.2 (meshes) and 3.5.3 (transforms that mirror).
+// Based on: Khronos, glTF 2.0 specification, sections 3.7.2 (meshes), 3.7.3 (skins), 3.5.3 (mirroring).
 // Promise: front faces stay counter-clockwise: a mesh that is placed mirrored gets a mirrored copy.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -117,6 +117,7 @@ std::optional<Triangles> read_primitive(const GltfDocument& document, GltfPrimit
   Triangles triangles;
   triangles.vertices = read_vertices(reader, notes);
   triangles.indices = to_triangle_list(reader, read_corners(reader, triangles.vertices.size()));
+  if (where.pose != nullptr) pose_triangles(reader, *where.pose, triangles, notes);
 
   const bool has_normals = reader.has(NORMAL.name);
   if (has_normals) {

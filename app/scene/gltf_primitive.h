@@ -10,14 +10,16 @@
 #include <vector>
 
 #include "scene/gltf_document.h"
+#include "scene/gltf_skins.h"
 #include "scene/tangents.h"
 
 namespace lamp::app {
 
-/// Where a primitive is.
+/// Where a primitive is, and what poses it.
 struct GltfPrimitive {
   std::size_t mesh = 0;
   std::size_t primitive = 0;
+  const GltfPose* pose = nullptr;  ///< of its skin; null: it has none
 };
 
 /// The triangles of a primitive, or nothing for points and lines. `normal_uv` is the texture coordinate of its

@@ -46,6 +46,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.key = "nodes", .want = Want::objects, .size = MANY},
     {.key = "samplers", .want = Want::objects, .size = SOME},
     {.key = "scenes", .want = Want::objects, .size = SOME},
+    {.key = "skins", .want = Want::objects, .size = SOME},
     {.key = "textures", .want = Want::objects, .size = SOME},
     {.key = "scene", .want = Want::index, .into = "scenes"},
 
@@ -158,6 +159,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = "nodes/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "nodes/*", .key = "camera", .want = Want::index, .into = "cameras"},
     {.at = "nodes/*", .key = "mesh", .want = Want::index, .into = "meshes"},
+    {.at = "nodes/*", .key = "skin", .want = Want::index, .into = "skins"},
     {.at = "nodes/*", .key = "children", .want = Want::indices, .into = "nodes"},
     {.at = "nodes/*", .key = "matrix", .want = Want::numbers, .size = 16},
     {.at = "nodes/*", .key = "translation", .want = Want::numbers, .size = 3},
@@ -170,6 +172,8 @@ constexpr auto RULES = std::to_array<Rule>({
      .want = Want::index,
      .required = true,
      .into = LIGHTS},
+    {.at = "skins/*", .key = "joints", .want = Want::indices, .required = true, .into = "nodes"},
+    {.at = "skins/*", .key = "inverseBindMatrices", .want = Want::index, .into = "accessors"},
     {.at = "scenes/*", .key = "nodes", .want = Want::indices, .into = "nodes"},
 });
 
