@@ -125,7 +125,8 @@ Exit compare(const CompareOptions& o) {
   write_output(o.out, [&](const auto& file) { write_png(file, row); });
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
-    const nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}, {"image_max_abs_diff", difference}};
+    nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}};
+    add_number(json, "image_max_abs_diff", difference, NOT_FINITE);
     write_out(json_text(json, 2) + "\n");
     return Exit::done;
   }

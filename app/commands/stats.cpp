@@ -228,8 +228,7 @@ nlohmann::json to_json(const Stats& s) {
                  {"probe_evaluations", s.probe_findings->evaluations},
                  {"probes_useful", s.probe_findings->useful},
                  {"probes_boundary_pairs", s.probe_findings->boundary_pairs}});
-  if (s.image_max_abs_diff)
-    add_number(json, "image_max_abs_diff", *s.image_max_abs_diff, "a pixel of one of the pictures is not a number");
+  if (s.image_max_abs_diff) add_number(json, "image_max_abs_diff", *s.image_max_abs_diff, NOT_FINITE);
   if (s.clock) {
     add_number(json, "clock_mhz", s.clock->now_mhz, CLOCK_UNTOLD);
     add_number(json, "clock_most_mhz", s.clock->most_mhz, CLOCK_UNTOLD);

@@ -37,12 +37,16 @@ inline constexpr float UNORDERED_TOLERANCE = 1e-4F;
 [[nodiscard]] float picture_tolerance(const Plan& plan, const HdrImage& reference);
 [[nodiscard]] float largest_value(const HdrImage& image);
 
+/// What a difference that is infinite comes from.
+inline constexpr const char* NOT_FINITE = "a pixel of one of the pictures is infinite or not a number, and differs";
+
 /// A picture against brute force's.
 struct PictureDifference {
   float max_abs = 0.0F;    ///< of max_abs_difference
   float tolerance = 0.0F;  ///< of picture_tolerance
 };
-/// The largest difference of a channel; 0 if and only if all bits that matter agree, infinity where one is NaN.
+/// The largest difference of a channel; 0 if and only if all bits that matter agree, infinity where one is NaN or where
+/// one alone is infinite. Sums of light that are beyond 32 bits in both agree: they say nothing of lists.
 [[nodiscard]] float max_abs_difference(const HdrImage& a, const HdrImage& b);
 
 /// What an approximate plan misses is counted, not held against it, and so is its picture. Where a device ends loops, a

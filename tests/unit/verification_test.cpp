@@ -53,6 +53,15 @@ TEST(Verification, UnorderedListsMayRoundOrderedOnesMayNot) {
   EXPECT_FLOAT_EQ(picture_tolerance({.ordered = false}, reference), 10.0F * UNORDERED_TOLERANCE);
 }
 
+TEST(Verification, SumsBeyondThirtyTwoBitsDifferOnlyWhereOnePictureHasThem) {
+  constexpr float INFINITE = std::numeric_limits<float>::infinity();
+  const HdrImage beyond = image_with(INFINITE);
+  EXPECT_EQ(max_abs_difference(beyond, beyond), 0.0F);
+  EXPECT_EQ(max_abs_difference(beyond, image_with(9.0F)), INFINITE);
+  const HdrImage broken = image_with(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(max_abs_difference(broken, broken), INFINITE);
+}
+
 Verdict verdict_of(const Plan& plan, const Findings& findings, const std::optional<PictureDifference>& difference) {
   const Judgement judgement = judge(plan, findings, difference);
   const bool needs_reason = judgement.verdict == Verdict::failed || judgement.verdict == Verdict::unchecked;
@@ -70,6 +79,7 @@ TEST(Judgement, APictureBeyondItsToleranceFails) {
   EXPECT_EQ(verdict_of(unordered, {}, {{.max_abs = 2e-3F, .tolerance = 1e-3F}}), Verdict::failed);
   constexpr float INFINITE = std::numeric_limits<float>::infinity();
   EXPECT_EQ(verdict_of(unordered, {}, {{.max_abs = INFINITE, .tolerance = INFINITE}}), Verdict::failed);
+  EXPECT_EQ(judge(unordered, {}, {{.max_abs = INFINITE, .tolerance = INFINITE}}).reason, NOT_FINITE);
 }
 
 TEST(Judgement, MissesAndDisorderFailUnlessTheRowAllowsThem) {
