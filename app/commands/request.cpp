@@ -83,7 +83,7 @@ PlaceLights light_placement(const Request& request, const Scene& scene) {
 }  // namespace
 
 void check_scene_lights(const Request& request, const Scene& scene) {
-  if (const auto error = check_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
+  if (const auto error = check_shown_lights(scene.lights)) throw Error(scene.name + ": " + error->text());
   if (scene.lights.size() + request.lights > MAX_LIGHTS)
     throw Error(fmt::format("--lights {}: with the {} of the scene {}, expected at most {} together", request.lights,
                             scene.lights.size(), scene.name, MAX_LIGHTS));

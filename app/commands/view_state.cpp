@@ -67,7 +67,7 @@ void apply_edits(const ViewState& state, std::span<shared::Light> lights) {
     if (edit.light >= lights.size())
       throw Error(fmt::format("edits: light {}: there is none, expected one of the {} of the frame", edit.light,
                               lights.size()));
-    if (const auto error = check_lights({&edit.value, 1}))
+    if (const auto error = check_shown_lights({&edit.value, 1}))
       throw Error(fmt::format("edits: light {}: {}", edit.light, error->message));
     lights[edit.light] = pack(edit.value);
   }

@@ -91,8 +91,9 @@ std::optional<std::string> optional_file(const JsonObject& frame, std::string_vi
 
 glm::vec3 light_color(const JsonObject& object, std::string_view key) {
   const glm::vec3 color = object.vector(key);
-  if (std::min({color.r, color.g, color.b}) < 0.0F)
-    object.fail(fmt::format("{} is {}, expected numbers >= 0", key, shown(object.json.at(key))));
+  if (std::min({color.r, color.g, color.b}) < 0.0F || std::max({color.r, color.g, color.b}) > LARGEST_INTENSITY)
+    object.fail(
+        fmt::format("{} is {}, expected numbers 0 .. {:g}", key, shown(object.json.at(key)), LARGEST_INTENSITY));
   return color;
 }
 

@@ -1,5 +1,5 @@
 // A capture's lights: objects of frame.json, or rows of sixteen floats.
-// Promise: what is written is read back bit for bit; every light that is read passes lamp::check_lights.
+// Promise: what is written is read back bit for bit; every light that is read passes check_shown_lights.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 8> LIGHT_KEYS{"type",      "position",  "
                                                      "intensity", "direction", "inner_angle", "outer_angle"};
 
 void check(std::span<const Light> lights, const std::string& file) {
-  if (const auto error = check_lights(lights)) throw Error(fmt::format("{}: {}", file, error->text()));
+  if (const auto error = check_shown_lights(lights)) throw Error(fmt::format("{}: {}", file, error->text()));
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const glm::vec3 reach = glm::abs(glm::vec3(lights[i].position));
     const float furthest = std::max({reach.x, reach.y, reach.z});

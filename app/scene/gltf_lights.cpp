@@ -1,6 +1,6 @@
 // The lights that nodes of a glTF file carry.
 // Based on: Khronos, KHR_lights_punctual.
-// Promise: every light passes lamp::check_lights.
+// Promise: every light passes check_shown_lights.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_lights.h"
 
@@ -37,11 +37,13 @@ glm::vec3 color_of(const tinygltf::Light& from) {
   return from.color.empty() ? glm::vec3(1.0F) : glm::vec3(from.color[0], from.color[1], from.color[2]);
 }
 
-/// Both are finite, their product may not be.
+/// Candela, or lux.
 glm::vec3 power_of(const tinygltf::Light& from, const std::string& file, const std::string& element) {
   const glm::vec3 power = color_of(from) * static_cast<float>(from.intensity);
-  if (!(std::max({power.r, power.g, power.b}) <= std::numeric_limits<float>::max())) {
-    gltf_fail(file, element, "color times intensity is infinite, expected a finite 32-bit number");
+  const float most = std::max({power.r, power.g, power.b});  // infinite, it may be, of two finite numbers
+  if (!(most <= LARGEST_INTENSITY)) {
+    gltf_fail(file, element,
+              fmt::format("color times intensity is {:g}, expected at most {:g}", most, LARGEST_INTENSITY));
   }
   return power;
 }

@@ -1,6 +1,6 @@
 // The lights that nodes of a glTF file carry.
 // Based on: Khronos, KHR_lights_punctual.
-// Promise: every light passes lamp::check_lights.
+// Promise: every light passes check_shown_lights.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

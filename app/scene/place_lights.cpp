@@ -161,7 +161,7 @@ PlacedLight make_light(const OpenAir& air, const PlaceLights& how, const Ranges&
   light.type = random.chance(how.spots) ? LightType::spot : LightType::point;
   if (light.type == LightType::spot) light.range *= ranges.spot_reach;
   // About 9 lux at a third of the range, whatever the range.
-  light.intensity = light.range * light.range;
+  light.intensity = std::min(light.range * light.range, LARGEST_INTENSITY);
   if (without_range(how)) light.range = std::numeric_limits<float>::infinity();
   return made;
 }

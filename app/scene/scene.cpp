@@ -1,7 +1,10 @@
-// What every source of scenes shares: the bounds of a scene.
+// What every source of scenes shares: the bounds of a scene, and those of its lights.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 
 namespace lamp::app {
@@ -20,6 +23,19 @@ Box bounds(const Scene& scene) {
   }
   if (!(box.min.x <= box.max.x)) return {glm::vec3(-0.5F), glm::vec3(0.5F)};
   return box;
+}
+
+std::optional<lamp::Error> check_shown_lights(std::span<const Light> lights) {
+  if (auto error = check_lights(lights)) return error;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const glm::vec3 power = glm::vec3(lights[i].color) * lights[i].intensity;
+    const float most = std::max({power.r, power.g, power.b});
+    if (most > LARGEST_INTENSITY)
+      return lamp::Error{
+          fmt::format("light {}", i),
+          fmt::format("color times intensity must be at most {:g} candela, got {:g}", LARGEST_INTENSITY, most)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace lamp::app

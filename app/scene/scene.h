@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace lamp::app {
 
 /// Of anything from the origin: squares of distances must fit 32-bit numbers.
 inline constexpr float FURTHEST_M = 1e15F;
+
+/// cd of a light, lux of a directional one, of each channel: at FURTHEST_M such a light still gives one lux. Pictures
+/// are of 32-bit numbers, and hold the sum of many of these.
+inline constexpr float LARGEST_INTENSITY = 1e30F;
 
 struct Vertex {
   glm::vec3 position{0.0F};
@@ -153,5 +158,8 @@ struct Scene {
 
 /// World-space bounds of all instances; an empty scene gives a unit box around the origin.
 [[nodiscard]] Box bounds(const Scene& scene);
+
+/// What lamp::check_lights finds, or the first light that is brighter than LARGEST_INTENSITY.
+[[nodiscard]] std::optional<lamp::Error> check_shown_lights(std::span<const Light> lights);
 
 }  // namespace lamp::app

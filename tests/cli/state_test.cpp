@@ -82,5 +82,12 @@ TEST_F(StateTest, NamesALightThatIsNotThere) {
   expect_error(BAD_INPUT, {"render", "--state", "state.json"}, {"edits: light 4", "expected one of the 4"});
 }
 
+TEST_F(StateTest, NamesALightThatIsTooBright) {
+  write("bright.json", R"({"version": 1, "lights": 4, "size": "16x9", "method": "all", "edits": [{"light": 1,
+    "type": "point", "position": [0, 0, 0], "color": [1, 1, 1], "intensity": 3.4e38}]})");
+  expect_error(BAD_INPUT, {"render", "--state", "bright.json"},
+               {"edits: light 1: color times intensity must be at most 1e+30 candela, got 3.4e+38"});
+}
+
 }  // namespace
 }  // namespace lamp::cli

@@ -211,6 +211,11 @@ TEST(PlaceLights, SpotFraction) {
   EXPECT_NEAR(static_cast<double>(spots(0.3F)), 600.0, 90.0);
 }
 
+TEST(PlaceLights, AreNoBrighterThanLightsMayBe) {
+  for (const Light& light : place_lights(closed_room(), {.count = 3, .min_range = 3e15F, .max_range = 3e15F}))
+    EXPECT_EQ(light.intensity, lamp::app::LARGEST_INTENSITY);
+}
+
 TEST(PlaceLights, AreValidAndWithinTheStatedNumbers) {
   const auto lights = place_lights(closed_room(), {.count = 2000, .min_range = 0.5F, .max_range = 4.0F, .seed = 9});
   const auto error = lamp::check_lights(lights);

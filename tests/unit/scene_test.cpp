@@ -38,4 +38,16 @@ TEST(SceneBounds, OfNothingAreAUnitBox) {
   }
 }
 
+TEST(SceneLights, AreAtMostAsBrightAsPicturesCanAddUp) {
+  std::vector<lamp::Light> lights(2);
+  lights[1].color = {0.5F, 1.0F, 0.5F};
+  lights[1].intensity = lamp::app::LARGEST_INTENSITY;
+  EXPECT_FALSE(lamp::app::check_shown_lights(lights));
+  lights[1].color = {0.5F, 4.0F, 0.5F};
+  EXPECT_EQ(lamp::app::check_shown_lights(lights)->text(),
+            "light 1: color times intensity must be at most 1e+30 candela, got 4e+30");
+  lights[0].range = -1.0F;
+  EXPECT_EQ(lamp::app::check_shown_lights(lights)->text(), "light 0: range must be >= 0 m, got -1");
+}
+
 }  // namespace
