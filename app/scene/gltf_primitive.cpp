@@ -81,14 +81,15 @@ std::vector<std::uint32_t> read_corners(const PrimitiveReader& reader, std::size
 
 /// Strips and fans to lists, every triangle facing the way it did.
 std::vector<std::uint32_t> to_triangle_list(const PrimitiveReader& reader, std::vector<std::uint32_t> corners) {
+  const char* const what = reader.primitive.indices < 0 ? "vertices" : "indices";
   if (reader.primitive.mode == TINYGLTF_MODE_TRIANGLES) {
     if (corners.size() % 3 != 0) {
-      reader.fail(fmt::format("{} indices, expected a multiple of 3 for triangles", corners.size()));
+      reader.fail(fmt::format("{} {}, expected a multiple of 3 for triangles", corners.size(), what));
     }
     return corners;
   }
   if (corners.size() < 3) {
-    reader.fail(fmt::format("{} indices, expected at least 3 for a strip or fan", corners.size()));
+    reader.fail(fmt::format("{} {}, expected at least 3 for a strip or fan", corners.size(), what));
   }
   const bool strip = reader.primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
   std::vector<std::uint32_t> list;

@@ -237,6 +237,11 @@ TEST(GltfErrors, DataThatIsWrong) {
   builder.bytes[40] = std::byte{3};
   expect_error(builder.gltf(), "mesh 0 primitive 0: index 2 (accessor 1) is 3, expected less than the 3 vertices");
   builder = triangle();
+  builder.document["accessors"][0]["count"] = 2;
+  expect_error(builder.gltf(), "mesh 0 primitive 0: 2 vertices, expected a multiple of 3 for triangles");
+  builder.document["meshes"][0]["primitives"][0]["mode"] = 5;
+  expect_error(builder.gltf(), "mesh 0 primitive 0: 2 vertices, expected at least 3 for a strip or fan");
+  builder = triangle();
   builder.document["buffers"][0] = {{"byteLength", 36}};
   expect_error(builder.document.dump(), "buffer 0: uri is missing, expected one");
 }
