@@ -3,6 +3,7 @@
 #include "scene/gltf_probes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "files/printable.h"
 #include "scene/gltf_error.h"
 #include "scene/scene.h"
 
@@ -121,11 +123,11 @@ std::vector<Probe> read_probes(GltfDocument& document, std::span<const PlacedNod
                       .file = document.origin.file,
                       .element = fmt::format("node {}: extras.{}", placed.node, PROBE_KEY)};
     probes.push_back(probe_of(from, placed.world_from_node));
-    const std::vector<std::string> keys = from.value.Keys();
-    const auto unknown = std::ranges::count_if(
-        keys, [](const std::string& key) { return std::ranges::find(MEMBERS, key) == MEMBERS.end(); });
-    if (unknown != 0)
-      document.notes.push_back(fmt::format("{}: {} members are not known, left out", from.element, unknown));
+    std::vector<std::string> unknown = from.value.Keys();
+    std::erase_if(unknown, [](const std::string& key) { return std::ranges::find(MEMBERS, key) != MEMBERS.end(); });
+    if (!unknown.empty())
+      document.notes.push_back(one_line(fmt::format("{}: {} members are not known, left out: {}", from.element,
+                                                    unknown.size(), fmt::join(unknown, ", "))));
   }
   return probes;
 }

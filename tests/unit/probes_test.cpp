@@ -122,7 +122,8 @@ TEST(GltfProbes, AreRead) {
                              {"blend", 0.5},
                              {"parallax_center", {0, 1, 0}},
                              {"capture", {0, 0, 1}},
-                             {"color", 3}},
+                             {"color", 3},
+                             {"blnd", 1}},
                             {{"translation", {10, 0, 0}}, {"rotation", {half, 0, 0, half}}, {"scale", {2, 2, 2}}}));
   ASSERT_EQ(scene.probes.size(), 1U);
   const Probe& probe = scene.probes[0];
@@ -134,7 +135,7 @@ TEST(GltfProbes, AreRead) {
   EXPECT_LT(glm::length(probe.capture - glm::vec3(10, -2, 0)), 1e-5F);
   EXPECT_EQ(probe.blend_m, 0.5F) << "not scaled with the node";
   ASSERT_EQ(scene.notes.size(), 1U);
-  EXPECT_EQ(scene.notes[0], "node 1: extras.lamplight_probe: 1 members are not known, left out");
+  EXPECT_EQ(scene.notes[0], "node 1: extras.lamplight_probe: 2 members are not known, left out: blnd, color");
   EXPECT_EQ(place_probes(scene, 1, 1).size(), 1U);
 }
 
