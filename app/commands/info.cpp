@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "commands/commands.h"
+#include "commands/metres.h"
 #include "commands/request.h"
 #include "files/read_json.h"
 #include "scene/builtin.h"
@@ -84,7 +85,7 @@ void print_line(const char* label, const std::string& text) { print_out("{:<13}{
 void print_lights(const char* label, const LightCount& lights) {
   std::string words = fmt::format("{}", lights.count);
   if (lights.count > lights.unlimited)
-    words += fmt::format(", range {:.2f} to {:.2f} m", lights.min_range, lights.max_range);
+    words += fmt::format(", range {} to {} m", metres(lights.min_range), metres(lights.max_range));
   if (lights.unlimited != 0) words += fmt::format(", {} without a range: they reach everything", lights.unlimited);
   print_line(label, words);
 }
@@ -127,8 +128,10 @@ void print_info(const InfoOptions& o, const Scene& scene, const SceneInfo& info)
   if (info.bounds) {
     const auto& [low, high] = *info.bounds;
     const glm::vec3 size = high - low;
-    print_line("bounds", fmt::format("({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f}): {:.2f} x {:.2f} x {:.2f} m",
-                                     low.x, low.y, low.z, high.x, high.y, high.z, size.x, size.y, size.z));
+    const auto all = [](const glm::vec3& v, const char* between) {
+      return fmt::format("{}{}{}{}{}", metres(v.x), between, metres(v.y), between, metres(v.z));
+    };
+    print_line("bounds", fmt::format("({}) to ({}): {} m", all(low, ", "), all(high, ", "), all(size, " x ")));
   }
   print_surfaces(scene, info);
   for (const std::string& note : scene.notes) print_line("note", note);

@@ -10,6 +10,7 @@
 #include <charconv>
 
 #include "commands/command_line.h"
+#include "commands/metres.h"
 #include "gpu/check.h"
 #include "render/box_shapes.h"
 #include "scene/builtin.h"
@@ -38,7 +39,7 @@ std::string range_note(std::span<const Light> lights) {
   if (lights.empty()) return "";
   const auto [low, high] = std::ranges::minmax(lights, {}, &Light::range);
   if (std::isinf(low.range)) return " (without range)";
-  return fmt::format(" (range {:.2f} to {:.2f} m)", low.range, high.range);
+  return fmt::format(" (range {} to {} m)", metres(low.range), metres(high.range));
 }
 
 /// A capture is one view. What asks for another is an error.

@@ -1,5 +1,8 @@
 // lamp info: of every kind of scene, in words and as JSON.
 // SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <utility>
+
 #include "cli/cli_test.h"
 
 namespace lamp::cli {
@@ -39,6 +42,19 @@ TEST_F(Info, OfAFile) {
                   lights.at("directional").at("count").get<int>();
   EXPECT_GT(all, 0);
   EXPECT_NE(output_of({"info", folder + "lights.gltf"}).find("(glTF)"), std::string::npos);
+}
+
+TEST_F(Info, OfVerySmallAndVeryLargeNumbers) {
+  std::ifstream file(LAMPLIGHT_SOURCE_DIR "/tests/fuzz/corpus_gltf/lights.gltf");
+  json scene = json::parse(file);
+  for (const auto& [range, says] :
+       {std::pair(1e30, "range 1e+30 to 1e+30 m"), std::pair(1e-20, "range 1e-20 to 1e-20 m"),
+        std::pair(5.0, "range 5.00 to 5.00 m")}) {
+    scene["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = range;
+    write("scene.gltf", scene.dump());
+    const std::string text = output_of({"info", "scene.gltf"});
+    EXPECT_NE(text.find(says), std::string::npos) << says << " is not in " << text;
+  }
 }
 
 TEST_F(Info, OfACapture) {
