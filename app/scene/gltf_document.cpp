@@ -175,7 +175,7 @@ void prune(json& value) {
 
 /// tinygltf fills in defaults. Buffers and images stay out of it: it would read them without our checks.
 tinygltf::Model convert(json document, const std::string& file) {
-  for (const char* part : {"buffers", "images", "animations", "skins"}) document.erase(part);
+  for (const char* part : {"buffers", "images", "animations"}) document.erase(part);
   prune(document);
   const std::string text = document.dump();
   tinygltf::TinyGLTF loader;
