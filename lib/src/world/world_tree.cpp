@@ -57,7 +57,7 @@ std::optional<Error> check(const WorldTreeInfo& info) {
   if (info.lights.size() > MAX_LIGHTS) return Error{"lights", in_range(0, MAX_LIGHTS, info.lights.size())};
   if (info.detail < 1 || info.detail > 64) return Error{"detail", in_range(1, 64, info.detail)};
   if (info.texels < 1 || info.texels > 1024) return Error{"texels", in_range(1, 1024, info.texels)};
-  if (!(info.eyes_m >= 0.0F && info.eyes_m <= MOST_EYES_M))
+  if (!(info.eyes_m >= 0.0F) || !(info.eyes_m <= MOST_EYES_M))
     return Error{"eyes_m", "expected a distance from 0 to 1e15 m, got " + std::to_string(info.eyes_m)};
   for (std::size_t i = 0; i < info.lights.size(); ++i)
     if (auto error = check(static_cast<std::uint32_t>(i), info.lights[i])) return error;
