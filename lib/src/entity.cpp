@@ -11,6 +11,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 
+#include "is_finite.h"
+
 namespace lamp {
 namespace {
 
@@ -18,12 +20,10 @@ namespace {
 constexpr double BOUND_ROOM = 1.0 + 1e-4;
 constexpr float AXIS_TOLERANCE = 1e-4F;
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 std::string fault(const shared::OrientedBox& box) {
-  if (!finite(box.center)) return "center must be finite";
+  if (!is_finite(box.center)) return "center must be finite";
   const Vec3& half = box.half_extents;
-  if (!finite(half) || half.x <= 0.0F || half.y <= 0.0F || half.z <= 0.0F)
+  if (!is_finite(half) || half.x <= 0.0F || half.y <= 0.0F || half.z <= 0.0F)
     return "half extents must be finite and > 0 m, got (" + std::to_string(half.x) + ", " + std::to_string(half.y) +
            ", " + std::to_string(half.z) + ")";
   const std::array<glm::vec3, 3> axes{box.axis_x, box.axis_y, box.axis_z};

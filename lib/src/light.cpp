@@ -14,13 +14,14 @@
 #include <string>
 #include <string_view>
 
+#include "is_finite.h"
+
 namespace lamp {
 namespace {
 
 // pi/2 as a 32-bit number lies a little above pi/2; it stands for a half-angle of exactly 90 degrees.
 constexpr float RIGHT_ANGLE = std::numbers::pi_v<float> / 2.0F;
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool at_least_zero(const Vec3& v) { return v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F; }
 
 // False for a NaN.
@@ -47,18 +48,18 @@ std::string fault(const Light& light) {
   if (light.type != LightType::point && light.type != LightType::spot) {
     return "type must be point or spot, got " + std::to_string(static_cast<std::uint32_t>(light.type));
   }
-  if (!finite(light.position)) return expected("position must be finite", light.position);
+  if (!is_finite(light.position)) return expected("position must be finite", light.position);
   if (!(light.range >= 0.0F)) return expected("range must be >= 0 m", light.range);
-  if (!finite(light.color) || !at_least_zero(light.color)) {
+  if (!is_finite(light.color) || !at_least_zero(light.color)) {
     return expected("color must be finite and >= 0", light.color);
   }
   if (!std::isfinite(light.intensity) || light.intensity < 0.0F) {
     return expected("intensity must be finite and >= 0 candela", light.intensity);
   }
   const glm::vec3 power = glm::vec3(light.color) * light.intensity;
-  if (!finite(power)) return expected("color times intensity must fit 32 bits", power);
+  if (!is_finite(power)) return expected("color times intensity must fit 32 bits", power);
   if (light.type == LightType::point) return {};
-  if (!finite(light.direction) || light.direction == Vec3{}) {
+  if (!is_finite(light.direction) || light.direction == Vec3{}) {
     return expected("direction must be finite and not 0", light.direction);
   }
   if (!within(light.outer_angle, 0.0F, RIGHT_ANGLE)) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../is_finite.h"
 #include "holdings.h"
 #include "lamplight/light.h"
 #include "sizes.h"
@@ -58,15 +59,11 @@ bool casts_alike(const shared::Light& a, const shared::Light& b) {
          (!spots || (a.direction == b.direction && a.outer_angle == b.outer_angle));
 }
 
-bool is_finite(const shared::LightSphere& sphere) {
-  return std::isfinite(sphere.center.x) && std::isfinite(sphere.center.y) && std::isfinite(sphere.center.z) &&
-         std::isfinite(sphere.radius);
-}
-
 /// Nobody knows where a sphere is that is not finite.
 bool touches(const shared::Light& light, const shared::LightSphere& moved) {
-  return !is_finite(moved) || glm::length(glm::vec3(light.position) - glm::vec3(moved.center)) <=
-                                  (light.range + moved.radius) * (1.0F + 1e-5F);
+  return !is_finite(Vec3(moved.center)) || !std::isfinite(moved.radius) ||
+         glm::length(glm::vec3(light.position) - glm::vec3(moved.center)) <=
+             (light.range + moved.radius) * (1.0F + 1e-5F);
 }
 
 double shown_by(std::span<const View> views, const shared::Light& light) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "../is_finite.h"
 #include "list_groups.h"
 #include "patches.h"
 #include "still_light.h"
@@ -26,7 +27,6 @@ constexpr float LARGEST_PATCH = 1024.0F;   // over a light's range: then nothing
 constexpr float COARSER = 1.41421356F;     // half as many patches
 constexpr std::uint32_t MOST_MERGED = 1U << 30;
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool is_near(double coordinate) { return std::abs(coordinate) <= FURTHEST_M; }  // false for a NaN
 
 std::optional<Error> fault_of(const StillTriangle& triangle, std::size_t number) {
@@ -34,18 +34,18 @@ std::optional<Error> fault_of(const StillTriangle& triangle, std::size_t number)
   for (const DVec3& corner : triangle.corners)
     if (!is_near(corner.x) || !is_near(corner.y) || !is_near(corner.z))
       return Error(name, "corners must be finite and at most 1e15 m from the origin");
-  if (!std::ranges::all_of(triangle.normals, finite)) return Error(name, "normals must be finite");
+  if (!std::ranges::all_of(triangle.normals, is_finite)) return Error(name, "normals must be finite");
   if (!(triangle.normal_tilt >= 0.0F)) return Error(name, "normal_tilt must be >= 0 radians");
   return std::nullopt;
 }
 
 std::optional<Error> fault_of(const shared::Light& light, std::size_t number) {
   const std::string name = "light " + std::to_string(number);
-  if (!finite(light.position)) return Error(name, "position must be finite");
+  if (!is_finite(light.position)) return Error(name, "position must be finite");
   if (!(light.range >= 0.0F)) return Error(name, "range must be >= 0 m");
   if (light.type != shared::LIGHT_SPOT) return std::nullopt;
   const bool points_somewhere = glm::dvec3(light.direction) != glm::dvec3(0.0);
-  if (!finite(light.direction) || !points_somewhere) return Error(name, "direction must be finite and not 0");
+  if (!is_finite(light.direction) || !points_somewhere) return Error(name, "direction must be finite and not 0");
   const bool is_half_angle = light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F;  // false for a NaN
   if (!is_half_angle) return Error(name, "outer_angle must lie in 0 .. pi/2 radians");
   return std::nullopt;

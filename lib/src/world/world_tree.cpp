@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "../is_finite.h"
 #include "lamplight/light.h"
 #include "lamplight/method.h"
 #include "tree_grid.h"
@@ -36,8 +37,6 @@ constexpr std::size_t SURFACE_POINTS = 1U << 18;  // that stand for all surfaces
 std::string in_range(std::uint64_t least, std::uint64_t most, std::uint64_t got) {
   return "expected " + std::to_string(least) + " to " + std::to_string(most) + ", got " + std::to_string(got);
 }
-
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_unit(const Vec3& v) { return std::abs(v.x * v.x + v.y * v.y + v.z * v.z - 1.0F) < 1e-3F; }
 
