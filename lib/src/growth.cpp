@@ -43,9 +43,7 @@ std::vector<Demand> demands(const Method& method, const Options& options, const 
 Options with_demands(const Method& method, const Options& options, std::span<const Demand> demands) {
   auto values = options.all();
   for (const Demand& demand : demands) values[std::string(demand.option)] = std::to_string(demand.now + demand.more);
-  std::vector<std::string> settings;
-  for (const auto& [key, value] : values) settings.push_back(std::string(key).append("=").append(value));
-  return resolve_options(method, settings).value();
+  return resolve_options(method, settings_of(values)).value();
 }
 
 bool has_more_room(const Plan& plan, const Plan& than) {

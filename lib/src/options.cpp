@@ -96,10 +96,14 @@ Result<Options> resolve_options(const Method& method, const std::vector<std::str
   return options;
 }
 
-Result<Options> complete_options(const Method& method, const Options& options) {
+std::vector<std::string> settings_of(const std::map<std::string, std::string, std::less<>>& values) {
   std::vector<std::string> settings;
-  for (const auto& [key, value] : options.all()) settings.push_back(std::string(key).append("=").append(value));
-  return resolve_options(method, settings);
+  for (const auto& [key, value] : values) settings.push_back(std::string(key).append("=").append(value));
+  return settings;
+}
+
+Result<Options> complete_options(const Method& method, const Options& options) {
+  return resolve_options(method, settings_of(options.all()));
 }
 
 std::vector<std::string> nearest_names(std::string_view wanted, std::span<const std::string_view> names,
