@@ -6,7 +6,7 @@
 #ifndef LAMP_COMMON_LIGHT_PROXY
 #define LAMP_COMMON_LIGHT_PROXY
 #include "common/light_bounds.glsl"
-#include "common/tile_volume.glsl"
+#include "common/projection_eye.glsl"
 #include "lamplight/shared/proxy.h"
 
 const float HALF_PI = 1.5707963;

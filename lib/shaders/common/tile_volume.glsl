@@ -3,6 +3,7 @@
 #ifndef LAMP_COMMON_TILE_VOLUME
 #define LAMP_COMMON_TILE_VOLUME
 #include "common/frame.glsl"
+#include "common/projection_eye.glsl"
 #include "lamplight/shared/tile.h"
 
 struct TileSides {
@@ -12,20 +13,6 @@ struct TileSides {
   vec4 x_edges;  // x at z metres ahead lies between x[0] + x[1] z and x[2] + x[3] z
   vec4 y_edges;
 };
-
-bool is_perspective(Frame frame) { return frame.clip_from_view[2][3] != 0.0; }
-
-// Where the view's rays begin; a mesh that holds this point shows nothing but back faces. Perspective only.
-vec3 projection_eye(Frame frame) {
-  const mat4 m = frame.clip_from_view;
-  const float z = -m[3][3] / m[2][3];
-  return vec3(-(m[2][0] * z + m[3][0]) / m[0][0], -(m[2][1] * z + m[3][1]) / m[1][1], z);
-}
-
-// A depth, or that of a perspective's eye, before which nothing is seen.
-float from_eye(Frame frame, float z_view) {
-  return is_perspective(frame) ? max(z_view, -projection_eye(frame).z) : z_view;
-}
 
 // An edge at ndc: solve clip.x = ndc * clip.w for x, with z = -z_view.
 vec2 edge(float scale, float of_z, float offset, float w_of_z, float w_offset, float ndc) {

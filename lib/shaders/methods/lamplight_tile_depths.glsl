@@ -81,7 +81,7 @@ struct Along {
 };
 
 Along along_tile(float z_near, float scale) {
-  const float MOST_SCALE = 1e25;  // 1/m: of a tile that has one depth, without leaving the range of numbers
+  const float MOST_SCALE = 1e25;  // 1/m: of a tile that has one depth, 0, without leaving the range of numbers
   const mat4 m = frame.clip_from_view;
   const vec2 above = vec2(m[3][2] - z_near * m[2][2], z_near * m[2][3] - m[3][3]);
   return Along(above * min(scale / float(MASK_BITS), MOST_SCALE), vec2(m[2][2], -m[2][3]));
