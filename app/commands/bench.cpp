@@ -82,8 +82,7 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   std::vector<std::string> names = o.methods;
   if (names.empty())
     for (const Method& method : methods()) names.emplace_back(method.name);
-  if (names.size() != 1 && !r.options.empty())
-    throw Error("--option: belongs to one method; name that one, and no other, with --method");
+  check_one_method(names.size(), r.options);
   for (const std::string& name : names) {
     series.methods.push_back({.name = name, .options = r.options, .label = name});
     if (!is_auto(name)) static_cast<void>(parse_method(name));

@@ -60,10 +60,9 @@ void check_side(const CompareOptions& o, const std::string& typed, const MethodW
   } catch (const Error& error) {
     throw Error(fmt::format("compare {}: {}", typed, error.what()));
   }
-  for (const char* cut : {"occlusion=radial", "proxy=cut"})
-    if (request.shadows.filter == "off" && std::ranges::find(word.options, cut) != word.options.end())
-      throw Error(
-          fmt::format("compare {}: {} cuts lights by their shadow maps; expected --shadows FILTER too", typed, cut));
+  if (const auto cut = cut_by_shadows(word.options); cut && request.shadows.filter == "off")
+    throw Error(
+        fmt::format("compare {}: {} cuts lights by their shadow maps; expected --shadows FILTER too", typed, *cut));
 }
 
 /// The two methods, as options ask for them.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "commands/command_line.h"
+#include "commands/request.h"
 
 namespace lamp::app {
 namespace {
@@ -32,10 +33,8 @@ void check_shadow_options(const CLI::App& command) {
     if (option->count() != 0 && option->get_group() == "Shadows")
       throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option->get_name()));
   if (!is_given(command, "--option")) return;
-  for (const std::string& value : command.get_option("--option")->results())
-    for (const std::string_view cut : {"occlusion=radial", "proxy=cut"})
-      if (value == cut)
-        throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", cut));
+  if (const auto cut = cut_by_shadows(command.get_option("--option")->results()))
+    throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", *cut));
 }
 
 /// Look-ups at points that no picture has: nothing of a picture matters.

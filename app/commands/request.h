@@ -185,6 +185,8 @@ void check_scene_lights(const Request& request, const Scene& scene);
 /// Of `--shadows` and what goes with it; nothing if they are off. Throws Error for a capture, where it is known.
 [[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request);
 [[nodiscard]] std::optional<ShadowSettings> requested_shadows(const Request& request, const Scene& scene);
+/// The first option of a method that cuts lights by their shadow maps.
+[[nodiscard]] std::optional<std::string_view> cut_by_shadows(std::span<const std::string> options);
 /// Throws Error for what they cannot be, on any device.
 void check_shadow_choice(const Request& request);
 /// Throws Error, naming `--probes-show`.
@@ -222,6 +224,8 @@ void add_verifier_option(CLI::App& command, std::string& verifier);
 [[nodiscard]] std::uint64_t brute_force_pairs(const Context& context);
 /// Lights that brute force surely walks at a pixel: a device may end a thread's loops.
 [[nodiscard]] std::uint64_t brute_force_lights(const Context& context);
+/// Throws Error for options where there is more than one method that they could be of.
+void check_one_method(std::size_t methods, std::span<const std::string> options);
 /// A method of the table, by its name.
 [[nodiscard]] const Method& parse_method(const std::string& text);
 /// A method with options of its own, in one word: "tiled:tile=8,bounds=mask".

@@ -91,6 +91,11 @@ void add_device_options(CLI::App& command, Request& r) {
 
 }  // namespace
 
+void check_one_method(std::size_t methods, std::span<const std::string> options) {
+  if (methods != 1 && !options.empty())
+    throw Error("--option: belongs to one method; name that one, and no other, with --method");
+}
+
 void add_common_options(CLI::App& command, Request& r) {
   command
       .add_option("scene,--scene", r.scene,

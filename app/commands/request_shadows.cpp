@@ -42,12 +42,11 @@ std::size_t parse_name(const char* option, const std::string& text, std::span<co
 /// Bounds reckon with where taps lie.
 void check_cuts(const Request& request, const ShadowSettings& settings) {
   if (settings.blur != ShadowBlur::listing || !ShadowMoments::has(settings.filter)) return;
-  for (const std::string_view cut : {"occlusion=radial", "proxy=cut"})
-    if (std::ranges::find(request.options, cut) != request.options.end())
-      throw Error(
-          fmt::format("--option {}: the taps of --shadow-blur listing lie anywhere, so that nothing can be cut; "
-                      "expected --shadow-blur fused or lines",
-                      cut));
+  if (const auto cut = cut_by_shadows(request.options))
+    throw Error(
+        fmt::format("--option {}: the taps of --shadow-blur listing lie anywhere, so that nothing can be cut; "
+                    "expected --shadow-blur fused or lines",
+                    *cut));
 }
 
 }  // namespace
@@ -56,6 +55,12 @@ std::span<const std::string_view> shadow_names() { return FILTERS; }
 std::span<const std::string_view> point_shadow_names() { return POINTS; }
 std::span<const std::string_view> shadow_raster_names() { return RASTERS; }
 std::span<const std::string_view> shadow_blur_names() { return BLURS; }
+
+std::optional<std::string_view> cut_by_shadows(std::span<const std::string> options) {
+  for (const std::string_view cut : {"occlusion=radial", "proxy=cut"})
+    if (std::ranges::find(options, cut) != options.end()) return cut;
+  return std::nullopt;
+}
 
 std::string_view shadow_filter_name(ShadowFilter filter) { return FILTERS[static_cast<std::size_t>(filter) + 1]; }
 

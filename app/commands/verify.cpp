@@ -66,8 +66,7 @@ std::vector<std::string> wanted_methods(const VerifyOptions& o) {
   std::vector<std::string> wanted = o.methods;
   if (wanted.empty())
     for (const Method& method : methods()) wanted.emplace_back(method.name);
-  if (wanted.size() != 1 && !o.request.options.empty())
-    throw Error("--option: belongs to one method; name that one, and no other, with --method");
+  check_one_method(wanted.size(), o.request.options);
   for (const std::string& method : wanted) check_request(o.request, method);
   return wanted;
 }

@@ -72,8 +72,7 @@ std::vector<Asked> methods_at_points(const Request& request, const PointsRequest
     if (!found.back()->any_point)
       throw Error(fmt::format("--points: {} has no look-up by position; expected one of: {}", name, names));
   }
-  if (found.size() != 1 && !request.options.empty())
-    throw Error("--option: belongs to one method; name that one, and no other, with --method");
+  check_one_method(found.size(), request.options);
   std::vector<Asked> asked;
   for (const Method* method : found) {
     asked.push_back({method, request.options});
