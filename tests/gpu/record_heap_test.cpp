@@ -1,6 +1,7 @@
 // Recording a frame takes nothing from the heap, not even the first time: for every method, with one view and with two.
 // Commands go nowhere here, so that no driver's or layer's own memory counts.
 // SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 
@@ -66,9 +67,11 @@ vulkan::Device silent_device() {
 }
 
 std::uint64_t taken_by(vulkan::Culler& culler, const vulkan::CullerFrame& frame) {
+  // Any handle but null will do: nothing that would read it is called.
+  static std::byte nowhere;
   taken = 0;
   counts = true;
-  const Result<std::uint64_t> recorded = culler.record(VK_NULL_HANDLE, frame);
+  const Result<std::uint64_t> recorded = culler.record(reinterpret_cast<VkCommandBuffer>(&nowhere), frame);
   counts = false;
   EXPECT_TRUE(recorded.ok()) << recorded.error().text();
   return taken;
