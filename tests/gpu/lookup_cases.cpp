@@ -32,6 +32,7 @@ std::vector<LookUpCase> lookup_cases() {
           {"cell_bits", "lamplight", {"container=bits", "depth=none"}},
           {"world_cells", "world-cells", {}},
           {"world_cells", "world-cells", {"brick=800"}},
+          {"world_cells", "world-cells", {"cells=16"}},
           {"world_cells", "world-cells", {"mean_bricks=1"}},
           {"implicit_grid", "ikkala-grid", {}},
           {"implicit_grid", "ikkala-grid", {"cells=8"}},

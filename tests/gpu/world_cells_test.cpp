@@ -3,7 +3,9 @@
 #include "gpu/point_asks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <string>
 
 #include "gpu/check.h"
 
@@ -27,6 +29,24 @@ TEST_F(WorldCells, WalkLittleMoreThanWhatReachesAPoint) {
   const Answered answered = ask(asked);
   EXPECT_LT(answered.findings.waste(), 2.3);
   EXPECT_GT(answered.findings.useful, 5 * POINTS);
+}
+
+// Large bricks, and spots that are narrow and long.
+TEST_F(WorldCells, OfSlicesWalkLittleWhereBricksAreLarge) {
+  std::vector<shared::Light> lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS);
+  const Points points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F));
+  const auto waste = [&](const char* cells) {
+    return ask({.lights = lights, .points = points, .settings = {"brick=300", cells}}).findings.waste();
+  };
+  EXPECT_LT(waste("cells=16"), 3.0);
+  EXPECT_GT(waste("cells=4"), 4.0) << "for this slices are";
+  for (shared::Light& light : lights) {
+    light.type = shared::LIGHT_SPOT;
+    light.outer_angle = 0.1F;
+    light.sin_outer = std::sin(light.outer_angle);
+    light.cos_outer = std::cos(light.outer_angle);
+  }
+  ask({.lights = lights, .points = points, .settings = {"cells=16"}});
 }
 
 // More levels at a point than a walk keeps, with more lights of each than a word of bits.
@@ -74,22 +94,25 @@ TEST_F(WorldCells, LookForBricksAgainWhereRanksHaveNoRoom) {
 
 // Octets, words, pieces and what a work group takes, each a little less than full, full, and a little more.
 TEST_F(WorldCells, TakeListsOfEveryLength) {
-  for (const std::uint32_t length : {1, 7, 8, 9, 31, 32, 33, 63, 64, 65, 127, 128, 129, 255, 256, 257, 400}) {
-    SCOPED_TRACE(length);
-    std::vector<shared::Light> lights = lights_around({}, 0.1F, 1.0F, 1.1F, length);
-    for (shared::Light& light : lights) light.type = shared::LIGHT_POINT;
-    const Answered answered = ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.2F), glm::vec3(1.2F))});
-    EXPECT_EQ(answered.findings.list_max, length);
-  }
+  for (const char* cells : {"cells=4", "cells=16"})
+    for (const std::uint32_t length : {1, 7, 8, 9, 31, 32, 33, 63, 64, 65, 127, 128, 129, 255, 256, 257, 400}) {
+      SCOPED_TRACE(cells + (" " + std::to_string(length)));
+      std::vector<shared::Light> lights = lights_around({}, 0.1F, 1.0F, 1.1F, length);
+      for (shared::Light& light : lights) light.type = shared::LIGHT_POINT;
+      const Answered answered =
+          ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.2F), glm::vec3(1.2F)), .settings = {cells}});
+      EXPECT_EQ(answered.findings.list_max, length);
+    }
 }
 
 TEST_F(WorldCells, TakeBricksOfEverySize) {
-  for (const char* brick : {"brick=50", "brick=63", "brick=250", "brick=1600"}) {
-    SCOPED_TRACE(brick);
-    ask({.lights = lights_around({}, 10.0F, 0.01F, 4.0F, LIGHTS),
-         .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
-         .settings = {brick}});
-  }
+  for (const char* brick : {"brick=50", "brick=63", "brick=250", "brick=1600"})
+    for (const char* cells : {"cells=4", "cells=16"}) {
+      SCOPED_TRACE(std::string(brick) + " " + cells);
+      ask({.lights = lights_around({}, 10.0F, 0.01F, 4.0F, LIGHTS),
+           .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
+           .settings = {brick, cells}});
+    }
 }
 
 }  // namespace

@@ -8,7 +8,10 @@
 
 const uint GROUP_THREADS = 64u;
 layout(local_size_x = 64) in;
+layout(constant_id = 1) const uint HALVES = 4;  // of a word, for an entry's bits
 #include "methods/world_entry.glsl"
+
+const uint PIECE_WORDS = WORLD_PIECE * HALVES / 2u;
 
 layout(set = 0, binding = 3, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
 layout(set = 0, binding = 4, scalar) readonly buffer BucketBuffer { WorldBucket buckets[]; };
@@ -17,7 +20,7 @@ layout(set = 0, binding = 6, scalar) readonly buffer EntryBuffer { uint entries[
 layout(set = 0, binding = 7, scalar) writeonly buffer BitBuffer { uint bits[]; };
 
 shared uint s_cells[2u * WORLD_PIECE + 16u];
-shared uint s_bits[2u * WORLD_PIECE];
+shared uint s_bits[PIECE_WORDS];
 #include "methods/world_octet.glsl"
 
 // A light may have several bricks in one bucket. Its first entry has the cells of all of them, the others have none, so
@@ -40,11 +43,9 @@ void main() {
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
   for (uint i = thread; i < count; i += GROUP_THREADS) {
     const uvec2 cells = cells_of_light(bucket, piece.begin + i);
-    [[unroll]] for (uint word = 0u; word < 2u; ++word) {
-      s_cells[2u * i + word] = cells[word];
-      s_bits[2u * i + word] = 0u;
-    }
+    [[unroll]] for (uint word = 0u; word < 2u; ++word) s_cells[2u * i + word] = cells[word];
   }
+  for (uint i = thread; i < PIECE_WORDS; i += GROUP_THREADS) s_bits[i] = 0u;
   barrier();  // all cells before bits are made of them
   const uint blocks = (count + BLOCK - 1u) / BLOCK;
   for (uint i = thread; i < OCTETS * blocks; i += GROUP_THREADS) {
@@ -52,5 +53,6 @@ void main() {
     write_octet(begin, min(count - begin, BLOCK), i % OCTETS);
   }
   barrier();  // all bits before they are written
-  for (uint i = thread; i < 2u * count; i += GROUP_THREADS) bits[2u * (bucket.first + piece.begin) + i] = s_bits[i];
+  const uint first = first_word(bucket.first + piece.begin);
+  for (uint i = thread; i < first_word(room_of(count)); i += GROUP_THREADS) bits[first + i] = s_bits[i];
 }

@@ -1,4 +1,5 @@
-// An entry of a bucket: a light, one of the light's bricks, and the cells of it that the light reaches.
+// An entry of a bucket: a light, one of the light's bricks, and the cells of it that the light reaches, or its slices.
+// Needs: HALVES, CELL_HALVES or SLICE_HALVES.
 // SPDX-License-Identifier: Apache-2.0
 layout(constant_id = 0) const float BRICK_RATIO = 1.0;
 #include "common/world_bricks.glsl"
@@ -12,6 +13,8 @@ uint code_of(uint entry) { return entry & (1u << ENTRY_BRICK_BITS) - 1u; }
 
 // The group's number, as groups are counted.
 uint group_number() { return gl_WorkGroupID.x + WORLD_GROUPS_ACROSS * gl_WorkGroupID.y; }
+
+#include "methods/world_slices.glsl"
 
 // Cells of a brick are taken by layers of 16 along z, each of four rows along y.
 const vec4 CELLS = vec4(0.0, 1.0, 2.0, 3.0);
@@ -95,6 +98,7 @@ uint layer_of_cone(ConeCells cone, float along_layer, float z) {
 
 uvec2 cells_of(LightBricks b, uint light, uint code) {
   if (b.level == WORLD_EVERYTHING) return uvec2(~0u);
+  if (HALVES == SLICE_HALVES) return slices_of(b, lights[light], code);
   const float side = 0.25 * brick_side(b.level);
   const vec3 low = 4.0 * side * brick_of_code(b, code);
   const bool is_spot = lights[light].type == LIGHT_SPOT;

@@ -4,7 +4,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lamplight/shared/world.h"
+layout(constant_id = 0) const uint HALVES = 4;
+#include "methods/world_words.glsl"
 
 const uint GROUP_THREADS = 64u;
 layout(local_size_x = 64) in;
@@ -33,7 +34,7 @@ void main() {
   if (number >= totals.pieces) return;
   const WorldPiece piece = bucket_pieces[number];
   const WorldBucket bucket = buckets[piece.bucket];
-  const uint first = 2u * bucket.first;
+  const uint first = first_word(bucket.first);
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
   for (uint i = gl_LocalInvocationIndex; i < count; i += GROUP_THREADS) {
     const uint entry = runs[first + piece.begin + i];

@@ -1,9 +1,11 @@
 // From a row of cells for each entry to a row of entries for each cell: the bits of a block of up to 32 entries.
 // Based on: Warren, Hacker's Delight, 2nd ed. (2012), 7-3: transposing an 8 x 8 matrix of bits.
-// Needs: s_cells, two words for each entry, with room for 8 entries more; s_bits, two words for each entry, zeroed.
+// Likewise of slices. Needs: s_cells, two words for each entry, with room for 8 entries more; s_bits, zeroed.
 // SPDX-License-Identifier: Apache-2.0
+#include "methods/world_words.glsl"
+
 const uint BLOCK = 32u;  // entries
-const uint OCTETS = BRICK_CELLS / 8u;
+const uint OCTETS = 2u * HALVES;
 
 struct Octet {
   uint entries[8];  // for each of eight cells in turn, a bit for each entry of a block
@@ -39,7 +41,7 @@ Octet octet_of(uint begin, uint count, uint number) {
 void write_octet(uint begin, uint count, uint number) {
   const Octet octet = octet_of(begin, count, number);
   const uint block_entries = ~0u >> BLOCK - count;
-  uint word = 2u * begin + 8u * number * count / 32u;
+  uint word = first_word(begin) + 8u * number * count / 32u;
   uint filled = 8u * number * count % 32u;
   uint made = 0u;
   [[unroll]] for (uint cell = 0u; cell < 8u; ++cell) {

@@ -12,6 +12,7 @@ layout(constant_id = 1) const uint BUCKETS = 1;
 layout(constant_id = 2) const uint ENTRIES = 1;  // capacity
 layout(constant_id = 3) const uint SHORT = 1;    // entries of a bucket, at most
 layout(constant_id = 5) const uint WINDOW = 1;   // entries
+layout(constant_id = 6) const uint HALVES = 4;   // of a word, for an entry's bits
 #include "methods/world_entry.glsl"
 
 layout(set = 0, binding = 3, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
@@ -27,7 +28,7 @@ const uint NO_ENTRY = ~0u;         // in a long bucket's place
 shared uint s_entries[HELD];  // in any order
 shared uint s_ordered[HELD];
 shared uint s_cells[2u * HELD + 16u];  // in order
-shared uint s_bits[2u * HELD];
+shared uint s_bits[HELD * HALVES / 2u];
 shared uint s_blocks[HELD];  // where each begins, and from these bits on how many entries it has
 const uint BLOCK_COUNT_BIT = 16u;
 shared uint s_block_count;
@@ -52,7 +53,7 @@ void order_piece(WorldPiece piece) {
   for (uint i = gl_LocalInvocationIndex; i < count; i += threads) s_entries[i] = entries[bucket.first + piece.begin + i];
   barrier();  // entries before they are compared
   for (uint i = gl_LocalInvocationIndex; i < count; i += threads)
-    bits[2u * bucket.first + piece.begin + smaller_in(0u, count, s_entries[i])] = s_entries[i];
+    bits[first_word(bucket.first) + piece.begin + smaller_in(0u, count, s_entries[i])] = s_entries[i];
 }
 
 uint bucket_of_entry(uint entry) {
@@ -104,11 +105,9 @@ void order_window(uint window) {
   for (uint i = gl_LocalInvocationIndex; i < count; i += threads) {
     s_entries[i] = entries[begin + i];
     s_ordered[i] = NO_ENTRY;
-    [[unroll]] for (uint word = 0u; word < 2u; ++word) {
-      s_cells[2u * i + word] = 0u;
-      s_bits[2u * i + word] = 0u;
-    }
+    [[unroll]] for (uint word = 0u; word < 2u; ++word) s_cells[2u * i + word] = 0u;
   }
+  for (uint i = gl_LocalInvocationIndex; i < first_word(count); i += threads) s_bits[i] = 0u;
   barrier();  // entries before they are compared, zeros before bits are set
   for (uint i = gl_LocalInvocationIndex; i < count; i += threads) order_entry(begin, i);
   barrier();  // the order before it is read
@@ -119,11 +118,10 @@ void order_window(uint window) {
     write_octet(block & (1u << BLOCK_COUNT_BIT) - 1u, block >> BLOCK_COUNT_BIT, i % OCTETS);
   }
   barrier();  // all bits before they are written
-  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) {
-    if (s_ordered[i] == NO_ENTRY) continue;
-    entries[begin + i] = s_ordered[i];
-    [[unroll]] for (uint word = 0u; word < 2u; ++word) bits[2u * (begin + i) + word] = s_bits[2u * i + word];
-  }
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads)
+    if (s_ordered[i] != NO_ENTRY) entries[begin + i] = s_ordered[i];
+  for (uint word = gl_LocalInvocationIndex; word < first_word(count); word += threads)
+    if (s_ordered[2u * word / HALVES] != NO_ENTRY) bits[first_word(begin) + word] = s_bits[word];
 }
 
 void main() {

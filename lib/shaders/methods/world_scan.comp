@@ -11,6 +11,9 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint ENTRIES = 1;  // capacity
 layout(constant_id = 2) const uint SHORT = 1;    // entries of a bucket that is not cut into pieces
 layout(constant_id = 3) const uint WINDOW = 1;   // entries
+layout(constant_id = 4) const uint HALVES = 4;   // of a word, for an entry's bits
+layout(constant_id = 5) const uint CELLS = 64;   // of a brick
+#include "methods/world_words.glsl"
 layout(set = 0, binding = 0, scalar) readonly buffer CountBuffer { uint counts[]; };
 layout(set = 0, binding = 1, scalar) buffer TotalBuffer { WorldTotals totals; };
 layout(set = 0, binding = 2, scalar) writeonly buffer BucketBuffer { WorldBucket buckets[]; };
@@ -25,9 +28,9 @@ shared uint s_piece;
 uint pieces_of(uint entries) { return entries <= SHORT ? 0u : (entries + WORLD_PIECE - 1u) / WORLD_PIECE; }
 
 // Windows that begin in the bucket, or where it ends, have the next one as their first.
-void write_windows(uint first, uint entries) {
+void write_windows(uint first, uint room) {
   if (first >= ENTRIES) return;
-  const uint next = entries < ENTRIES - first ? first + entries : ENTRIES;
+  const uint next = room < ENTRIES - first ? first + room : ENTRIES;
   for (uint window = first / WINDOW + 1u; window * WINDOW <= next; ++window) windows[window] = next;
 }
 
@@ -42,7 +45,7 @@ void main() {
   uint sum = 0u;
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
     held[k] = counts[bucket + k * threads];
-    sum += held[k];
+    sum += room_of(held[k]);
   }
   uint total;
   uint first = group_scan(sum, total);
@@ -55,12 +58,12 @@ void main() {
   first += s_first;
   uint pieces = 0u;
   [[unroll]] for (uint k = 0u; k < HELD; ++k) {
-    const bool fits = held[k] <= ENTRIES && first <= ENTRIES - held[k];
+    const bool fits = held[k] <= ENTRIES && first <= ENTRIES - room_of(held[k]);
     buckets[bucket + k * threads] = WorldBucket(fits ? first : 0u, fits ? held[k] : WORLD_ALL);
-    write_windows(first, held[k]);
-    first += held[k];
+    write_windows(first, room_of(held[k]));
+    first += room_of(held[k]);
     if (!fits) {
-      atomicAdd(totals.counters.overflowed_cells, BRICK_CELLS);
+      atomicAdd(totals.counters.overflowed_cells, CELLS);
       held[k] = 0u;
     }
     pieces += pieces_of(held[k]);

@@ -19,6 +19,7 @@ namespace lamp {
 namespace {
 
 using shared::BRICK_CELLS;
+using shared::BRICK_SLICES;
 using shared::WORLD_PIECE;
 
 constexpr std::uint32_t THREADS = 256;
@@ -28,17 +29,16 @@ constexpr std::uint32_t LIGHT_BUCKETS = 16;       // for each light,
 constexpr std::uint32_t LEAST_BUCKETS = 1024;     // but no fewer
 constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes each
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // the place of a word of bits has 32 bits
-constexpr std::uint64_t ENTRY_BYTES = 12;         // with the bits of the brick's cells
 constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
-constexpr std::uint64_t RANKS_OF_ENTRY = 2;       // that fit into the room of its bits
 constexpr std::uint64_t RANK_ALIGNMENT = 8;       // a light's ranks begin where 32 bytes do
 constexpr std::uint32_t OCTET_SPARE = 64;         // bytes, behind the entries' cells
 constexpr std::uint32_t MOST_PERCENT = 1600;
-constexpr std::uint64_t BUDGET = (64U << 20) / ENTRY_BYTES;  // entries, for brick=0
-constexpr std::uint32_t FINEST_PERCENT = 100;                // for brick=0,
-constexpr std::uint32_t COARSEST_PERCENT = 400;  // and where lights are so many that the budget does not matter
-constexpr std::uint64_t MEAN_BRICKS = 24;        // default of the option
-constexpr std::uint32_t LEAST_PERCENT = 50;      // of the range: a code tells 6 bricks across apart
+constexpr std::uint64_t BUDGET_BYTES = 64U << 20;     // of entries, for brick=0
+constexpr std::uint32_t FINEST_PERCENT = 100;         // for brick=0,
+constexpr std::uint32_t FINEST_SLICED_PERCENT = 300;  // where slices have bits,
+constexpr std::uint32_t COARSEST_PERCENT = 400;       // and where lights are so many that the budget does not matter
+constexpr std::uint64_t MEAN_BRICKS = 24;             // default of the option
+constexpr std::uint32_t LEAST_PERCENT = 50;           // of the range: a code tells 6 bricks across apart
 static_assert(2 * 100 / LEAST_PERCENT + 2 <= shared::MOST_BRICKS_ACROSS);
 
 /// Bricks that a sphere anywhere reaches, on average, whose side is `ratio` of its radius: the volume of points within
@@ -59,6 +59,11 @@ std::uint64_t kept_ranks(double ratio) {
   return (most_bricks(ratio) + RANK_ALIGNMENT - 1) / RANK_ALIGNMENT * RANK_ALIGNMENT;
 }
 
+/// With a bit for each cell of the brick, or for each slice.
+std::uint64_t entry_bytes(std::uint32_t halves) { return 4 + 2 * std::uint64_t{halves}; }
+std::uint64_t bit_words(std::uint64_t entries, std::uint32_t halves) { return entries * halves / 2; }
+std::uint64_t budget(std::uint32_t halves) { return BUDGET_BYTES / entry_bytes(halves); }
+
 struct Sizes {
   float ratio;  ///< a brick's side is this share of a light's range, to twice that
   std::uint32_t buckets;
@@ -67,50 +72,72 @@ struct Sizes {
   std::uint32_t threads;
   std::uint32_t most_short;  ///< entries of a bucket that one work group puts in order
   std::uint32_t window;      ///< entries; the short buckets that begin in it have a work group
+  std::uint32_t halves;      ///< of a word, for an entry's bits
   std::uint32_t kept;        ///< ranks of a light that fit into the room of the bits, until these are made
 };
-
-/// Percent of a light's range: as the option says, or the least for which the entries of lights anywhere take no more
-/// than BUDGET.
-std::uint32_t brick_percent(const Problem& problem) {
-  if (const std::uint32_t percent = problem.options.integer("brick"); percent != 0) return percent;
-  std::uint32_t percent = FINEST_PERCENT;
-  while (percent < COARSEST_PERCENT && parts::capacity(problem) * mean_bricks(percent / 100.0) > BUDGET) ++percent;
-  return percent;
-}
 
 std::uint64_t bricks_anywhere(const Problem& problem, double ratio) {
   return static_cast<std::uint64_t>(parts::capacity(problem) * mean_bricks(ratio));
 }
 
+std::uint32_t bucket_count(const Problem& problem) {
+  const std::uint64_t wanted = std::bit_ceil(std::uint64_t{parts::capacity(problem)} * LIGHT_BUCKETS);
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, LEAST_BUCKETS, MOST_BUCKETS));
+}
+
+/// A bit for each slice, where so many lights would have more bits of cells than the budget has of slices.
+std::uint32_t entry_halves(const Problem& problem) {
+  const std::uint32_t cells = problem.options.integer("cells");
+  const bool many = bit_words(bricks_anywhere(problem, FINEST_PERCENT / 100.0), shared::CELL_HALVES) >
+                    bit_words(budget(shared::SLICE_HALVES), shared::SLICE_HALVES);
+  const bool sliced = cells == BRICK_SLICES || (cells == 0 && problem.options.integer("brick") == 0 && many);
+  return sliced ? shared::SLICE_HALVES : shared::CELL_HALVES;
+}
+
+/// Percent of a light's range: as the option says, or the least for which the entries of lights anywhere keep the
+/// budget.
+std::uint32_t brick_percent(const Problem& problem, std::uint32_t halves) {
+  if (const std::uint32_t percent = problem.options.integer("brick"); percent != 0) return percent;
+  std::uint32_t percent = halves == shared::SLICE_HALVES ? FINEST_SLICED_PERCENT : FINEST_PERCENT;
+  while (percent < COARSEST_PERCENT && bricks_anywhere(problem, percent / 100.0) > budget(halves)) ++percent;
+  return percent;
+}
+
+/// Of the lists that have these entries: of slices an even number each.
+std::uint64_t room_of(const Problem& problem, std::uint64_t entries, std::uint32_t halves) {
+  return halves % 2 == 0 ? entries : entries + std::min<std::uint64_t>(entries, bucket_count(problem));
+}
+
 /// Room for lights anywhere, and for all bricks of all lights where these are few.
-std::uint64_t default_entries(const Problem& problem, double ratio) {
-  const std::uint64_t worst = parts::capacity(problem) * most_bricks(ratio);
-  if (worst * ENTRY_BYTES <= SMALL_BYTES) return worst;
-  std::uint64_t anywhere = bricks_anywhere(problem, ratio);
-  if (problem.options.integer("brick") == 0)  // more lights never have less room, though their bricks be larger
-    anywhere = std::max(anywhere, std::min(BUDGET, bricks_anywhere(problem, FINEST_PERCENT / 100.0)));
+std::uint64_t default_entries(const Problem& problem, double ratio, std::uint32_t halves) {
+  const std::uint64_t worst = room_of(problem, parts::capacity(problem) * most_bricks(ratio), halves);
+  if (worst * entry_bytes(halves) <= SMALL_BYTES) return worst;
+  std::uint64_t anywhere = room_of(problem, bricks_anywhere(problem, ratio), halves);
+  if (problem.options.integer("brick") == 0) {  // more lights never have fewer bits, though their bricks be larger
+    const std::uint64_t finest = bricks_anywhere(problem, FINEST_PERCENT / 100.0) * shared::CELL_HALVES / halves;
+    anywhere = std::max(anywhere, std::min(budget(halves), finest));
+  }
   return std::min(worst, anywhere);
 }
 
-std::uint64_t wanted_entries(const Problem& problem, double ratio) {
+std::uint64_t wanted_entries(const Problem& problem, double ratio, std::uint32_t halves) {
   const std::uint64_t lights = parts::capacity(problem);
   const std::uint64_t mean = problem.options.integer("mean_bricks");
-  const std::uint64_t usual = default_entries(problem, ratio);
+  const std::uint64_t usual = default_entries(problem, ratio, halves);
   return mean < MEAN_BRICKS ? std::min(usual, lights * mean) : usual + lights * (mean - MEAN_BRICKS);
 }
 
 Sizes sizes_of(const Problem& problem) {
-  Sizes s{.ratio = static_cast<float>(brick_percent(problem)) / 100.0F};
+  const std::uint32_t halves = entry_halves(problem);
+  Sizes s{.ratio = static_cast<float>(brick_percent(problem, halves)) / 100.0F, .halves = halves};
   s.threads = std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
   s.most_short = std::min(s.threads / 2, WORLD_PIECE);
   s.window = s.threads;
-  const std::uint64_t wanted_buckets = std::bit_ceil(std::uint64_t{parts::capacity(problem)} * LIGHT_BUCKETS);
-  s.buckets = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted_buckets, LEAST_BUCKETS, MOST_BUCKETS));
-  s.entries = static_cast<std::uint32_t>(
-      std::min({wanted_entries(problem, s.ratio), MOST_ENTRIES, problem.traits.max_storage_buffer_bytes / 8}));
-  s.kept =
-      static_cast<std::uint32_t>(std::min(kept_ranks(s.ratio), s.entries * RANKS_OF_ENTRY / parts::capacity(problem)));
+  s.buckets = bucket_count(problem);
+  s.entries = static_cast<std::uint32_t>(std::min({wanted_entries(problem, s.ratio, halves), MOST_ENTRIES,
+                                                   problem.traits.max_storage_buffer_bytes / entry_bytes(halves)}));
+  s.kept = static_cast<std::uint32_t>(
+      std::min(kept_ranks(s.ratio), bit_words(s.entries, halves) / parts::capacity(problem)));
   s.pieces =
       parts::divide_up(s.entries, std::min(s.most_short, WORLD_PIECE / 2));  // but a bucket's last are over half full
   return s;
@@ -134,7 +161,7 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / s.window + 1) * 4});
   b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::WorldPiece)});
   b.entries = plan.add({.name = "bucket entries", .bytes = std::uint64_t{s.entries} * 4});
-  b.bits = plan.add({.name = "cell bits", .bytes = std::uint64_t{s.entries} * 8});
+  b.bits = plan.add({.name = "cell bits", .bytes = bit_words(s.entries, s.halves) * 4});
   return b;
 }
 
@@ -174,10 +201,15 @@ Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   return pass;
 }
 
+std::uint32_t brick_cells(const Sizes& s) {
+  const std::uint32_t across = s.halves == shared::SLICE_HALVES ? BRICK_SLICES : BRICK_CELLS;
+  return across * across * across;
+}
+
 Pass scan_pass(const Sizes& s, const Buffers& b) {
   return {.name = "scan buckets",
           .shader = "methods/world_scan",
-          .constants = {s.threads, s.entries, s.most_short, s.window},
+          .constants = {s.threads, s.entries, s.most_short, s.window, s.halves, brick_cells(s)},
           .bindings = {{b.counts},
                        {b.totals, Access::read_write},
                        {b.buckets, Access::write},
@@ -190,7 +222,8 @@ Pass scan_pass(const Sizes& s, const Buffers& b) {
 Pass order_pass(const Sizes& s, const Buffers& b) {
   return {.name = "order buckets",
           .shader = "methods/world_order",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads, s.window},
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads, s.window,
+                        s.halves},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},
@@ -201,16 +234,17 @@ Pass order_pass(const Sizes& s, const Buffers& b) {
                        {b.bits, Access::write},
                        {b.pieces}},
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)},
-          .shared_bytes = (s.window + s.most_short) * 28 + OCTET_SPARE + 4};
+          .shared_bytes = (s.window + s.most_short) * (20 + 2 * s.halves) + OCTET_SPARE + 4};
 }
 
 Extent of_pieces(const Buffers& b) {
   return {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, pieces_x)};
 }
 
-Pass merge_pass(const Buffers& b) {
+Pass merge_pass(const Sizes& s, const Buffers& b) {
   return {.name = "merge long buckets",
           .shader = "methods/world_merge",
+          .constants = {s.halves},
           .bindings = {{b.totals}, {b.buckets}, {b.pieces}, {b.bits}, {b.entries, Access::write}},
           .extent = of_pieces(b)};
 }
@@ -218,7 +252,7 @@ Pass merge_pass(const Buffers& b) {
 Pass bits_pass(const Sizes& s, const Buffers& b) {
   return {.name = "bits of long buckets",
           .shader = "methods/world_bits",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio)},
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.halves},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},
@@ -228,25 +262,28 @@ Pass bits_pass(const Sizes& s, const Buffers& b) {
                        {b.entries},
                        {b.bits, Access::write}},
           .extent = of_pieces(b),
-          .shared_bytes = WORLD_PIECE * 16 + OCTET_SPARE};
+          .shared_bytes = WORLD_PIECE * (8 + 2 * s.halves) + OCTET_SPARE};
 }
 
 Plan plan_world_cells(const Problem& problem) {
   const Sizes sizes = sizes_of(problem);
   Plan plan;
-  plan.cells = std::uint64_t{sizes.buckets} * BRICK_CELLS;
+  plan.cells = std::uint64_t{sizes.buckets} * brick_cells(sizes);
   plan.any_depth = true;
   const Buffers b = add_buffers(plan, sizes);
   plan.capacities = {parts::shared_list("mean_bricks", sizes.entries, parts::capacity(problem))};
-  plan.passes = {count_pass(problem, sizes, b), scan_pass(sizes, b), fill_pass(problem, sizes, b),
-                 order_pass(sizes, b),          merge_pass(b),       bits_pass(sizes, b)};
+  plan.passes = {count_pass(problem, sizes, b), scan_pass(sizes, b),  fill_pass(problem, sizes, b),
+                 order_pass(sizes, b),          merge_pass(sizes, b), bits_pass(sizes, b)};
   plan.lookup = {.name = "world_cells",
-                 .constants = {sizes.buckets},
+                 .constants = {sizes.buckets, sizes.halves},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};
   return plan;
 }
 
 std::optional<Error> check_world_cells(const Problem& problem) {
+  const std::uint32_t cells = problem.options.integer("cells");
+  if (cells != 0 && cells != BRICK_CELLS && cells != BRICK_SLICES)
+    return Error{"option cells", "expected 0, 4 or 16, got " + std::to_string(cells)};
   const std::uint32_t percent = problem.options.integer("brick");
   if (percent == 0 || percent >= LEAST_PERCENT) return std::nullopt;
   return Error{"option brick", "expected 0, or " + std::to_string(LEAST_PERCENT) +
@@ -256,28 +293,36 @@ std::optional<Error> check_world_cells(const Problem& problem) {
 }  // namespace
 
 Method world_cells_method() {
-  return {.name = "world-cells",
-          .title = "World cells: lights at any point",
-          .source = "This project, docs/methods/world-cells.md",
-          .summary = "Lights are listed in cells of the world, larger ones for larger lights; no camera, no bounds.",
-          .result = "world_cells",
-          .needs_depth = false,
-          .any_depth = true,
-          .any_point = true,
-          .options = {{.key = "brick",
-                       .help = "least side of a brick of 4 x 4 x 4 cells, percent of a light's range, 50 and more; 0: "
-                               "100, and more where the lists of all lights would take over 64 MiB",
-                       .fallback = "0",
-                       .min = 0,
-                       .max = MOST_PERCENT},
-                      {.key = "mean_bricks",
-                       .help = "bricks a light, on average, that there is room for; from 24 on, as many as lights "
-                               "anywhere reach and what is beyond 24, and all where these are few",
-                       .fallback = "24",
-                       .min = 1,
-                       .max = 256}},
-          .plan = plan_world_cells,
-          .check = check_world_cells};
+  return {
+      .name = "world-cells",
+      .title = "World cells: lights at any point",
+      .source = "This project, docs/methods/world-cells.md",
+      .summary = "Lights are listed in cells of the world, larger ones for larger lights; no camera, no bounds.",
+      .result = "world_cells",
+      .needs_depth = false,
+      .any_depth = true,
+      .any_point = true,
+      .options = {{.key = "brick",
+                   .help = "least side of a brick of cells, percent of a light's range, 50 and more; 0: 100, 300 with "
+                           "cells=16, and more where the lists of all lights would take over 64 MiB",
+                   .fallback = "0",
+                   .min = 0,
+                   .max = MOST_PERCENT},
+                  {.key = "cells",
+                   .help =
+                       "along a brick: 4, with a bit for each, or 16, with one for each slice, which takes less room "
+                       "and longer to look up; 0: 4, or 16 where bricks would be larger than 100 with brick=0",
+                   .fallback = "0",
+                   .min = 0,
+                   .max = BRICK_SLICES},
+                  {.key = "mean_bricks",
+                   .help = "bricks a light, on average, that there is room for; from 24 on, as many as lights "
+                           "anywhere reach and what is beyond 24, and all where these are few",
+                   .fallback = "24",
+                   .min = 1,
+                   .max = 256}},
+      .plan = plan_world_cells,
+      .check = check_world_cells};
 }
 
 }  // namespace lamp

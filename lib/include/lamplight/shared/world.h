@@ -11,10 +11,13 @@
 namespace lamp::shared {
 #endif
 
-// A brick is a cube of 4 x 4 x 4 cells. The bricks of level 0 have a side of 2^WORLD_LEAST m, those of the next level
-// twice that, and so on; one corner of each level lies at the world's origin. A light is listed at one level, by its
-// range. Beyond all levels is one brick that is the whole world.
-LAMP_CONST BRICK_CELLS = 64u;
+// A brick is a cube of 4 x 4 x 4 cells, or of 16 x 16 x 16. The bricks of level 0 have a side of 2^WORLD_LEAST m, those
+// of the next level twice that, and so on; one corner of each level lies at the world's origin. A light is listed at
+// one level, by its range. Beyond all levels is one brick that is the whole world.
+LAMP_CONST BRICK_CELLS = 4u;    // along each axis, with a bit for each cell,
+LAMP_CONST BRICK_SLICES = 16u;  // or with one for each slice: a cell is where three of them meet
+LAMP_CONST CELL_HALVES = 4u;    // halves of a word that these bits take
+LAMP_CONST SLICE_HALVES = 3u;
 LAMP_CONST WORLD_LEVELS = 20u;
 LAMP_CONST WORLD_EVERYTHING = WORLD_LEVELS;  // the level of the brick that is the whole world
 LAMP_CONST WORLD_LEAST = 5u;                 // 2^-5 m to 2^14 m
@@ -26,10 +29,11 @@ LAMP_CONST_FLOAT WORLD_FARTHEST = 4194304.0f;
 LAMP_CONST ENTRY_BRICK_BITS = 8u;
 LAMP_CONST MOST_BRICKS_ACROSS = 6u;  // of a light
 
-// Bricks with the same hash share a bucket. Its entries ascend from `first` on. Their cells' bits begin at word
-// 2 * first, in blocks of 32 entries: in a block of n entries each cell has n bits, one cell behind the other.
+// Bricks with the same hash share a bucket. Its entries ascend from `first` on. Their bits begin where those of all
+// entries before end, in blocks of 32 entries: in a block of n entries each cell has n bits, one cell behind the other;
+// or each slice, those along x before those along y and z.
 struct WorldBucket {
-  uint first;
+  uint first;  // even, where slices have bits: their bits begin with a word
   uint count;  // WORLD_ALL: did not fit; walk every light
 };
 LAMP_CONST WORLD_ALL = 0xffffffffu;
@@ -63,6 +67,8 @@ LAMP_CONST WORLD_NO_RANK = 0xffffffffu;
 
 #ifdef __cplusplus
 static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 48);
+static_assert(CELL_HALVES * 16 == BRICK_CELLS * BRICK_CELLS * BRICK_CELLS);
+static_assert(SLICE_HALVES * 16 == 3 * BRICK_SLICES);
 static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_BRICK_BITS);
 }  // namespace lamp::shared
 #endif

@@ -24,7 +24,14 @@ uint lookup_entry_light(uint view, uint place) {
 }
 
 uint lookup_block(uint view, LookupStream stream) {
-  return lookup_field(view * LOOKUP_BITS_VIEW + 2u * stream.place, stream.cell, min(stream.left, 32u));
+  const uint first = view * LOOKUP_BITS_VIEW + LOOKUP_HALVES * stream.place / 2u;
+  const uint width = min(stream.left, 32u);
+  if (LOOKUP_HALVES == CELL_HALVES) return lookup_field(first, stream.cell * width, width);
+  const uint x = stream.cell % BRICK_SLICES;
+  const uint y = BRICK_SLICES + stream.cell / BRICK_SLICES % BRICK_SLICES;
+  const uint z = 2u * BRICK_SLICES + stream.cell / (BRICK_SLICES * BRICK_SLICES);
+  return lookup_field(first, x * width, width) & lookup_field(first, y * width, width) &
+         lookup_field(first, z * width, width);
 }
 
 // To the stream's next light.

@@ -58,7 +58,7 @@ TreePlace TREE_LEAF(vec3 position) {
 uint TREE_BLOCK(TreeWalk walk) {
   const uint width = min(walk.count - walk.block, 32u);
   if (walk.kind == TREE_CELLS)
-    return TREE_FIELD(walk.place + 1u + walk.count + 2u * walk.block, walk.cell, width);
+    return TREE_FIELD(walk.place + 1u + walk.count + 2u * walk.block, walk.cell * width, width);
   return 0xffffffffu >> (32u - width);
 }
 
