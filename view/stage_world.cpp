@@ -36,12 +36,10 @@ PointList list_at(const PointLights& found, std::size_t point, const glm::vec3& 
   return list;
 }
 
-/// The finest level with lights; its cells lie in one cell of each coarser level. `halves`: of a word, for an entry's
-/// bits.
-CellGrid grid_of_levels(std::uint32_t levels, std::uint32_t halves) {
+/// The finest level with lights; its cells lie in one cell of each coarser level. `across`: cells of a brick.
+CellGrid grid_of_levels(std::uint32_t levels, std::uint32_t across) {
   const auto finest = static_cast<std::uint32_t>(std::countr_zero(levels));
   if (finest >= shared::WORLD_LEVELS) return {};
-  const std::uint32_t across = halves == shared::SLICE_HALVES ? shared::BRICK_SLICES : shared::BRICK_CELLS;
   return {.side = std::ldexp(1.0F / static_cast<float>(across),
                              static_cast<int>(finest) - static_cast<int>(shared::WORLD_LEAST))};
 }
@@ -101,7 +99,7 @@ ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) 
   if (is_tree) tree = make_still_tree(lights, options, 0.0F);
   std::vector<glm::vec3> points{found.position};
   if (const auto mirrored = mirrored_point(found.pixel)) points.push_back(*mirrored);
-  const std::uint32_t halves = is_tree ? 0 : plan.lookup.constants[1];  // LOOKUP_HALVES
+  const std::uint32_t across = is_tree ? 0 : plan.lookup.constants[1];  // LOOKUP_CELLS
   PointWalks walks(context_, shaders_, std::move(plan), renderer_->view(), lights,
                    tree ? tree->words() : std::span<const std::uint32_t>());
   const PointLights at_points = walks.walk(points);
@@ -110,7 +108,7 @@ ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) 
     read.points.back().what = i == 0 ? "surface" : "mirrored";
   }
   read.cells = tree ? leaves_around(tree->words(), found.position)
-                    : cells_around(grid_of_levels(walks.word_of("levels"), halves), found.position);
+                    : cells_around(grid_of_levels(walks.word_of("levels"), across), found.position);
   std::vector<glm::vec3> middles;
   for (const WorldCell& cell : read.cells) middles.push_back(cell.low + 0.5F * cell.side);
   const PointLights in_cells = walks.walk(middles);

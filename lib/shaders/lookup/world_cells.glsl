@@ -5,7 +5,7 @@
 #include "lookup/parts/resources.glsl"
 
 LOOKUP_CONSTANT(0, uint, LOOKUP_BUCKETS, 1);
-LOOKUP_CONSTANT(1, uint, LOOKUP_HALVES, 4);  // of a word, for an entry's bits: CELL_HALVES, or SLICE_HALVES
+LOOKUP_CONSTANT(1, uint, LOOKUP_CELLS, 4);  // along a brick: BRICK_CELLS, or BRICK_SLICES
 LOOKUP_BUFFER(1, LookupBuckets, WorldBucket, lookup_buckets);
 LOOKUP_BUFFER(2, LookupEntries, uint, lookup_entries);
 LOOKUP_BUFFER(3, LookupBits, uint, lookup_bits);
@@ -115,7 +115,7 @@ uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uint levels = lookup_levels(view);
   if (levels == 0u) return 0u;
   const WorldPlace place = lookup_place(lookup_position(view, pixel, z_view), LAMP_FIRST_BIT(levels));
-  return place.bucket * lookup_cells_across() * lookup_cells_across() * lookup_cells_across() + place.cell;
+  return place.bucket * LOOKUP_CELLS * LOOKUP_CELLS * LOOKUP_CELLS + place.cell;
 }
 
 Walk walk_begin(uint view, uvec2 pixel, float z_view) {

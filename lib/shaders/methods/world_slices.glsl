@@ -20,11 +20,14 @@ Box part_of_sphere(vec3 center, float radius, float side) {
 
 Box overlap(Box a, Box b) { return Box(max(a.low, b.low), min(a.high, b.high)); }
 
+// How far a unit vector reaches beside each axis of the world.
+vec3 beside_axes(vec3 v) { return vec3(length(v.yz), length(v.zx), length(v.xy)); }
+
 // Around what a spot lights: its tip, and the cap of its range. Along an axis of the world the cap ends at its rim, or where
 // the axis is within the cone at the range.
 Box spot_box(Light light, float slack) {
   const vec3 axis = light.direction;
-  const vec3 rim = light.sin_outer * vec3(length(axis.yz), length(axis.zx), length(axis.xy));
+  const vec3 rim = light.sin_outer * beside_axes(axis);
   const vec3 middle = light.cos_outer * axis;
   const vec3 ahead = mix(max(middle + rim, vec3(0.0)), vec3(1.0), greaterThanEqual(axis, vec3(light.cos_outer)));
   const vec3 behind = mix(max(rim - middle, vec3(0.0)), vec3(1.0), greaterThanEqual(-axis, vec3(light.cos_outer)));
@@ -37,8 +40,7 @@ Box part_of_discs(Box part, Light light, vec3 tip, float slack) {
   const float least_cos = 0.5;  // wider ones lean far out of their discs
   if (light.cos_outer < least_cos) return part;
   const vec3 axis = light.direction;
-  const vec3 aside = vec3(length(axis.yz), length(axis.zx), length(axis.xy));
-  const vec3 wide = (1.0 + ROUND_RADIUS) * light.sin_outer / light.cos_outer * aside;
+  const vec3 wide = (1.0 + ROUND_RADIUS) * light.sin_outer / light.cos_outer * beside_axes(axis);
   const vec3 low_side = axis - wide;  // of a disc, for each metre from the tip
   const vec3 high_side = axis + wide;
   const vec3 low = part.low - tip - slack;

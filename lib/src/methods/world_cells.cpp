@@ -59,10 +59,15 @@ std::uint64_t kept_ranks(double ratio) {
   return (most_bricks(ratio) + RANK_ALIGNMENT - 1) / RANK_ALIGNMENT * RANK_ALIGNMENT;
 }
 
-/// With a bit for each cell of the brick, or for each slice.
-std::uint64_t entry_bytes(std::uint32_t halves) { return 4 + 2 * std::uint64_t{halves}; }
-std::uint64_t bit_words(std::uint64_t entries, std::uint32_t halves) { return entries * halves / 2; }
-std::uint64_t budget(std::uint32_t halves) { return BUDGET_BYTES / entry_bytes(halves); }
+/// Halves of a word for an entry's bits, of a brick of so many cells along each axis: a bit for each, or for each
+/// slice.
+std::uint32_t halves_of(std::uint32_t cells) {
+  return cells == BRICK_SLICES ? shared::SLICE_HALVES : shared::CELL_HALVES;
+}
+std::uint32_t bit_bytes(std::uint32_t cells) { return 2 * halves_of(cells); }
+std::uint32_t entry_bytes(std::uint32_t cells) { return 4 + bit_bytes(cells); }
+std::uint64_t bit_words(std::uint64_t entries, std::uint32_t cells) { return entries * bit_bytes(cells) / 4; }
+std::uint64_t budget(std::uint32_t cells) { return BUDGET_BYTES / entry_bytes(cells); }
 
 struct Sizes {
   float ratio;  ///< a brick's side is this share of a light's range, to twice that
@@ -72,7 +77,7 @@ struct Sizes {
   std::uint32_t threads;
   std::uint32_t most_short;  ///< entries of a bucket that one work group puts in order
   std::uint32_t window;      ///< entries; the short buckets that begin in it have a work group
-  std::uint32_t halves;      ///< of a word, for an entry's bits
+  std::uint32_t cells;       ///< of a brick, along each axis
   std::uint32_t kept;        ///< ranks of a light that fit into the room of the bits, until these are made
 };
 
@@ -85,59 +90,61 @@ std::uint32_t bucket_count(const Problem& problem) {
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, LEAST_BUCKETS, MOST_BUCKETS));
 }
 
-/// A bit for each slice, where so many lights would have more bits of cells than the budget has of slices.
-std::uint32_t entry_halves(const Problem& problem) {
-  const std::uint32_t cells = problem.options.integer("cells");
-  const bool many = bit_words(bricks_anywhere(problem, FINEST_PERCENT / 100.0), shared::CELL_HALVES) >
-                    bit_words(budget(shared::SLICE_HALVES), shared::SLICE_HALVES);
-  const bool sliced = cells == BRICK_SLICES || (cells == 0 && problem.options.integer("brick") == 0 && many);
-  return sliced ? shared::SLICE_HALVES : shared::CELL_HALVES;
+/// Along a brick: slices, where so many lights would have more bits of cells than the budget has of slices.
+std::uint32_t cells_across(const Problem& problem) {
+  if (const std::uint32_t cells = problem.options.integer("cells"); cells != 0) return cells;
+  if (problem.options.integer("brick") != 0) return BRICK_CELLS;
+  const bool many = bit_words(bricks_anywhere(problem, FINEST_PERCENT / 100.0), BRICK_CELLS) >
+                    bit_words(budget(BRICK_SLICES), BRICK_SLICES);
+  return many ? BRICK_SLICES : BRICK_CELLS;
+}
+
+/// Of the lists that have these entries: of slices an even number each.
+std::uint64_t room_of(const Problem& problem, std::uint64_t entries, std::uint32_t cells) {
+  return halves_of(cells) % 2 == 0 ? entries : entries + std::min<std::uint64_t>(entries, bucket_count(problem));
 }
 
 /// Percent of a light's range: as the option says, or the least for which the entries of lights anywhere keep the
 /// budget.
-std::uint32_t brick_percent(const Problem& problem, std::uint32_t halves) {
+std::uint32_t brick_percent(const Problem& problem, std::uint32_t cells) {
   if (const std::uint32_t percent = problem.options.integer("brick"); percent != 0) return percent;
-  std::uint32_t percent = halves == shared::SLICE_HALVES ? FINEST_SLICED_PERCENT : FINEST_PERCENT;
-  while (percent < COARSEST_PERCENT && bricks_anywhere(problem, percent / 100.0) > budget(halves)) ++percent;
+  std::uint32_t percent = cells == BRICK_SLICES ? FINEST_SLICED_PERCENT : FINEST_PERCENT;
+  const auto room = [&] { return room_of(problem, bricks_anywhere(problem, percent / 100.0), cells); };
+  while (percent < COARSEST_PERCENT && room() > budget(cells)) ++percent;
   return percent;
 }
 
-/// Of the lists that have these entries: of slices an even number each.
-std::uint64_t room_of(const Problem& problem, std::uint64_t entries, std::uint32_t halves) {
-  return halves % 2 == 0 ? entries : entries + std::min<std::uint64_t>(entries, bucket_count(problem));
-}
-
 /// Room for lights anywhere, and for all bricks of all lights where these are few.
-std::uint64_t default_entries(const Problem& problem, double ratio, std::uint32_t halves) {
-  const std::uint64_t worst = room_of(problem, parts::capacity(problem) * most_bricks(ratio), halves);
-  if (worst * entry_bytes(halves) <= SMALL_BYTES) return worst;
-  std::uint64_t anywhere = room_of(problem, bricks_anywhere(problem, ratio), halves);
+std::uint64_t default_entries(const Problem& problem, double ratio, std::uint32_t cells) {
+  const std::uint64_t worst = room_of(problem, parts::capacity(problem) * most_bricks(ratio), cells);
+  if (worst * entry_bytes(cells) <= SMALL_BYTES) return worst;
+  std::uint64_t anywhere = room_of(problem, bricks_anywhere(problem, ratio), cells);
   if (problem.options.integer("brick") == 0) {  // more lights never have fewer bits, though their bricks be larger
-    const std::uint64_t finest = bricks_anywhere(problem, FINEST_PERCENT / 100.0) * shared::CELL_HALVES / halves;
-    anywhere = std::max(anywhere, std::min(budget(halves), finest));
+    const std::uint64_t finest =
+        bricks_anywhere(problem, FINEST_PERCENT / 100.0) * bit_bytes(BRICK_CELLS) / bit_bytes(cells);
+    anywhere = std::max(anywhere, std::min(budget(cells), finest));
   }
   return std::min(worst, anywhere);
 }
 
-std::uint64_t wanted_entries(const Problem& problem, double ratio, std::uint32_t halves) {
+std::uint64_t wanted_entries(const Problem& problem, double ratio, std::uint32_t cells) {
   const std::uint64_t lights = parts::capacity(problem);
   const std::uint64_t mean = problem.options.integer("mean_bricks");
-  const std::uint64_t usual = default_entries(problem, ratio, halves);
+  const std::uint64_t usual = default_entries(problem, ratio, cells);
   return mean < MEAN_BRICKS ? std::min(usual, lights * mean) : usual + lights * (mean - MEAN_BRICKS);
 }
 
 Sizes sizes_of(const Problem& problem) {
-  const std::uint32_t halves = entry_halves(problem);
-  Sizes s{.ratio = static_cast<float>(brick_percent(problem, halves)) / 100.0F, .halves = halves};
+  const std::uint32_t cells = cells_across(problem);
+  Sizes s{.ratio = static_cast<float>(brick_percent(problem, cells)) / 100.0F, .cells = cells};
   s.threads = std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
   s.most_short = std::min(s.threads / 2, WORLD_PIECE);
   s.window = s.threads;
   s.buckets = bucket_count(problem);
-  s.entries = static_cast<std::uint32_t>(std::min({wanted_entries(problem, s.ratio, halves), MOST_ENTRIES,
-                                                   problem.traits.max_storage_buffer_bytes / entry_bytes(halves)}));
-  s.kept = static_cast<std::uint32_t>(
-      std::min(kept_ranks(s.ratio), bit_words(s.entries, halves) / parts::capacity(problem)));
+  s.entries = static_cast<std::uint32_t>(std::min({wanted_entries(problem, s.ratio, cells), MOST_ENTRIES,
+                                                   problem.traits.max_storage_buffer_bytes / bit_bytes(cells)}));
+  s.kept =
+      static_cast<std::uint32_t>(std::min(kept_ranks(s.ratio), bit_words(s.entries, cells) / parts::capacity(problem)));
   s.pieces =
       parts::divide_up(s.entries, std::min(s.most_short, WORLD_PIECE / 2));  // but a bucket's last are over half full
   return s;
@@ -161,7 +168,7 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / s.window + 1) * 4});
   b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::WorldPiece)});
   b.entries = plan.add({.name = "bucket entries", .bytes = std::uint64_t{s.entries} * 4});
-  b.bits = plan.add({.name = "cell bits", .bytes = bit_words(s.entries, s.halves) * 4});
+  b.bits = plan.add({.name = "cell bits", .bytes = bit_words(s.entries, s.cells) * 4});
   return b;
 }
 
@@ -201,15 +208,12 @@ Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   return pass;
 }
 
-std::uint32_t brick_cells(const Sizes& s) {
-  const std::uint32_t across = s.halves == shared::SLICE_HALVES ? BRICK_SLICES : BRICK_CELLS;
-  return across * across * across;
-}
+std::uint32_t brick_cells(const Sizes& s) { return s.cells * s.cells * s.cells; }
 
 Pass scan_pass(const Sizes& s, const Buffers& b) {
   return {.name = "scan buckets",
           .shader = "methods/world_scan",
-          .constants = {s.threads, s.entries, s.most_short, s.window, s.halves, brick_cells(s)},
+          .constants = {s.threads, s.entries, s.most_short, s.window, halves_of(s.cells), brick_cells(s)},
           .bindings = {{b.counts},
                        {b.totals, Access::read_write},
                        {b.buckets, Access::write},
@@ -223,7 +227,7 @@ Pass order_pass(const Sizes& s, const Buffers& b) {
   return {.name = "order buckets",
           .shader = "methods/world_order",
           .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.buckets, s.entries, s.most_short, s.threads, s.window,
-                        s.halves},
+                        halves_of(s.cells)},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},
@@ -234,7 +238,7 @@ Pass order_pass(const Sizes& s, const Buffers& b) {
                        {b.bits, Access::write},
                        {b.pieces}},
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)},
-          .shared_bytes = (s.window + s.most_short) * (20 + 2 * s.halves) + OCTET_SPARE + 4};
+          .shared_bytes = (s.window + s.most_short) * (20 + bit_bytes(s.cells)) + OCTET_SPARE + 4};
 }
 
 Extent of_pieces(const Buffers& b) {
@@ -244,7 +248,7 @@ Extent of_pieces(const Buffers& b) {
 Pass merge_pass(const Sizes& s, const Buffers& b) {
   return {.name = "merge long buckets",
           .shader = "methods/world_merge",
-          .constants = {s.halves},
+          .constants = {halves_of(s.cells)},
           .bindings = {{b.totals}, {b.buckets}, {b.pieces}, {b.bits}, {b.entries, Access::write}},
           .extent = of_pieces(b)};
 }
@@ -252,7 +256,7 @@ Pass merge_pass(const Sizes& s, const Buffers& b) {
 Pass bits_pass(const Sizes& s, const Buffers& b) {
   return {.name = "bits of long buckets",
           .shader = "methods/world_bits",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio), s.halves},
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), halves_of(s.cells)},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},
@@ -262,7 +266,7 @@ Pass bits_pass(const Sizes& s, const Buffers& b) {
                        {b.entries},
                        {b.bits, Access::write}},
           .extent = of_pieces(b),
-          .shared_bytes = WORLD_PIECE * (8 + 2 * s.halves) + OCTET_SPARE};
+          .shared_bytes = WORLD_PIECE * (8 + bit_bytes(s.cells)) + OCTET_SPARE};
 }
 
 Plan plan_world_cells(const Problem& problem) {
@@ -275,7 +279,7 @@ Plan plan_world_cells(const Problem& problem) {
   plan.passes = {count_pass(problem, sizes, b), scan_pass(sizes, b),  fill_pass(problem, sizes, b),
                  order_pass(sizes, b),          merge_pass(sizes, b), bits_pass(sizes, b)};
   plan.lookup = {.name = "world_cells",
-                 .constants = {sizes.buckets, sizes.halves},
+                 .constants = {sizes.buckets, sizes.cells},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};
   return plan;
 }
@@ -311,7 +315,7 @@ Method world_cells_method() {
                   {.key = "cells",
                    .help =
                        "along a brick: 4, with a bit for each, or 16, with one for each slice, which takes less room "
-                       "and longer to look up; 0: 4, or 16 where bricks would be larger than 100 with brick=0",
+                       "and longer to look up; 0: 4, or with brick=0 16 from some 240 000 lights on",
                    .fallback = "0",
                    .min = 0,
                    .max = BRICK_SLICES},

@@ -11,9 +11,9 @@
 namespace lamp::shared {
 #endif
 
-// A brick is a cube of 4 x 4 x 4 cells, or of 16 x 16 x 16. The bricks of level 0 have a side of 2^WORLD_LEAST m, those
-// of the next level twice that, and so on; one corner of each level lies at the world's origin. A light is listed at
-// one level, by its range. Beyond all levels is one brick that is the whole world.
+// A brick is a cube of 4 x 4 x 4 cells, or of 16 x 16 x 16. The bricks of level 0 have a side of 2^-WORLD_LEAST m,
+// those of the next level twice that, and so on; one corner of each level lies at the world's origin. A light is listed
+// at one level, by its range. Beyond all levels is one brick that is the whole world.
 LAMP_CONST BRICK_CELLS = 4u;    // along each axis, with a bit for each cell,
 LAMP_CONST BRICK_SLICES = 16u;  // or with one for each slice: a cell is where three of them meet
 LAMP_CONST CELL_HALVES = 4u;    // halves of a word that these bits take

@@ -1,5 +1,5 @@
 // Where a position's lights are listed: the bucket of its brick at a level, and the cell in it.
-// Needs: LOOKUP_BUCKETS, LOOKUP_HALVES; common/world_cells.glsl.
+// Needs: LOOKUP_BUCKETS, LOOKUP_CELLS; common/world_cells.glsl.
 // SPDX-License-Identifier: Apache-2.0
 // A position's place at a level.
 struct WorldPlace {
@@ -7,8 +7,6 @@ struct WorldPlace {
   uint bucket;
   uint cell;  // of the brick
 };
-
-uint lookup_cells_across() { return LOOKUP_HALVES == SLICE_HALVES ? BRICK_SLICES : BRICK_CELLS; }
 
 WorldPlace lookup_place(vec3 position, uint level) {
   WorldPlace place;
@@ -20,9 +18,9 @@ WorldPlace lookup_place(vec3 position, uint level) {
     brick = floor(at);
     // Each by itself: the maximum of what is no number and a number may be either.
     place.lies = abs(brick.x) < WORLD_FARTHEST && abs(brick.y) < WORLD_FARTHEST && abs(brick.z) < WORLD_FARTHEST;
-    const float across = float(lookup_cells_across());
+    const float across = float(LOOKUP_CELLS);
     const vec3 inside = floor(at * across) - brick * across;  // whole numbers: at - brick alone could round up to 1
-    place.cell = uint(inside.x) + lookup_cells_across() * (uint(inside.y) + lookup_cells_across() * uint(inside.z));
+    place.cell = uint(inside.x) + LOOKUP_CELLS * (uint(inside.y) + LOOKUP_CELLS * uint(inside.z));
   }
   place.bucket = 0u;
   if (place.lies) place.bucket = bucket_of(level, brick, LOOKUP_BUCKETS);

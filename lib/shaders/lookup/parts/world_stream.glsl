@@ -24,9 +24,11 @@ uint lookup_entry_light(uint view, uint place) {
 }
 
 uint lookup_block(uint view, LookupStream stream) {
-  const uint first = view * LOOKUP_BITS_VIEW + LOOKUP_HALVES * stream.place / 2u;
   const uint width = min(stream.left, 32u);
-  if (LOOKUP_HALVES == CELL_HALVES) return lookup_field(first, stream.cell * width, width);
+  const uint view_bits = view * LOOKUP_BITS_VIEW;
+  if (LOOKUP_CELLS == BRICK_CELLS)
+    return lookup_field(view_bits + CELL_HALVES * stream.place / 2u, stream.cell * width, width);
+  const uint first = view_bits + SLICE_HALVES * stream.place / 2u;
   const uint x = stream.cell % BRICK_SLICES;
   const uint y = BRICK_SLICES + stream.cell / BRICK_SLICES % BRICK_SLICES;
   const uint z = 2u * BRICK_SLICES + stream.cell / (BRICK_SLICES * BRICK_SLICES);
