@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "unit/devices.h"
 #include "lamplight/method.h"
+#include "unit/devices.h"
 
 namespace lamp {
 namespace {
