@@ -49,6 +49,15 @@ TEST_F(WorldCells, OfSlicesWalkLittleWhereBricksAreLarge) {
   ask({.lights = lights, .points = points, .settings = {"cells=16"}});
 }
 
+// Where no light is, most bricks share their bucket with one that has lights.
+TEST_F(WorldCells, PassOverLightsOfOtherBricks) {
+  const std::vector<shared::Light> lights = lights_around({}, 100.0F, 1.0F, 4.0F, LIGHTS);
+  const Points points = points_in(1, POINTS, glm::vec3(1000.0F), glm::vec3(2000.0F));
+  for (const char* cells : {"cells=4", "cells=16"})
+    EXPECT_LT(ask({.lights = lights, .points = points, .settings = {cells}}).findings.evaluations, POINTS / 50)
+        << cells;
+}
+
 // More levels at a point than a walk keeps, with more lights of each than a word of bits.
 TEST_F(WorldCells, MergeManyLevelsOfManyLights) {
   std::vector<shared::Light> lights;

@@ -48,45 +48,17 @@ LightBricks bricks_of(Frame frame, LightSphere sphere) {
   return b;
 }
 
-// Which of the light's bricks, in 8 bits, and back.
-uint brick_code(uvec3 offset) { return offset.x + MOST_BRICKS_ACROSS * (offset.y + MOST_BRICKS_ACROSS * offset.z); }
+// The light's brick with that code.
 vec3 brick_of_code(LightBricks b, uint code) {
-  return b.first + vec3(code % MOST_BRICKS_ACROSS, code / MOST_BRICKS_ACROSS % MOST_BRICKS_ACROSS,
-                        code / (MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS));
+  const uvec3 remainders = uvec3(code, code / MOST_BRICKS_ACROSS, code / (MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS));
+  const uvec3 from_first = remainders + MOST_BRICKS_ACROSS - brick_from_0(b.first) % MOST_BRICKS_ACROSS;
+  return b.first + vec3(from_first % MOST_BRICKS_ACROSS);
 }
 
-bool sphere_touches_cube(LightBricks b, vec3 low, float side) {
-  precise const vec3 outside = max(max(low - b.center, b.center - (low + side)), vec3(0.0));
-  precise const float radius2 = b.radius * b.radius;
+bool sphere_touches_cube(vec3 center, float radius, vec3 low, float side) {
+  precise const vec3 outside = max(max(low - center, center - (low + side)), vec3(0.0));
+  precise const float radius2 = radius * radius;
   return square_of(outside) <= radius2;
-}
-
-const float HALF_DIAGONAL = 0.86602545;  // of a cube with a side of 1
-
-// A spot's cone, in world space.
-struct WorldCone {
-  vec3 tip;
-  vec3 axis;
-  float sin_angle;
-  float cos_angle;
-  float slack;  // m
-};
-
-WorldCone world_cone(Frame frame, Light light) {
-  return WorldCone(light.position, light.direction, light.sin_outer, light.cos_outer, world_slack(frame, light.position));
-}
-
-// Against the sphere around a cube: its distance to the cone's nearest generatrix, and to the plane through the tip.
-// Based on: Wronski, Cull That Cone! (2017).
-bool cone_touches_cube(WorldCone cone, vec3 low, float side) {
-  precise const vec3 offset = low + 0.5 * side - cone.tip;
-  precise const float along = offset.x * cone.axis.x + offset.y * cone.axis.y + offset.z * cone.axis.z;
-  precise const vec3 aside = offset - along * cone.axis;  // not a difference of squares: narrow cones need it exact
-  precise const float reach = HALF_DIAGONAL * side + cone.slack + 2.0 * ROUND_RADIUS * sum_of(abs(offset));
-  precise const float beyond = reach + cone.sin_angle * along;
-  precise const float aside2 = cone.cos_angle * cone.cos_angle * square_of(aside);
-  precise const float beyond2 = beyond * beyond;
-  return along >= -reach && beyond >= 0.0 && aside2 <= beyond2;
 }
 
 #endif

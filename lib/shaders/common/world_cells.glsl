@@ -15,6 +15,19 @@ const uint MANTISSA_BITS = 23u;
 float brick_side(uint level) { return LAMP_AS_FLOAT((EXPONENT_OF_1 + level - WORLD_LEAST) << MANTISSA_BITS); }
 float bricks_a_metre(uint level) { return LAMP_AS_FLOAT((EXPONENT_OF_1 + WORLD_LEAST - level) << MANTISSA_BITS); }
 
+// A whole number from 0 on that has the remainders of the brick's coordinates.
+uvec3 brick_from_0(vec3 brick) {
+  const uint beyond = MOST_BRICKS_ACROSS << 20;
+  return uvec3(uint(int(brick.x) + int(beyond)), uint(int(brick.y) + int(beyond)), uint(int(brick.z) + int(beyond)));
+}
+uint brick_code(vec3 brick) {
+  const uvec3 at = brick_from_0(brick);
+  return at.x % MOST_BRICKS_ACROSS +
+         MOST_BRICKS_ACROSS * (at.y % MOST_BRICKS_ACROSS + MOST_BRICKS_ACROSS * (at.z % MOST_BRICKS_ACROSS));
+}
+uint light_of_entry(uint entry) { return entry >> ENTRY_CODE_BITS; }
+uint code_of_entry(uint entry) { return entry & (1u << ENTRY_CODE_BITS) - 1u; }
+
 // Of buckets, whose number is a power of two. The brick's coordinates are whole numbers.
 uint bucket_of(uint level, vec3 brick, uint buckets) {
   uint hash = uint(int(brick.x)) * 0x8da6b343u + uint(int(brick.y)) * 0xd8163841u + uint(int(brick.z)) * 0xcb1ab31fu +

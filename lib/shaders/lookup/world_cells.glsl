@@ -43,7 +43,7 @@ uint lookup_further(Walk walk, uint light) {
   uint least = LOOKUP_NO_LIGHT;
   for (uint levels = walk.further; levels != 0u; levels &= levels - 1u) {
     const WorldPlace place = lookup_place(walk.position, LAMP_FIRST_BIT(levels));
-    LookupStream stream = lookup_stream(walk.view, lookup_bucket(walk.view, place.bucket), place.cell, light);
+    LookupStream stream = lookup_stream(walk.view, place, lookup_bucket(walk.view, place.bucket), light);
     lookup_advance(walk.view, stream);
     least = min(least, stream.light);
   }
@@ -57,7 +57,7 @@ Walk world_walk_begin(uint view, vec3 position) {
     walk.streams[i].place = 0u;
     walk.streams[i].left = 0u;
     walk.streams[i].bits = 0u;
-    walk.streams[i].cell = 0u;
+    walk.streams[i].asks = 0u;
   }
   walk.further = 0u;
   walk.further_light = LOOKUP_NO_LIGHT;
@@ -74,7 +74,7 @@ Walk world_walk_begin(uint view, vec3 position) {
     const WorldBucket bucket = lookup_bucket(view, place.bucket);
     if (bucket.count == WORLD_ALL) walk.all = true;  // it did not fit
     if (bucket.count == 0u || walk.all) continue;
-    LookupStream stream = lookup_stream(view, bucket, place.cell, 0u);
+    LookupStream stream = lookup_stream(view, place, bucket, 0u);
     lookup_advance(view, stream);
     if (stream.light == LOOKUP_NO_LIGHT) continue;
     if (used == LOOKUP_STREAMS) walk.further |= 1u << level;
@@ -87,7 +87,7 @@ Walk world_walk_begin(uint view, vec3 position) {
 }
 Walk world_walk_begin(vec3 position) { return world_walk_begin(LOOKUP_VIEW, position); }
 
-// Where bricks of two levels share a bucket, two streams can name one light: the second time it is passed over.
+// Where bricks of two levels share a bucket and a code, two streams can name one light: the second time it is passed over.
 bool world_walk_next(inout Walk walk, out uint light) {
   light = walk.at;
   if (walk.all) return walk.at++ < lookup_light_count();

@@ -23,18 +23,6 @@ shared uint s_cells[2u * WORLD_PIECE + 16u];
 shared uint s_bits[PIECE_WORDS];
 #include "methods/world_octet.glsl"
 
-// A light may have several bricks in one bucket. Its first entry has the cells of all of them, the others have none, so
-// that no walk meets it twice.
-uvec2 cells_of_light(WorldBucket bucket, uint at) {
-  const uint light = light_of(entries[bucket.first + at]);
-  if (at != 0u && light_of(entries[bucket.first + at - 1u]) == light) return uvec2(0u);
-  const LightBricks b = bricks_of(frame, spheres[light]);
-  uvec2 cells = uvec2(0u);
-  for (uint i = at; i < bucket.count && light_of(entries[bucket.first + i]) == light; ++i)
-    cells |= cells_of(b, light, code_of(entries[bucket.first + i]));
-  return cells;
-}
-
 void main() {
   if (group_number() >= totals.pieces) return;
   const uint thread = gl_LocalInvocationIndex;
@@ -42,7 +30,8 @@ void main() {
   const WorldBucket bucket = buckets[piece.bucket];
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
   for (uint i = thread; i < count; i += GROUP_THREADS) {
-    const uvec2 cells = cells_of_light(bucket, piece.begin + i);
+    const uint entry = entries[bucket.first + piece.begin + i];
+    const uvec2 cells = cells_of(bricks_of(frame, spheres[light_of_entry(entry)]), light_of_entry(entry), code_of_entry(entry));
     [[unroll]] for (uint word = 0u; word < 2u; ++word) s_cells[2u * i + word] = cells[word];
   }
   for (uint i = thread; i < PIECE_WORDS; i += GROUP_THREADS) s_bits[i] = 0u;

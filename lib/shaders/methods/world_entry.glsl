@@ -2,14 +2,11 @@
 // Needs: HALVES, CELL_HALVES or SLICE_HALVES.
 // SPDX-License-Identifier: Apache-2.0
 layout(constant_id = 0) const float BRICK_RATIO = 1.0;
-#include "common/world_bricks.glsl"
+#include "common/world_spots.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer SphereBuffer { LightSphere spheres[]; };
-
-uint light_of(uint entry) { return entry >> ENTRY_BRICK_BITS; }
-uint code_of(uint entry) { return entry & (1u << ENTRY_BRICK_BITS) - 1u; }
 
 // The group's number, as groups are counted.
 uint group_number() { return gl_WorkGroupID.x + WORLD_GROUPS_ACROSS * gl_WorkGroupID.y; }
@@ -37,9 +34,9 @@ struct SphereCells {
   vec4 left;  // of the radius squared, for x and y
 };
 
-SphereCells sphere_cells(LightBricks b, vec3 low, float side) {
-  return SphereCells(squared_outside(b.center.x, low.x, side), squared_outside(b.center.y, low.y, side),
-                     b.radius * b.radius - squared_outside(b.center.z, low.z, side));
+SphereCells sphere_cells(vec3 center, float radius, vec3 low, float side) {
+  return SphereCells(squared_outside(center.x, low.x, side), squared_outside(center.y, low.y, side),
+                     radius * radius - squared_outside(center.z, low.z, side));
 }
 
 // A bit for each cell of a layer that the light's sphere reaches.
@@ -50,12 +47,12 @@ uint layer_of_sphere(SphereCells sphere, float left) {
   return cells;
 }
 
-// What rounding may move the sum below, as a share of squared distances: some 32 units of a float's last place.
-const float ROUND_SQUARES = 4e-6;
+const float HALF_DIAGONAL = 0.86602545;  // of a cube with a side of 1
 
-// A spot's cone against all cells at once: as cone_touches_cube decides, but multiplied out. Where cos2 + sin2 is 1,
-// cos2 aside2 <= (reach + sin along)2 is cos2 distance2 - reach2 <= along (along + 2 sin reach), and what is squared and
-// multiplied are sums of an axis's share each. That is less exact: it moves the cone by a few hundredths of a cell.
+// A spot's cone against the spheres around all cells at once: their distance to its nearest generatrix is at most their
+// reach where cos aside <= reach + sin along, and they are not behind its tip. Squared, and as cos2 + sin2 is 1, that is
+// cos2 distance2 - reach2 <= along (along + 2 sin reach), and what is squared and multiplied are sums of an axis's share
+// each. Based on: Wronski, Cull That Cone! (2017).
 struct ConeCells {
   float reach;
   float twice;  // 2 sin reach
@@ -66,16 +63,16 @@ struct ConeCells {
   vec4 z;
 };
 
-ConeCells cone_cells(WorldCone cone, vec3 low, float side) {
+ConeCells cone_cells(WorldSpot cone, vec3 low, float side) {
   const vec3 offset = low - cone.tip;
   const vec3 first = offset + 0.5 * side;
-  const float cos2 = cone.cos_angle * cone.cos_angle - ROUND_SQUARES;
+  const float cos2 = cone.cosine * cone.cosine - ROUND_SQUARES;
   const vec4 x = first.x + side * CELLS;
   const vec4 y = first.y + side * CELLS;
   const vec4 z = first.z + side * CELLS;
   ConeCells c;
   c.reach = HALF_DIAGONAL * side + cone.slack + 2.0 * ROUND_RADIUS * (sum_of(abs(offset)) + 12.0 * side);
-  c.twice = 2.0 * cone.sin_angle * c.reach;
+  c.twice = 2.0 * cone.sine * c.reach;
   c.step = side * cone.axis;
   c.along = dot(first, cone.axis);
   c.x = cos2 * (x * x);
@@ -101,13 +98,16 @@ uvec2 cells_of(LightBricks b, uint light, uint code) {
   if (HALVES == SLICE_HALVES) return slices_of(b, lights[light], code);
   const float side = 0.25 * brick_side(b.level);
   const vec3 low = 4.0 * side * brick_of_code(b, code);
-  const bool is_spot = lights[light].type == LIGHT_SPOT;
-  const SphereCells sphere = sphere_cells(b, low, side);
-  const ConeCells cone = cone_cells(world_cone(frame, lights[light]), low, side);
+  const WorldSpot spot = world_spot(frame, lights[light]);
+  const SphereCells sphere = sphere_cells(b.center, b.radius, low, side);
+  const SphereCells in_range = sphere_cells(spot.tip, spot.range, low, side);
+  const ConeCells cone = cone_cells(spot, low, side);
   uvec2 cells = uvec2(0u);
   [[dont_unroll]] for (uint layer = 0u; layer < 4u; ++layer) {
     uint of_layer = layer_of_sphere(sphere, sphere.left[layer]);
-    if (is_spot) of_layer &= layer_of_cone(cone, cone.along + cone.step.z * float(layer), cone.z[layer]);
+    if (spot.is_spot)
+      of_layer &= layer_of_cone(cone, cone.along + cone.step.z * float(layer), cone.z[layer]) &
+                  layer_of_sphere(in_range, in_range.left[layer]);
     cells |= (layer < 2u ? uvec2(of_layer, 0u) : uvec2(0u, of_layer)) << 16u * (layer % 2u);
   }
   return cells;

@@ -16,7 +16,7 @@ layout(set = 0, binding = 6, scalar) buffer TotalBuffer { WorldTotals totals; };
 
 layout(set = 0, binding = 7, scalar) readonly buffer RankBuffer { uint ranks[]; };
 
-uint entry_of(uint light, uint code) { return light << ENTRY_BRICK_BITS | code; }
+uint entry_of(uint light, uint code) { return light << ENTRY_CODE_BITS | code; }
 
 void take_place(uint light, uint code, uint bucket) {
   const WorldBucket own = buckets[bucket];
@@ -33,9 +33,9 @@ void place_by_rank(uint light, uint first) {
   for (uint i = first; i < bricks_in(b); i += LIGHT_THREADS) {
     const uint rank = ranks[light * KEPT + i];
     if (rank == WORLD_NO_RANK) continue;
-    const uvec3 offset = brick_offset(i, b.size);
-    const WorldBucket own = buckets[bucket_of(b.level, b.first + vec3(offset), BUCKETS)];
-    if (own.count != WORLD_ALL) entries[own.first + rank] = entry_of(light, brick_code(offset));
+    const vec3 brick = b.first + vec3(brick_offset(i, b.size));
+    const WorldBucket own = buckets[bucket_of(b.level, brick, BUCKETS)];
+    if (own.count != WORLD_ALL) entries[own.first + rank] = entry_of(light, brick_code(brick));
   }
 }
 

@@ -7,6 +7,7 @@ layout(constant_id = 1) const uint LIGHT_THREADS = 8;
 layout(constant_id = 2) const float BRICK_RATIO = 1.0;
 layout(constant_id = 3) const uint BUCKETS = 1;
 #include "common/world_bricks.glsl"
+#include "common/world_spots.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer LightBuffer { Light lights[]; };
@@ -23,23 +24,22 @@ uvec3 brick_offset(uint i, uvec3 size) {
 
 uint bricks_in(LightBricks b) { return b.size.x * b.size.y * b.size.z; }
 
-bool meets_brick(LightBricks b, bool is_spot, WorldCone cone, vec3 brick) {
+bool meets_brick(LightBricks b, WorldSpot spot, vec3 brick) {
   if (b.level == WORLD_EVERYTHING) return true;
   const float side = brick_side(b.level);
-  return sphere_touches_cube(b, brick * side, side) && (!is_spot || cone_touches_cube(cone, brick * side, side));
+  const vec3 low = brick * side;
+  return sphere_touches_cube(b.center, b.radius, low, side) && (!spot.is_spot || spot_touches_cube(spot, low, side));
 }
 
 void find_bricks(uint light, uint first) {
   const LightBricks b = bricks_of(frame, spheres[light]);
   const uint bricks = bricks_in(b);
   if (first == 0u && bricks != 0u) SAW(b.level);
-  const bool is_spot = lights[light].type == LIGHT_SPOT;
-  const WorldCone cone = world_cone(frame, lights[light]);
+  const WorldSpot spot = world_spot(frame, lights[light]);
   for (uint i = first; i < bricks; i += LIGHT_THREADS) {
-    const uvec3 offset = brick_offset(i, b.size);
-    const vec3 brick = b.first + vec3(offset);
-    if (meets_brick(b, is_spot, cone, brick))
-      FOUND(light, i, brick_code(offset), bucket_of(b.level, brick, BUCKETS));
+    const vec3 brick = b.first + vec3(brick_offset(i, b.size));
+    if (meets_brick(b, spot, brick))
+      FOUND(light, i, brick_code(brick), bucket_of(b.level, brick, BUCKETS));
     else
       MISSED(light, i);
   }

@@ -57,14 +57,14 @@ void order_piece(WorldPiece piece) {
 }
 
 uint bucket_of_entry(uint entry) {
-  const LightBricks b = bricks_of(frame, spheres[light_of(entry)]);
-  return bucket_of(b.level, brick_of_code(b, code_of(entry)), BUCKETS);
+  const LightBricks b = bricks_of(frame, spheres[light_of_entry(entry)]);
+  return bucket_of(b.level, brick_of_code(b, code_of_entry(entry)), BUCKETS);
 }
 
 // Puts an entry into its bucket's order, if the bucket is short.
 void order_entry(uint begin, uint i) {
   const uint entry = s_entries[i];
-  if (light_of(entry) >= light_count_of(frame)) return;  // what did not fit left anything in its room
+  if (light_of_entry(entry) >= light_count_of(frame)) return;  // what did not fit left anything in its room
   const WorldBucket own = buckets[bucket_of_entry(entry)];
   const uint at = begin + i;
   if (own.count > SHORT || at < own.first || at - own.first >= own.count) return;
@@ -76,24 +76,13 @@ void order_entry(uint begin, uint i) {
         bucket_begin + rank | min(own.count - rank, BLOCK) << BLOCK_COUNT_BIT;
 }
 
-// A light may have several bricks in one bucket. Its first entry then has the cells of all of them, the others have none,
-// so that no walk meets it twice.
-uint first_of_light(uint place, uint light, uint entry) {
-  uint first = place;
-  while (first > 0u && s_ordered[first - 1u] != NO_ENTRY && light_of(s_ordered[first - 1u]) == light &&
-         bucket_of_entry(s_ordered[first - 1u]) == bucket_of_entry(entry))
-    --first;
-  return first;
-}
-
-void add_cells(uint place) {
+void find_cells(uint place) {
   const uint entry = s_ordered[place];
-  if (entry == NO_ENTRY) return;
-  const uint light = light_of(entry);
-  const uvec2 cells = cells_of(bricks_of(frame, spheres[light]), light, code_of(entry));
-  const uint first = first_of_light(place, light, entry);
-  atomicOr(s_cells[2u * first], cells.x);
-  atomicOr(s_cells[2u * first + 1u], cells.y);
+  uvec2 cells = uvec2(0u);
+  if (entry != NO_ENTRY)
+    cells = cells_of(bricks_of(frame, spheres[light_of_entry(entry)]), light_of_entry(entry), code_of_entry(entry));
+  s_cells[2u * place] = cells.x;
+  s_cells[2u * place + 1u] = cells.y;
 }
 
 void order_window(uint window) {
@@ -105,13 +94,12 @@ void order_window(uint window) {
   for (uint i = gl_LocalInvocationIndex; i < count; i += threads) {
     s_entries[i] = entries[begin + i];
     s_ordered[i] = NO_ENTRY;
-    [[unroll]] for (uint word = 0u; word < 2u; ++word) s_cells[2u * i + word] = 0u;
   }
   for (uint i = gl_LocalInvocationIndex; i < first_word(count); i += threads) s_bits[i] = 0u;
   barrier();  // entries before they are compared, zeros before bits are set
   for (uint i = gl_LocalInvocationIndex; i < count; i += threads) order_entry(begin, i);
   barrier();  // the order before it is read
-  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) add_cells(i);
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) find_cells(i);
   barrier();  // all cells before bits are made of them
   for (uint i = gl_LocalInvocationIndex; i < OCTETS * s_block_count; i += threads) {
     const uint block = s_blocks[i / OCTETS];

@@ -1,6 +1,6 @@
 // The slices of a brick that a light reaches: of the box around what it has there. 16 slices along each axis tell as much as
 // many more cells would, and take fewer bits.
-// Needs: frame; common/world_bricks.glsl. SPDX-License-Identifier: Apache-2.0
+// Needs: frame; common/world_spots.glsl. SPDX-License-Identifier: Apache-2.0
 struct Box {
   vec3 low;
   vec3 high;
@@ -74,6 +74,7 @@ uvec2 slices_of(LightBricks b, Light light, uint code) {
   Box part = part_of_sphere(b.center - corner, b.radius, side);
   if (light.type == LIGHT_SPOT) {
     const float slack = world_slack(frame, light.position) + 2.0 * ROUND_RADIUS * (light.range + side);
+    part = overlap(part, part_of_sphere(light.position - corner, light.range + slack, side));
     const Box spot = spot_box(light, slack);
     part = overlap(part, Box(max(spot.low - corner, vec3(0.0)), min(spot.high - corner, vec3(side))));
     part = part_of_discs(part, light, light.position - corner, slack);

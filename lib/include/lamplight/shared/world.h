@@ -25,13 +25,14 @@ LAMP_CONST WORLD_LEAST = 5u;                 // 2^-5 m to 2^14 m
 // Farthest brick from the origin, in bricks: rounding widens a light's sphere so that none is listed farther out.
 LAMP_CONST_FLOAT WORLD_FARTHEST = 4194304.0f;
 
-// An entry is a light and, in its low bits, which of the light's bricks it is listed for.
-LAMP_CONST ENTRY_BRICK_BITS = 8u;
-LAMP_CONST MOST_BRICKS_ACROSS = 6u;  // of a light
+// An entry is a light and, in its low bits, the code of the brick that it is listed for: the remainders of the brick's
+// coordinates. They tell a light's bricks apart, and nearly always bricks that share a bucket.
+LAMP_CONST ENTRY_CODE_BITS = 8u;
+LAMP_CONST MOST_BRICKS_ACROSS = 6u;  // of a light; divides the coordinates
 
-// Bricks with the same hash share a bucket. Its entries ascend from `first` on. Their bits begin where those of all
-// entries before end, in blocks of 32 entries: in a block of n entries each cell has n bits, one cell behind the other;
-// or each slice, those along x before those along y and z.
+// Bricks with the same hash share a bucket: a walk passes over the entries of others. Its entries ascend from `first`
+// on. Their bits begin where those of all entries before end, in blocks of 32 entries: in a block of n entries each
+// cell has n bits, one cell behind the other; or each slice, those along x before those along y and z.
 struct WorldBucket {
   uint first;  // even, where slices have bits: their bits begin with a word
   uint count;  // WORLD_ALL: did not fit; walk every light
@@ -69,7 +70,7 @@ LAMP_CONST WORLD_NO_RANK = 0xffffffffu;
 static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 48);
 static_assert(CELL_HALVES * 16 == BRICK_CELLS * BRICK_CELLS * BRICK_CELLS);
 static_assert(SLICE_HALVES * 16 == 3 * BRICK_SLICES);
-static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_BRICK_BITS);
+static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_CODE_BITS);
 }  // namespace lamp::shared
 #endif
 

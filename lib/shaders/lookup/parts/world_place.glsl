@@ -1,10 +1,11 @@
-// Where a position's lights are listed: the bucket of its brick at a level, and the cell in it.
+// Where a position's lights are listed: the bucket of its brick at a level, the code of their entries, and the cell.
 // Needs: LOOKUP_BUCKETS, LOOKUP_CELLS; common/world_cells.glsl.
 // SPDX-License-Identifier: Apache-2.0
 // A position's place at a level.
 struct WorldPlace {
   bool lies;  // in a brick; positions farther out than any light have none
   uint bucket;
+  uint code;  // of the brick
   uint cell;  // of the brick
 };
 
@@ -23,6 +24,10 @@ WorldPlace lookup_place(vec3 position, uint level) {
     place.cell = uint(inside.x) + LOOKUP_CELLS * (uint(inside.y) + LOOKUP_CELLS * uint(inside.z));
   }
   place.bucket = 0u;
-  if (place.lies) place.bucket = bucket_of(level, brick, LOOKUP_BUCKETS);
+  place.code = 0u;
+  if (place.lies) {
+    place.bucket = bucket_of(level, brick, LOOKUP_BUCKETS);
+    place.code = brick_code(brick);
+  }
   return place;
 }

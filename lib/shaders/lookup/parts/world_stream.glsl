@@ -12,49 +12,54 @@ struct LookupStream {
   uint place;  // the entry that the light's block begins with
   uint left;   // entries of the bucket from there on
   uint bits;   // lights of the block that come behind it
-  uint cell;
+  uint asks;   // the cell; and from bit 12 on its brick's code, since entries of other bricks share the bucket
 };
+
+uint lookup_cell_of(LookupStream stream) { return stream.asks & (1u << 12u) - 1u; }
 
 WorldBucket lookup_bucket(uint view, uint bucket) {
   return lookup_buckets[view * (LOOKUP_BUCKETS_VIEW / 2u) + bucket];
 }
 
-uint lookup_entry_light(uint view, uint place) {
-  return lookup_entries[view * LOOKUP_ENTRIES_VIEW + place] >> ENTRY_BRICK_BITS;
-}
+uint lookup_entry(uint view, uint place) { return lookup_entries[view * LOOKUP_ENTRIES_VIEW + place]; }
 
 uint lookup_block(uint view, LookupStream stream) {
   const uint width = min(stream.left, 32u);
   const uint view_bits = view * LOOKUP_BITS_VIEW;
   if (LOOKUP_CELLS == BRICK_CELLS)
-    return lookup_field(view_bits + CELL_HALVES * stream.place / 2u, stream.cell * width, width);
+    return lookup_field(view_bits + CELL_HALVES * stream.place / 2u, lookup_cell_of(stream) * width, width);
   const uint first = view_bits + SLICE_HALVES * stream.place / 2u;
-  const uint x = stream.cell % BRICK_SLICES;
-  const uint y = BRICK_SLICES + stream.cell / BRICK_SLICES % BRICK_SLICES;
-  const uint z = 2u * BRICK_SLICES + stream.cell / (BRICK_SLICES * BRICK_SLICES);
+  const uint cell = lookup_cell_of(stream);
+  const uint x = cell % BRICK_SLICES;
+  const uint y = BRICK_SLICES + cell / BRICK_SLICES % BRICK_SLICES;
+  const uint z = 2u * BRICK_SLICES + cell / (BRICK_SLICES * BRICK_SLICES);
   return lookup_field(first, x * width, width) & lookup_field(first, y * width, width) &
          lookup_field(first, z * width, width);
 }
 
 // To the stream's next light.
 void lookup_advance(uint view, inout LookupStream stream) {
-  while (stream.bits == 0u && stream.left > 32u) {
-    stream.place += 32u;
-    stream.left -= 32u;
-    stream.bits = lookup_block(view, stream);
-  }
-  stream.light = LOOKUP_NO_LIGHT;
-  if (stream.bits == 0u) return;
-  stream.light = lookup_entry_light(view, stream.place + LAMP_FIRST_BIT(stream.bits));
-  stream.bits &= stream.bits - 1u;
+  uint entry = 0u;
+  do {
+    while (stream.bits == 0u && stream.left > 32u) {
+      stream.place += 32u;
+      stream.left -= 32u;
+      stream.bits = lookup_block(view, stream);
+    }
+    stream.light = LOOKUP_NO_LIGHT;
+    if (stream.bits == 0u) return;
+    entry = lookup_entry(view, stream.place + LAMP_FIRST_BIT(stream.bits));
+    stream.bits &= stream.bits - 1u;
+  } while (code_of_entry(entry) != stream.asks >> 12u);
+  stream.light = light_of_entry(entry);
 }
 
 // Of a bucket that has lights, before the first; or with `light`, before the first that is not less.
-LookupStream lookup_stream(uint view, WorldBucket bucket, uint cell, uint light) {
+LookupStream lookup_stream(uint view, WorldPlace place, WorldBucket bucket, uint light) {
   uint begin = 0u;
   for (uint end = light == 0u ? 0u : bucket.count; begin < end;) {
     const uint middle = (begin + end) / 2u;
-    if (lookup_entry_light(view, bucket.first + middle) < light)
+    if (light_of_entry(lookup_entry(view, bucket.first + middle)) < light)
       begin = middle + 1u;
     else
       end = middle;
@@ -64,7 +69,7 @@ LookupStream lookup_stream(uint view, WorldBucket bucket, uint cell, uint light)
   stream.place = bucket.first + begin / 32u * 32u;
   stream.left = bucket.count - begin / 32u * 32u;
   stream.bits = 0u;
-  stream.cell = cell;
+  stream.asks = place.code << 12u | place.cell;
   if (begin == bucket.count) return stream;
   stream.bits = lookup_block(view, stream) & 0xffffffffu << begin % 32u;
   return stream;
