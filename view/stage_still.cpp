@@ -3,19 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "render/scene_occluders.h"
+#include "render/still_tree.h"
 #include "view/stage_kept.h"
 
 namespace lamp::app {
-namespace {
-
-bool same(std::span<const shared::Light> a, std::span<const shared::Light> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
-
-}  // namespace
 
 std::size_t Stage::still_count(const Request& request) const {
   if (request.still_lists == "off") return 0;
@@ -34,7 +27,7 @@ void Stage::need_still(const Request& request, const View& view) {
   std::string key =
       fmt::format("{} {} {} {} {}", request.still_lists, request.still_occlusion, request.still_bytes, margin, painted);
   const std::span<const shared::Light> standing = std::span(lights_->moving->lights).last(still_count(request));
-  if (still_ && still_->key == key && (still_->of == lights_->moving || same(still_->lights, standing))) {
+  if (still_ && still_->key == key && (still_->of == lights_->moving || are_same(still_->lights, standing))) {
     still_->of = lights_->moving;
     return;
   }

@@ -65,7 +65,7 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
   if (code.multisampled) command.emplace_back("-DMULTISAMPLED");
   const ProgramResult compiled = run_program(command);
   std::vector<std::uint32_t> words(compiled.out.size() / sizeof(std::uint32_t));
-  std::memcpy(words.data(), compiled.out.data(), words.size() * sizeof(std::uint32_t));
+  if (!words.empty()) std::memcpy(words.data(), compiled.out.data(), words.size() * sizeof(std::uint32_t));
   if (compiled.succeeded && !words.empty() && words.front() == SPIRV_MAGIC) return words;
   const std::string line = compiled.err.substr(0, compiled.err.find('\n'));
   throw Error(fmt::format("{}: {}", source.string(), line.empty() ? "glslc gave no SPIR-V and no reason" : line));

@@ -13,13 +13,10 @@
 #include "lamplight/method.h"
 
 namespace lamp::app {
-namespace {
 
 bool are_same(std::span<const shared::Light> a, std::span<const shared::Light> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
-
-}  // namespace
 
 WorldTree make_still_tree(std::span<const shared::Light> lights, const Options& options, float eyes_m,
                           std::shared_ptr<const StillOccluders> occluders) {

@@ -16,6 +16,9 @@ namespace lamp::app {
 [[nodiscard]] WorldTree make_still_tree(std::span<const shared::Light> lights, const Options& options, float eyes_m,
                                         std::shared_ptr<const StillOccluders> occluders = nullptr);
 
+/// Byte by byte.
+[[nodiscard]] bool are_same(std::span<const shared::Light> a, std::span<const shared::Light> b);
+
 /// How long it took to make something.
 struct TimeTaken {
   double seconds = 0.0;
