@@ -61,7 +61,8 @@ function(lamplight_join target)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_MATCH_2})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  target_compile_options(${target} PRIVATE -Wno-shadow)  # a name may be another file's
+  # A name may be another file's; and g++ takes what is included for a header, which other files might include too.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # lamplight_precompile(TARGET HEADER...): precompiles headers of others, which take most of the time of a build; our own
