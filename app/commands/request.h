@@ -100,7 +100,7 @@ void add_still_options(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
 /// Adds `--probes`, likewise; with add_probe_options also what they show, and how many captures a frame renews.
-void add_probe_option(CLI::App& command, Request& request);
+CLI::Option* add_probe_option(CLI::App& command, Request& request);
 void add_probe_options(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
 CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help);

@@ -26,8 +26,8 @@ void check_probes_show(const Request& request) {
     throw unknown_name("--probes-show", request.probes_show, SHOWN);
 }
 
-void add_probe_option(CLI::App& command, Request& r) {
-  command
+CLI::Option* add_probe_option(CLI::App& command, Request& r) {
+  return command
       .add_option("--probes", r.probes,
                   "number of reflection probes: the scene's own first, then generated ones in its open air")
       ->check(whole_number(0, MAX_BOXES))
@@ -37,16 +37,18 @@ void add_probe_option(CLI::App& command, Request& r) {
 }
 
 void add_probe_options(CLI::App& command, Request& r) {
-  add_probe_option(command, r);
+  CLI::Option* probes = add_probe_option(command, r);
   command
       .add_option("--probes-show", r.probes_show,
                   "captures: what each probe sees from its place, drawn before the first frame; flat: a colour each")
+      ->needs(probes)
       ->type_name("WHAT")
       ->group("Lights")
       ->capture_default_str();
   command
       .add_option("--probe-budget", r.probe_budget,
                   "captures that are renewed in each further frame, whose lights have moved")
+      ->needs(probes)
       ->check(whole_number(0, MAX_BOXES))
       ->type_name("N")
       ->group("Lights")

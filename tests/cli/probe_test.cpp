@@ -36,6 +36,8 @@ TEST_F(Probe, AreCapturedBeforeAPictureAndWithinABudgetAfterwards) {
   EXPECT_FALSE(flat.contains("probe_captures"));
   expect_error(BAD_INPUT, {"render", "--probes", "5", "--probes-show", "colours"},
                {"--probes-show 'colours'", "captures, flat"});
+  expect_error(BAD_INPUT, {"render", "--probe-budget", "2"}, {"--probe-budget", "--probes"});
+  expect_error(BAD_INPUT, {"render", "--probes-show", "flat"}, {"--probes-show", "--probes"});
 }
 
 TEST_F(Probe, RefusesACapturedFrame) {
