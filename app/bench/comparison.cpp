@@ -27,6 +27,12 @@ std::map<std::string, std::size_t> timed_keys(const json& run) {
   return keys;
 }
 
+/// Of the files that the scene was read from, as far as both runs say.
+bool are_of_one_scene(const json& a, const json& b) {
+  const auto hash = [](const json& result) { return result.value("hashes", json::object()).value("scene", ""); };
+  return hash(a).empty() || hash(b).empty() || hash(a) == hash(b);
+}
+
 double ratio(const json& a, const json& b, const char* time) {
   const double first = a.at("times").at(time).at("median");
   const double second = b.at("times").at(time).at("median");
@@ -70,6 +76,10 @@ Comparison compare_runs(const json& a, const json& b) {
     }
     const json& first = a.at("results").at(i);
     const json& second = b.at("results").at(found->second);
+    if (!are_of_one_scene(first, second)) {
+      ++comparison.other_scene;
+      continue;
+    }
     comparison.rows.push_back({.key = key,
                                .series = first.at("series"),
                                .label = first.at("label"),
@@ -79,7 +89,7 @@ Comparison compare_runs(const json& a, const json& b) {
                                .cull_shade_ratio = ratio(first, second, "cull+shade"),
                                .frame_ratio = ratio(first, second, "frame")});
   }
-  comparison.only_b = keys_b.size() - comparison.rows.size();
+  comparison.only_b = keys_b.size() - comparison.rows.size() - comparison.other_scene;
   std::ranges::sort(comparison.rows, {}, &ComparedRow::a);
   comparison.lines = lines_of(comparison.rows);
   return comparison;
@@ -104,7 +114,7 @@ json to_json(const Comparison& c) {
                      {"cull", l.cull_ratio},
                      {"cull+shade", l.cull_shade_ratio},
                      {"frame", l.frame_ratio}});
-  return {{"rows", rows}, {"lines", lines}, {"only_a", c.only_a}, {"only_b", c.only_b}};
+  return {{"rows", rows}, {"lines", lines}, {"only_a", c.only_a}, {"only_b", c.only_b}, {"other_scene", c.other_scene}};
 }
 
 }  // namespace lamp::app

@@ -33,6 +33,7 @@ struct Comparison {
   std::vector<ComparedLine> lines;
   std::size_t only_a = 0;  ///< timed in one run alone
   std::size_t only_b = 0;
+  std::size_t other_scene = 0;  ///< timed in both, but a file of the scene changed between them: left out
 };
 [[nodiscard]] Comparison compare_runs(const nlohmann::json& a, const nlohmann::json& b);
 

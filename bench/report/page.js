@@ -116,7 +116,8 @@ function comparisonPart() {
   const c = DATA.comparison;
   return el('section', {class: 'card', id: 'comparison'}, el('h2', {}, 'B against A'),
     el('p', {class: 'soft'}, `A: ${a.file}, ${a.run.device}, commit ${a.run.commit}. B: ${b.file}, ${b.run.device}, commit ${b.run.commit}.`),
-    words([`${c.rows.length} configurations were timed in both runs; ${c.only_a} in A alone, ${c.only_b} in B alone.`,
+    words([`${c.rows.length + c.other_scene} configurations were timed in both runs; ${c.only_a} in A alone, ${c.only_b} in B alone.`,
+           ...(c.other_scene ? [`${c.other_scene} are left out: the files of their scene changed between the runs.`] : []),
            'Ratios are the time of B over the time of A, geometric means over configurations: under 1, B is faster.',
            ...(a.run.device !== b.run.device ? ['The devices differ: how methods rank within each run is the claim, the ratios are context.'] : [])]),
     ...comparisonTables(c));

@@ -283,6 +283,20 @@ TEST_F(BenchResults, TwoRunsGiveRatios) {
   EXPECT_DOUBLE_EQ(compared.lines[0].cull_shade_ratio, 4.0 / 6.0);
 }
 
+TEST_F(BenchResults, TimesOfAFileThatChangedAreNotCompared) {
+  json a = run_of(SWEEP);
+  json b = a;
+  const std::size_t timed = compare_runs(a, b).rows.size();
+  ASSERT_GT(timed, 1U);
+  a["results"][0]["hashes"] = {{"scene", "one"}};
+  EXPECT_EQ(compare_runs(a, b).rows.size(), timed) << "an older run has no hashes";
+  b["results"][0]["hashes"] = {{"scene", "other"}};
+  const Comparison compared = compare_runs(a, b);
+  EXPECT_EQ(compared.rows.size(), timed - 1);
+  EXPECT_EQ(compared.other_scene, 1U);
+  EXPECT_EQ(compared.only_a + compared.only_b, 0U);
+}
+
 TEST_F(BenchResults, ThePageIsWholeAndNothingInTheDataEndsItsScript) {
   json results = run_of(SWEEP);
   results["suite"]["title"] = "a </script> & more";
