@@ -43,14 +43,15 @@ std::set<std::string> keys_of(std::span<const Group> groups) {
   return keys;
 }
 
-/// Throws Error unless both runs agree on a field of `run`.
-void check_same(const json& results, const json& earlier, const std::string& file, const char* field) {
-  const json& now = results["run"][field];
-  const json& then = earlier["run"][field];
+/// Throws Error unless both runs agree on a field of `run`. `usual`: what runs had before they said so.
+void check_same(const json& results, const json& earlier, const std::string& file, const char* field,
+                std::string_view usual = "") {
+  const std::string now = results["run"].value(field, std::string(usual));
+  const std::string then = earlier["run"].value(field, std::string(usual));
   if (now == then) return;
   throw Error(
       fmt::format("{}: was measured with {} {}, and now it is {}; expected the same, another --out, or --overwrite",
-                  file, field, shown(then), shown(now)));
+                  file, field, shown(json(then)), shown(json(now))));
 }
 
 /// A cell of the table: quoted where it must be.
@@ -138,6 +139,8 @@ json new_results(const RunInfo& run, const Suite& suite) {
             {"driver", run.driver},
             {"commit", run.commit},
             {"date", run.date},
+            {"shaders", run.shaders},
+            {"pipeline_statistics", run.pipeline_statistics},
             {"complete", false}}},
           {"suite",
            {{"name", suite.name},
@@ -153,6 +156,8 @@ void check_earlier(const json& results, const json& earlier, const std::string& 
     throw Error(fmt::format("{}: holds the suite {}; expected {}, another --out, or --overwrite", file,
                             shown(earlier["suite"]["name"]), shown(results["suite"]["name"])));
   for (const char* field : {"device", "driver", "commit"}) check_same(results, earlier, file, field);
+  check_same(results, earlier, file, "shaders", BUILT_IN);
+  check_same(results, earlier, file, "pipeline_statistics", OFF);
   const std::set<std::string> wanted = keys_of(groups);
   std::vector<std::string> lost;
   for (const json& result : earlier["results"])

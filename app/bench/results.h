@@ -17,13 +17,17 @@ namespace lamp::app {
 
 inline constexpr std::string_view RESULTS_FORMAT = "lamplight-results";
 inline constexpr int RESULTS_VERSION = 1;
+inline constexpr std::string_view BUILT_IN = "built in";
+inline constexpr std::string_view OFF = "off";
 
 /// Where, with what and how a run was made.
 struct RunInfo {
   std::string command;  ///< as typed
   std::string device, device_kind, driver;
   std::string commit;
-  std::string date;  ///< when it began
+  std::string date;                      ///< when it began
+  std::string shaders{BUILT_IN};         ///< or a hash of the sources that --shader-dir names
+  std::string pipeline_statistics{OFF};  ///< or on: drivers may compile other pipelines then
 };
 
 /// A document without results.
@@ -36,7 +40,8 @@ struct RunInfo {
 [[nodiscard]] nlohmann::json load_results(const std::filesystem::path& file);
 
 /// Throws Error when going on with an earlier run would lose any of its results: when it was another suite, was made on
-/// another device, driver or commit (its times cannot stand beside new ones), or measured what this run does not.
+/// another device, driver or commit, or with other shaders (its times cannot stand beside new ones), or measured what
+/// this run does not.
 void check_earlier(const nlohmann::json& results, const nlohmann::json& earlier, const std::string& file,
                    std::span<const Group> groups);
 /// Takes over from an earlier run the results that the same groups would give again. Returns how many it left: they are

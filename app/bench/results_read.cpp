@@ -50,6 +50,8 @@ constexpr auto RULES = std::to_array<Rule>({
     text("run", "driver"),
     text("run", "commit"),
     text("run", "date"),
+    {.at = "run", .key = "shaders", .want = Want::text},
+    {.at = "run", .key = "pipeline_statistics", .want = Want::text},
     flag("run", "complete"),
     count("run", "left_out", /* required= */ false),
     {.at = "run", .key = "regret", .want = Want::object},

@@ -227,13 +227,16 @@ void write_all(const fs::path& folder, const json& results) {
 }
 
 json results_of(const BenchOptions& o, const DeviceRow& row, const Suite& suite) {
-  return new_results({.command = o.command_line,
-                      .device = row.name,
-                      .device_kind = row.kind,
-                      .driver = row.driver,
-                      .commit = std::string(built_from()),
-                      .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))},
-                     suite);
+  return new_results(
+      {.command = o.command_line,
+       .device = row.name,
+       .device_kind = row.kind,
+       .driver = row.driver,
+       .commit = std::string(built_from()),
+       .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))),
+       .shaders = o.request.shader_dir.empty() ? std::string(BUILT_IN) : hash_of_shaders(o.request.shader_dir),
+       .pipeline_statistics = o.request.pipeline_statistics ? "on" : std::string(OFF)},
+      suite);
 }
 
 Exit bench(const BenchOptions& o) {

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "error.h"
+#include "files/content_hash.h"
 #include "image/write_file.h"
 #include "system/run_program.h"
 #include "temporary_folder.h"
@@ -29,18 +30,35 @@ fs::path source_in(const fs::path& tree, const ShaderCode& code) {
                           tree.string(), code.name));
 }
 
-/// Of any file that a shader of the tree may include.
-fs::file_time_type last_change(const fs::path& tree) {
-  fs::file_time_type last = fs::file_time_type::min();
+/// All that a shader of the tree may include, files and folders.
+std::vector<fs::directory_entry> entries_of(const fs::path& tree) {
+  std::vector<fs::directory_entry> entries;
   for (const char* root : {"lib/shaders", "lib/include", "app/render/shaders"}) {
     std::error_code none;  // what is not there is said where it is looked for
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(tree / root, none))
-      last = std::max(last, entry.last_write_time(none));
+      entries.push_back(entry);
   }
+  return entries;
+}
+
+fs::file_time_type last_change(const fs::path& tree) {
+  fs::file_time_type last = fs::file_time_type::min();
+  std::error_code none;
+  for (const fs::directory_entry& entry : entries_of(tree)) last = std::max(last, entry.last_write_time(none));
   return last;
 }
 
 }  // namespace
+
+std::string hash_of_shaders(const fs::path& source_tree) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : entries_of(source_tree))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::uint64_t hash = HASH_FIRST;
+  for (const fs::path& file : files) hash = hash_of(file.lexically_relative(source_tree).string() + "\n", hash);
+  return hash_text(hash_of(hash_of_files(files), hash));
+}
 
 std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const {
   const fs::path source = source_in(source_tree_, code);

@@ -22,6 +22,9 @@ namespace lamp {
 
 namespace lamp::app {
 
+/// Of all files that shaders of a checkout may include, and their names.
+[[nodiscard]] std::string hash_of_shaders(const std::filesystem::path& source_tree);
+
 class ShaderLibrary {
  public:
   /// `source_tree`: empty, or a checkout of Lamplight whose shaders are compiled with `glslc`, each again when a file

@@ -104,6 +104,8 @@ function tiles(run) {
 function facts(run) {
   const rows = [['command', el('code', {}, run.run.command)], ['device', `${run.run.device} (${run.run.device_kind})`], ['driver', run.run.driver],
                 ['commit', el('code', {}, run.run.commit)], ['begun', run.run.date], ['suite', run.suite.name]];
+  if (run.run.shaders && run.run.shaders !== 'built in') rows.push(['shaders', `of --shader-dir, hash ${run.run.shaders}`]);
+  if (run.run.pipeline_statistics === 'on') rows.push(['pipeline statistics', 'on: drivers may compile other pipelines']);
   if (run.suite.source) rows.push(['after', run.suite.source]);
   rows.push(['how', 'GPU timestamps. Warm-up, then rounds in which every method renders the same frame once; lights move every frame. ' +
     'Median with p5 and p95. cull: from clearing the plan\'s buffers to the end of its last pass, with depth and lights resident. ' +

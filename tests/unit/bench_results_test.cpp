@@ -222,6 +222,21 @@ TEST_F(BenchResults, AnotherSuiteDeviceOrCommitIsRefused) {
   other = RUN;
   other.commit = "def";
   EXPECT_NE(line(other, "mine").find("another --out, or --overwrite"), std::string::npos);
+  other = RUN;
+  other.shaders = "0123456789abcdef";
+  EXPECT_NE(line(other, "mine").find("measured with shaders \"0123456789abcdef\", and now it is \"built in\""),
+            std::string::npos);
+  other = RUN;
+  other.pipeline_statistics = "on";
+  EXPECT_NE(line(other, "mine").find("pipeline_statistics \"on\""), std::string::npos);
+}
+
+TEST_F(BenchResults, ARunThatDoesNotSayItsShadersHadThoseBuiltIn) {
+  json earlier = run_of(SWEEP);
+  earlier["run"].erase("shaders");
+  earlier["run"].erase("pipeline_statistics");
+  const json results = new_results(RUN, SWEEP);
+  EXPECT_EQ(error_of([&] { check_earlier(results, earlier, "results.json", expand(SWEEP, {}).groups); }), "no error");
 }
 
 TEST_F(BenchResults, WhatWouldBeLostIsRefused) {
