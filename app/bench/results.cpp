@@ -43,15 +43,23 @@ std::set<std::string> keys_of(std::span<const Group> groups) {
   return keys;
 }
 
-/// Throws Error unless both runs agree on a field of `run`. `usual`: what runs had before they said so.
-void check_same(const json& results, const json& earlier, const std::string& file, const char* field,
-                std::string_view usual = "") {
-  const std::string now = results["run"].value(field, std::string(usual));
-  const std::string then = earlier["run"].value(field, std::string(usual));
+/// What two runs must have in common, so that their times may stand beside each other. `usual`: what runs had before
+/// they said so.
+struct SameField {
+  const char* name;
+  std::string_view usual;
+};
+constexpr std::array<SameField, 5> SAME{
+    {{"device", ""}, {"driver", ""}, {"commit", ""}, {"shaders", BUILT_IN}, {"pipeline_statistics", OFF}}};
+
+/// Throws Error unless both runs agree on a field.
+void check_same(const json& results, const json& earlier, const std::string& file, const SameField& field) {
+  const std::string now = results["run"].value(field.name, std::string(field.usual));
+  const std::string then = earlier["run"].value(field.name, std::string(field.usual));
   if (now == then) return;
   throw Error(
       fmt::format("{}: was measured with {} {}, and now it is {}; expected the same, another --out, or --overwrite",
-                  file, field, shown(json(then)), shown(json(now))));
+                  file, field.name, shown(json(then)), shown(json(now))));
 }
 
 /// A cell of the table: quoted where it must be.
@@ -155,9 +163,7 @@ void check_earlier(const json& results, const json& earlier, const std::string& 
   if (earlier["suite"]["name"] != results["suite"]["name"])
     throw Error(fmt::format("{}: holds the suite {}; expected {}, another --out, or --overwrite", file,
                             shown(earlier["suite"]["name"]), shown(results["suite"]["name"])));
-  for (const char* field : {"device", "driver", "commit"}) check_same(results, earlier, file, field);
-  check_same(results, earlier, file, "shaders", BUILT_IN);
-  check_same(results, earlier, file, "pipeline_statistics", OFF);
+  for (const SameField& field : SAME) check_same(results, earlier, file, field);
   const std::set<std::string> wanted = keys_of(groups);
   std::vector<std::string> lost;
   for (const json& result : earlier["results"])

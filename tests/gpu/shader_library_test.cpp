@@ -52,6 +52,19 @@ TEST_F(SourceTree, IsCompiledOnceByAllCopiesOfALibrary) {
   EXPECT_THROW((void)library_.spirv("methods/world_merge"), Error);
 }
 
+TEST_F(SourceTree, HasAHashOfAllThatShadersMayInclude) {
+  const std::string hash = hash_of_shaders(folder_.path());
+  EXPECT_EQ(hash_of_shaders(folder_.path()), hash);
+  EXPECT_EQ(hash_of_shaders(LAMPLIGHT_SOURCE_DIR), hash) << "where the tree is does not matter";
+  const fs::path file = folder_.path() / "lib/include/lamplight/shared/world.h";
+  fs::rename(file, folder_.path() / "lib/include/lamplight/shared/worlds.h");
+  EXPECT_NE(hash_of_shaders(folder_.path()), hash);
+  fs::rename(folder_.path() / "lib/include/lamplight/shared/worlds.h", file);
+  EXPECT_EQ(hash_of_shaders(folder_.path()), hash);
+  append("lib/include/lamplight/shared/world.h", "// a comment\n");
+  EXPECT_NE(hash_of_shaders(folder_.path()), hash);
+}
+
 TEST_F(SourceTree, IsCompiledAnewWhenAnythingInItHasChanged) {
   const std::vector<std::uint32_t> words = library_.spirv(SHADER);
   append("lib/shaders/common/group_scan.glsl", "\n// a comment changes no code\n");

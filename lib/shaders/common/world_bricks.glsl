@@ -51,7 +51,7 @@ LightBricks bricks_of(Frame frame, LightSphere sphere) {
 // The light's brick with that code.
 vec3 brick_of_code(LightBricks b, uint code) {
   const uvec3 remainders = uvec3(code, code / MOST_BRICKS_ACROSS, code / (MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS));
-  const uvec3 from_first = remainders + MOST_BRICKS_ACROSS - brick_from_0(b.first) % MOST_BRICKS_ACROSS;
+  const uvec3 from_first = remainders + MOST_BRICKS_ACROSS - brick_remainders(b.first);
   return b.first + vec3(from_first % MOST_BRICKS_ACROSS);
 }
 

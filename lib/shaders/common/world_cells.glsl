@@ -15,15 +15,15 @@ const uint MANTISSA_BITS = 23u;
 float brick_side(uint level) { return LAMP_AS_FLOAT((EXPONENT_OF_1 + level - WORLD_LEAST) << MANTISSA_BITS); }
 float bricks_a_metre(uint level) { return LAMP_AS_FLOAT((EXPONENT_OF_1 + WORLD_LEAST - level) << MANTISSA_BITS); }
 
-// A whole number from 0 on that has the remainders of the brick's coordinates.
-uvec3 brick_from_0(vec3 brick) {
-  const uint beyond = MOST_BRICKS_ACROSS << 20;
-  return uvec3(uint(int(brick.x) + int(beyond)), uint(int(brick.y) + int(beyond)), uint(int(brick.z) + int(beyond)));
+// Remainders of a brick's coordinates, and the code that they make. No brick is as far out as the divisor's multiple.
+uvec3 brick_remainders(vec3 brick) {
+  const int multiple = int(MOST_BRICKS_ACROSS << 20);
+  return uvec3(uint(int(brick.x) + multiple), uint(int(brick.y) + multiple), uint(int(brick.z) + multiple)) %
+         MOST_BRICKS_ACROSS;
 }
 uint brick_code(vec3 brick) {
-  const uvec3 at = brick_from_0(brick);
-  return at.x % MOST_BRICKS_ACROSS +
-         MOST_BRICKS_ACROSS * (at.y % MOST_BRICKS_ACROSS + MOST_BRICKS_ACROSS * (at.z % MOST_BRICKS_ACROSS));
+  const uvec3 at = brick_remainders(brick);
+  return at.x + MOST_BRICKS_ACROSS * (at.y + MOST_BRICKS_ACROSS * at.z);
 }
 uint light_of_entry(uint entry) { return entry >> ENTRY_CODE_BITS; }
 uint code_of_entry(uint entry) { return entry & (1u << ENTRY_CODE_BITS) - 1u; }

@@ -25,31 +25,26 @@ WorldSpot world_spot(Frame frame, Light light) {
                    slack);
 }
 
-// A box as seen from a cone's tip.
-struct ConeBox {
-  vec3 middle;
-  float half_side;
-};
-
-// Whether the cone's axis meets it: no line across two of the coordinates parts them, and it lies ahead along each.
-bool axis_meets(vec3 axis, ConeBox box) {
+// A cube's middle is seen from the cone's tip. Whether the cone's axis meets it: no line across two of the coordinates parts
+// them, and it lies ahead along each.
+bool axis_meets(vec3 axis, vec3 middle, float half_side) {
   const vec3 lengths = abs(axis);
-  precise const vec3 apart = abs(box.middle.yzx * axis.zxy - box.middle.zxy * axis.yzx);
-  precise const vec3 reach = box.half_side * (lengths.yzx + lengths.zxy);
-  precise const vec3 ahead = sign(axis) * box.middle + box.half_side;
+  precise const vec3 apart = abs(middle.yzx * axis.zxy - middle.zxy * axis.yzx);
+  precise const vec3 reach = half_side * (lengths.yzx + lengths.zxy);
+  precise const vec3 ahead = sign(axis) * middle + half_side;
   return all(lessThanEqual(apart, reach)) && all(greaterThanEqual(ahead, vec3(0.0)));
 }
 
-// Whether the cone meets any of the four edges along `k`. On the line of an edge the angle to the axis is least where
-// t = axis_k across2 / along, in coordinates from the tip. If that lies on the edge, the cone meets the edge where it meets
-// the line; else the angle is least at an end.
-bool cone_meets_edges(vec3 axis_ijk, vec3 middle_ijk, float half_side, float sine2) {
-  const vec4 at_i = middle_ijk.x + half_side * vec4(-1.0, 1.0, -1.0, 1.0);
-  const vec4 at_j = middle_ijk.y + half_side * vec4(-1.0, -1.0, 1.0, 1.0);
-  precise const vec4 aside = at_i * axis_ijk.y - at_j * axis_ijk.x;
-  precise const vec4 along = at_i * axis_ijk.x + at_j * axis_ijk.y;
-  precise const vec4 across2 = at_i * at_i + at_j * at_j;
-  precise const vec4 beside = abs(axis_ijk.z * across2 - middle_ijk.z * along) - half_side * along;
+// Whether the cone meets any of the four edges along the third axis. On the line of an edge the angle to the axis is least
+// where t = axis.z across2 / along, in coordinates from the tip. If that lies on the edge, the cone meets the edge where it
+// meets the line; else the angle is least at an end.
+bool cone_meets_edges(vec3 axis, vec3 middle, float half_side, float sine2) {
+  const vec4 at_x = middle.x + half_side * vec4(-1.0, 1.0, -1.0, 1.0);
+  const vec4 at_y = middle.y + half_side * vec4(-1.0, -1.0, 1.0, 1.0);
+  precise const vec4 aside = at_x * axis.y - at_y * axis.x;
+  precise const vec4 along = at_x * axis.x + at_y * axis.y;
+  precise const vec4 across2 = at_x * at_x + at_y * at_y;
+  precise const vec4 beside = abs(axis.z * across2 - middle.z * along) - half_side * along;
   precise const vec4 beyond = aside * aside - sine2 * across2;
   return any(lessThanEqual(max(beside, beyond), vec4(0.0)));
 }
@@ -71,7 +66,7 @@ bool cone_touches_cube(WorldSpot spot, vec3 low, float side) {
   precise const vec3 middle = low + 0.5 * side - spot.tip;
   precise const float half_side = 0.5 * side + spot.slack + 2.0 * ROUND_RADIUS * (sum_of(abs(middle)) + side);
   precise const float sine2 = spot.sine * spot.sine * (1.0 + ROUND_SQUARES);
-  return axis_meets(spot.axis, ConeBox(middle, half_side)) ||
+  return axis_meets(spot.axis, middle, half_side) ||
          cone_meets_edges(spot.axis, middle, half_side, sine2) ||
          cone_meets_edges(spot.axis.yzx, middle.yzx, half_side, sine2) ||
          cone_meets_edges(spot.axis.zxy, middle.zxy, half_side, sine2) ||

@@ -30,8 +30,7 @@ void main() {
   const WorldBucket bucket = buckets[piece.bucket];
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
   for (uint i = thread; i < count; i += GROUP_THREADS) {
-    const uint entry = entries[bucket.first + piece.begin + i];
-    const uvec2 cells = cells_of(bricks_of(frame, spheres[light_of_entry(entry)]), light_of_entry(entry), code_of_entry(entry));
+    const uvec2 cells = cells_of(entries[bucket.first + piece.begin + i]);
     [[unroll]] for (uint word = 0u; word < 2u; ++word) s_cells[2u * i + word] = cells[word];
   }
   for (uint i = thread; i < PIECE_WORDS; i += GROUP_THREADS) s_bits[i] = 0u;

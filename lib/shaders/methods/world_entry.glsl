@@ -93,7 +93,10 @@ uint layer_of_cone(ConeCells cone, float along_layer, float z) {
   return cells;
 }
 
-uvec2 cells_of(LightBricks b, uint light, uint code) {
+uvec2 cells_of(uint entry) {
+  const uint light = light_of_entry(entry);
+  const uint code = code_of_entry(entry);
+  const LightBricks b = bricks_of(frame, spheres[light]);
   if (b.level == WORLD_EVERYTHING) return uvec2(~0u);
   if (HALVES == SLICE_HALVES) return slices_of(b, lights[light], code);
   const float side = 0.25 * brick_side(b.level);

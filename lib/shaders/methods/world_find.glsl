@@ -6,7 +6,6 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint LIGHT_THREADS = 8;
 layout(constant_id = 2) const float BRICK_RATIO = 1.0;
 layout(constant_id = 3) const uint BUCKETS = 1;
-#include "common/world_bricks.glsl"
 #include "common/world_spots.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame frame; };

@@ -79,8 +79,7 @@ void order_entry(uint begin, uint i) {
 void find_cells(uint place) {
   const uint entry = s_ordered[place];
   uvec2 cells = uvec2(0u);
-  if (entry != NO_ENTRY)
-    cells = cells_of(bricks_of(frame, spheres[light_of_entry(entry)]), light_of_entry(entry), code_of_entry(entry));
+  if (entry != NO_ENTRY) cells = cells_of(entry);
   s_cells[2u * place] = cells.x;
   s_cells[2u * place + 1u] = cells.y;
 }
