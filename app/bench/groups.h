@@ -60,6 +60,7 @@ struct Limits {
                                       ///< as many
   std::uint32_t max_lights = ~0U;     ///< groups with more are left out
   std::uint64_t max_pixels = ~0ULL;   ///< likewise
+  std::vector<std::string> series;    ///< names; others are left out; empty: all are taken
   std::uint64_t most_pairs = ~0ULL;   ///< of pixel and light that brute force can walk here; beyond, lists alone are
                                       ///< checked, and nothing where there are too many for the oracle as well
   std::uint64_t most_walked = ~0ULL;  ///< lights that brute force can walk at a pixel; beyond, likewise

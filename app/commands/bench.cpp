@@ -43,6 +43,7 @@ struct BenchOptions {
   std::string out = "bench";
   std::string verifier = "auto";
   std::string max_size;
+  std::vector<std::string> series;
   std::uint32_t max_lights = MAX_LIGHTS;
   double scale = 1.0;
   std::optional<std::uint32_t> frames, warm_up;
@@ -203,6 +204,18 @@ void check_name(const std::string& name) {
                           fmt::join(nearest_names(name, names), ", ")));
 }
 
+/// Throws Error for a name that no series of the suite has.
+void check_series(const BenchOptions& o, const Suite& suite) {
+  if (!o.series.empty() && !is_suite(o.request.scene))
+    throw Error(fmt::format("--series: belongs to a suite, and {} is a scene", o.request.scene));
+  std::vector<std::string_view> names;
+  for (const Series& series : suite.series) names.push_back(series.name);
+  for (const std::string& name : o.series)
+    if (std::ranges::find(names, name) == names.end())
+      throw Error(fmt::format("--series '{}': the suite {} has none of this name; expected one of {}", name, suite.name,
+                              fmt::join(names, ", ")));
+}
+
 /// What a run came to.
 Exit conclude(const json& results, std::size_t left_out, const std::string& report) {
   const auto count = [&](std::string_view verdict) {
@@ -243,6 +256,7 @@ Exit bench(const BenchOptions& o) {
   check_name(o.request.scene);
   const bool from_suite = is_suite(o.request.scene);
   const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o, load_scene(o.request.scene));
+  check_series(o, suite);
   BenchDevice device(o.request);
   Expansion expansion = expand(suite, {.frames = o.frames,
                                        .warm_up = o.warm_up,
@@ -250,6 +264,7 @@ Exit bench(const BenchOptions& o) {
                                        .most_frames = device.software() ? SOFTWARE_FRAMES : ~0U,
                                        .max_lights = o.max_lights,
                                        .max_pixels = o.max_size.empty() ? ~0ULL : pixels_of(o.max_size),
+                                       .series = o.series,
                                        .most_pairs = brute_force_pairs(device.context()),
                                        .most_walked = brute_force_lights(device.context()),
                                        .verifier = parse_verifier(o.verifier, device.context()),
@@ -292,8 +307,8 @@ void refuse_with_suite(const CLI::App& command, const std::string& name) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() != 0 && is_of_scene(*option))
       throw Error(
-          fmt::format("{}: belongs to a scene, and {} is a suite, which says its own; a suite takes --max-lights, "
-                      "--max-size, --scale, --frames and --warm-up",
+          fmt::format("{}: belongs to a scene, and {} is a suite, which says its own; a suite takes --series, "
+                      "--max-lights, --max-size, --scale, --frames and --warm-up",
                       option->get_name(), name));
 }
 
@@ -334,6 +349,9 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add("--frames", o->frames, "number of frames to time; default: the suite's, on a software device at most 5")
       ->check(whole_number(1, 100000));
   add("--warm-up", o->warm_up, "number of frames before those; default: the suite's")->check(whole_number(0, 100000));
+  add("--series", o->series, "measure this series of a suite alone; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   add("--max-lights", o->max_lights, "leave out the parts of a suite that have more lights")
       ->check(whole_number(0, MAX_LIGHTS));
   add_verifier_option(*command, o->verifier);
@@ -347,6 +365,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
       "  lamp bench quick --out out/quick\n"
       "  lamp bench atrium --lights 16384 --size 1920x1080 --out out/atrium\n"
       "  lamp bench my_suite.json --out out/mine\n"
+      "  lamp bench world --series lights --series mirror --out out/world\n"
       "  lamp bench stewart-1.6 --scale 0.25 --max-lights 1024 --out out/small\n"
       "Exit code 1: a method's output was wrong. 4: none was wrong, but one could not be checked, because the device "
       "ends its walks; it has its times. After Ctrl-C it writes what it has measured; the same command goes on.");

@@ -329,6 +329,10 @@ TEST_F(Bench, SuitesAreListed) {
 TEST_F(Bench, BadInput) {
   expect_error(BAD_INPUT, {"bench", "quik"}, {"'quik'", "nearest are quick"});
   expect_error(BAD_INPUT, {"bench", "nowhere.json"}, {"nowhere.json: is not there"});
+  expect_error(BAD_INPUT, {"bench", "world", "--series", "light"},
+               {"--series 'light': the suite world has none", "expected one of lights, memory"});
+  expect_error(BAD_INPUT, {"bench", "plane", "--series", "lights"},
+               {"--series: belongs to a suite, and plane is a scene"});
   expect_error(BAD_INPUT, {"bench", "quick", "--size", "8x8"}, {"--size", "quick is a suite", "--max-size"});
   for (const Arguments& of_scene :
        {Arguments{"--still", "0.5"}, Arguments{"--shadows", "pcf"}, Arguments{"--path", "forward"}})

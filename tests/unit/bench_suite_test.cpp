@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "bench/groups.h"
@@ -152,6 +153,20 @@ TEST(BenchSuite, SweepsMultiply) {
   EXPECT_EQ(smaller.groups.front().size, "2x2");
   EXPECT_EQ(smaller.groups.back().size, "5x2");
   EXPECT_EQ(expand(suite, {.scale = 0.01}).groups.back().size, "1x1");
+}
+
+TEST(BenchSuite, SeriesThatAreNotNamedAreLeftOut) {
+  const Suite suite = load_suite("world");
+  const Expansion all = expand(suite, {});
+  const Expansion mirrors = expand(suite, {.series = {"mirror", "mirror-grid"}});
+  ASSERT_EQ(mirrors.groups.size(), 6U);
+  EXPECT_EQ(mirrors.groups.front().series, "mirror");
+  EXPECT_EQ(mirrors.groups.back().series, "mirror-grid");
+  const auto entries = [](const Expansion& e) {
+    return std::accumulate(e.groups.begin(), e.groups.end(), e.left_out,
+                           [](std::size_t sum, const Group& group) { return sum + group.entries.size(); });
+  };
+  EXPECT_EQ(entries(mirrors), entries(all));
 }
 
 TEST(BenchSuite, SweptOptionsBelongToEveryMethod) {
