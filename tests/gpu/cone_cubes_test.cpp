@@ -1,7 +1,6 @@
-// The test of a spot's cone against a cube of the world is exact: it says what alternating projections in double
-// precision find, which come ever nearer to both where cone and cube share a point (von Neumann; Cheney, Goldstein,
-// 1959). SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+// A spot's cone is held against the sphere around a cube of the world: the test says what the cone's point next to the
+// sphere's centre says in double precision. SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -59,25 +58,15 @@ glm::dvec3 onto_cone(const shared::ConeCase& c, const glm::dvec3& point) {
   return on_edge * (double{c.cosine} * axis + double{c.sine} * aside / off);
 }
 
-/// How far cone and cube are apart, in sides of the cube; not less, and close to it.
+/// How far the cone is from the sphere around the cube, in sides of the cube; negative: they share points.
 double apart(const shared::ConeCase& c) {
-  const glm::dvec3 low = glm::dvec3(glm::vec3(c.low)) - glm::dvec3(glm::vec3(c.tip));
-  const glm::dvec3 high = low + double{c.side};
-  glm::dvec3 in_cube = 0.5 * (low + high);
-  double least = glm::length(in_cube);
-  for (int step = 0; step < 20'000 && least > 0.0; ++step) {
-    const glm::dvec3 in_cone = onto_cone(c, in_cube);
-    in_cube = glm::clamp(in_cone, low, high);
-    const double before = least;
-    least = glm::distance(in_cone, in_cube);
-    if (before - least < 1e-9 * least) break;
-  }
-  return least / double{c.side};
+  const glm::dvec3 middle = glm::dvec3(glm::vec3(c.low)) + 0.5 * double{c.side} - glm::dvec3(glm::vec3(c.tip));
+  return glm::distance(onto_cone(c, middle), middle) / double{c.side} - 0.5 * std::numbers::sqrt3;
 }
 
 class ConeCubes : public GpuTest {};
 
-TEST_F(ConeCubes, ConesMeetTheCubesThatTheyReachAndNoOthers) {
+TEST_F(ConeCubes, ConesMeetTheSpheresAroundCubesThatTheyReachAndNoOthers) {
   RandomCones random;
   std::vector<shared::ConeCase> cases;
   for (std::uint32_t i = 0; i < CASES; ++i) cases.push_back(random.cone());
@@ -90,13 +79,15 @@ TEST_F(ConeCubes, ConesMeetTheCubesThatTheyReachAndNoOthers) {
   std::uint32_t passed = 0;
   for (std::uint32_t i = 0; i < CASES; ++i) {
     const double distance = apart(cases[i]);
-    if (distance > 1e-5 && distance < 1e-3) continue;  // projections hardly end where they nearly touch
-    const bool meets = distance <= 1e-5;
+    const bool nearly_half_a_space = cases[i].cosine < 0.003F;  // the test takes all of it
+    const double margin = nearly_half_a_space ? 0.1 : 1e-3;
+    if (distance > 0.0 && distance < margin) continue;
+    const bool meets = distance <= 0.0;
     ASSERT_EQ(answers[i] != 0, meets) << "case " << i << ", " << distance << " sides apart, sine " << cases[i].sine;
     (meets ? met : passed) += 1;
   }
   EXPECT_GT(met, CASES / 6);
-  EXPECT_GT(passed, CASES / 5);
+  EXPECT_GT(passed, CASES / 6);
   EXPECT_GT(met + passed, CASES / 100 * 95);
 }
 

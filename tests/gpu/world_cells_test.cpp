@@ -104,7 +104,8 @@ TEST_F(WorldCells, LookForBricksAgainWhereRanksHaveNoRoom) {
 // Octets, words, pieces and what a work group takes, each a little less than full, full, and a little more.
 TEST_F(WorldCells, TakeListsOfEveryLength) {
   for (const char* cells : {"cells=4", "cells=16"})
-    for (const std::uint32_t length : {1, 7, 8, 9, 31, 32, 33, 63, 64, 65, 127, 128, 129, 255, 256, 257, 400}) {
+    for (const std::uint32_t length :
+         {1, 7, 8, 9, 31, 32, 33, 63, 64, 65, 127, 128, 129, 191, 256, 257, 383, 384, 385, 768, 769, 1000}) {
       SCOPED_TRACE(cells + (" " + std::to_string(length)));
       std::vector<shared::Light> lights = lights_around({}, 0.1F, 1.0F, 1.1F, length);
       for (shared::Light& light : lights) light.type = shared::LIGHT_POINT;
@@ -112,6 +113,19 @@ TEST_F(WorldCells, TakeListsOfEveryLength) {
           ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.2F), glm::vec3(1.2F)), .settings = {cells}});
       EXPECT_EQ(answered.findings.list_max, length);
     }
+}
+
+// One of the first lights and many of the last: nearly all of a list falls into one bin of its sort.
+TEST_F(WorldCells, OrderListsWhoseLightsHaveUnevenNumbers) {
+  for (const std::uint32_t last : {150, 600}) {
+    std::vector<shared::Light> lights = lights_around({}, 0.1F, 1.0F, 1.1F, last);
+    for (shared::Light& light : lights) light.type = shared::LIGHT_POINT;
+    shared::Light nothing = lights.front();
+    nothing.range = 0.0F;
+    lights.insert(lights.begin() + 1, 40'000, nothing);
+    const Answered answered = ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.2F), glm::vec3(1.2F))});
+    EXPECT_EQ(answered.findings.list_max, last);
+  }
 }
 
 TEST_F(WorldCells, TakeBricksOfEverySize) {

@@ -1,5 +1,5 @@
-// A spot in world space against a cube: its cone and the sphere of its range, each exactly. As in world_bricks.glsl, what
-// decides is made of additions, multiplications and comparisons alone.
+// A spot in world space against cubes: the sphere of its range, exactly, and its cone against the sphere around a cube. As
+// in world_bricks.glsl, what decides is made of additions, multiplications and comparisons alone.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_WORLD_SPOTS
 #define LAMP_COMMON_WORLD_SPOTS
@@ -17,6 +17,7 @@ struct WorldSpot {
 
 // What rounding may move sums of squares, as a share of them: some 32 units of a float's last place.
 const float ROUND_SQUARES = 4e-6;
+const float HALF_DIAGONAL = 0.86602545;  // of a cube with a side of 1
 
 WorldSpot world_spot(Frame frame, Light light) {
   const float slack = world_slack(frame, light.position);
@@ -25,53 +26,33 @@ WorldSpot world_spot(Frame frame, Light light) {
                    slack);
 }
 
-// A cube's middle is seen from the cone's tip. Whether the cone's axis meets it: no line across two of the coordinates parts
-// them, and it lies ahead along each.
-bool axis_meets(vec3 axis, vec3 middle, float half_side) {
-  const vec3 lengths = abs(axis);
-  precise const vec3 apart = abs(middle.yzx * axis.zxy - middle.zxy * axis.yzx);
-  precise const vec3 reach = half_side * (lengths.yzx + lengths.zxy);
-  precise const vec3 ahead = sign(axis) * middle + half_side;
-  return all(lessThanEqual(apart, reach)) && all(greaterThanEqual(ahead, vec3(0.0)));
+// What a cone needs to be held against spheres of one radius R. A sphere's centre is `aside` from the axis, `along` it and
+// `distance` from the tip. The sphere touches the cone's side where cos aside <= R + sin along, and the tip where
+// distance <= R. As cos2 + sin2 is 1, both are cos2 (distance2 - R2) <= max(along + sin R, 0)2.
+// Based on: Wronski, Cull That Cone! (2017).
+struct ConeReach {
+  float cos2;
+  float around;  // m2, cos2 R2
+  float ahead;   // m, sin R
+};
+
+// For spheres around cubes of that side, whose coordinates from the tip add up to `farthest` at most.
+ConeReach cone_reach(WorldSpot spot, float side, float farthest) {
+  precise const float radius = (HALF_DIAGONAL * side + spot.slack + 2.0 * ROUND_RADIUS * farthest) * (1.0 + ROUND_SQUARES);
+  precise ConeReach reach;
+  reach.cos2 = max(spot.cosine * spot.cosine - ROUND_SQUARES, 0.0);
+  reach.around = reach.cos2 * (radius * radius);
+  reach.ahead = spot.sine * radius;
+  return reach;
 }
 
-// Whether the cone meets any of the four edges along the third axis. On the line of an edge the angle to the axis is least
-// where t = axis.z across2 / along, in coordinates from the tip. If that lies on the edge, the cone meets the edge where it
-// meets the line; else the angle is least at an end.
-bool cone_meets_edges(vec3 axis, vec3 middle, float half_side, float sine2) {
-  const vec4 at_x = middle.x + half_side * vec4(-1.0, 1.0, -1.0, 1.0);
-  const vec4 at_y = middle.y + half_side * vec4(-1.0, -1.0, 1.0, 1.0);
-  precise const vec4 aside = at_x * axis.y - at_y * axis.x;
-  precise const vec4 along = at_x * axis.x + at_y * axis.y;
-  precise const vec4 across2 = at_x * at_x + at_y * at_y;
-  precise const vec4 beside = abs(axis.z * across2 - middle.z * along) - half_side * along;
-  precise const vec4 beyond = aside * aside - sine2 * across2;
-  return any(lessThanEqual(max(beside, beyond), vec4(0.0)));
-}
-
-// The four corners at one end along z.
-bool cone_meets_corners(vec3 axis, vec3 middle, float half_side, float at_z, float sine2) {
-  const vec4 at_x = middle.x + half_side * vec4(-1.0, 1.0, -1.0, 1.0);
-  const vec4 at_y = middle.y + half_side * vec4(-1.0, -1.0, 1.0, 1.0);
-  precise const vec4 along = at_x * axis.x + at_y * axis.y + at_z * axis.z;
-  precise const vec4 x = at_y * axis.z - at_z * axis.y;
-  precise const vec4 y = at_z * axis.x - at_x * axis.z;
-  precise const vec4 z = at_x * axis.y - at_y * axis.x;
-  precise const vec4 beyond = x * x + y * y + z * z - sine2 * (at_x * at_x + at_y * at_y + at_z * at_z);
-  return any(lessThanEqual(max(-along, beyond), vec4(0.0)));
-}
-
-// A convex cone meets a box where it holds the box's point of the least angle to the axis: on the axis, or on an edge.
 bool cone_touches_cube(WorldSpot spot, vec3 low, float side) {
   precise const vec3 middle = low + 0.5 * side - spot.tip;
-  precise const float half_side = 0.5 * side + spot.slack + 2.0 * ROUND_RADIUS * (sum_of(abs(middle)) + side);
-  precise const float sine2 = spot.sine * spot.sine * (1.0 + ROUND_SQUARES);
-  return axis_meets(spot.axis, middle, half_side) ||
-         cone_meets_edges(spot.axis, middle, half_side, sine2) ||
-         cone_meets_edges(spot.axis.yzx, middle.yzx, half_side, sine2) ||
-         cone_meets_edges(spot.axis.zxy, middle.zxy, half_side, sine2) ||
-         cone_meets_corners(spot.axis, middle, half_side, middle.z - half_side, sine2) ||
-         cone_meets_corners(spot.axis, middle, half_side, middle.z + half_side, sine2);
+  const ConeReach reach = cone_reach(spot, side, sum_of(abs(middle)) + side);
+  precise const float along = middle.x * spot.axis.x + middle.y * spot.axis.y + middle.z * spot.axis.z;
+  precise const float ahead = max(along + reach.ahead, 0.0);
+  precise const float beyond = reach.cos2 * square_of(middle) - reach.around - ahead * ahead;
+  return beyond < 0.0;
 }
 
 bool spot_touches_cube(WorldSpot spot, vec3 low, float side) {

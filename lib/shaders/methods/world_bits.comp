@@ -1,4 +1,4 @@
-// The cells' bits of a piece of a long bucket, whose entries are in order: a work group for each piece.
+// The cells' bits of a bucket of several pieces, whose entries are in order by now: a work group for each piece.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -6,8 +6,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lamplight/shared/world.h"
 
-const uint GROUP_THREADS = 64u;
-layout(local_size_x = 64) in;
+layout(local_size_x_id = 2) in;
 layout(constant_id = 1) const uint HALVES = 4;  // of a word, for an entry's bits
 #include "methods/world_entry.glsl"
 
@@ -28,19 +27,20 @@ void main() {
   const uint thread = gl_LocalInvocationIndex;
   const WorldPiece piece = bucket_pieces[group_number()];
   const WorldBucket bucket = buckets[piece.bucket];
+  if (bucket.count <= WORLD_PIECE) return;  // world_order.comp has made them
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
-  for (uint i = thread; i < count; i += GROUP_THREADS) {
-    const uvec2 cells = cells_of(entries[bucket.first + piece.begin + i]);
+  for (uint i = thread; i < count; i += gl_WorkGroupSize.x) {
+    const uvec2 cells = cells_of_entry(entries[bucket.first + piece.begin + i]);
     [[unroll]] for (uint word = 0u; word < 2u; ++word) s_cells[2u * i + word] = cells[word];
   }
-  for (uint i = thread; i < PIECE_WORDS; i += GROUP_THREADS) s_bits[i] = 0u;
+  for (uint i = thread; i < PIECE_WORDS; i += gl_WorkGroupSize.x) s_bits[i] = 0u;
   barrier();  // all cells before bits are made of them
   const uint blocks = (count + BLOCK - 1u) / BLOCK;
-  for (uint i = thread; i < OCTETS * blocks; i += GROUP_THREADS) {
+  for (uint i = thread; i < OCTETS * blocks; i += gl_WorkGroupSize.x) {
     const uint begin = i / OCTETS * BLOCK;
     write_octet(begin, min(count - begin, BLOCK), i % OCTETS);
   }
   barrier();  // all bits before they are written
   const uint first = first_word(bucket.first + piece.begin);
-  for (uint i = thread; i < first_word(room_of(count)); i += GROUP_THREADS) bits[first + i] = s_bits[i];
+  for (uint i = thread; i < words_of(count); i += gl_WorkGroupSize.x) bits[first + i] = s_bits[i];
 }

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #include "lamplight/shared/world.h"
 
 layout(constant_id = 4) const uint ENTRIES = 1;  // capacity
@@ -28,14 +29,28 @@ void take_place(uint light, uint code, uint bucket) {
 #define MISSED(light, i)
 #include "methods/world_find.glsl"
 
+const uint AT_ONCE = 2u;  // bricks of a thread, whose reads wait together
+
 void place_by_rank(uint light, uint first) {
   const LightBricks b = bricks_of(frame, spheres[light]);
-  for (uint i = first; i < bricks_in(b); i += LIGHT_THREADS) {
-    const uint rank = ranks[light * KEPT + i];
-    if (rank == WORLD_NO_RANK) continue;
-    const vec3 brick = b.first + vec3(brick_offset(i, b.size));
-    const WorldBucket own = buckets[bucket_of(b.level, brick, BUCKETS)];
-    if (own.count != WORLD_ALL) entries[own.first + rank] = entry_of(light, brick_code(brick));
+  const uint bricks = bricks_in(b);
+  for (uint i = first; i < bricks; i += AT_ONCE * LIGHT_THREADS) {
+    uint rank[AT_ONCE];
+    [[unroll]] for (uint k = 0u; k < AT_ONCE; ++k) {
+      const uint other = i + k * LIGHT_THREADS;
+      rank[k] = WORLD_NO_RANK;
+      if (other < bricks) rank[k] = ranks[light * KEPT + other];
+    }
+    uint entry[AT_ONCE];
+    WorldBucket own[AT_ONCE];
+    [[unroll]] for (uint k = 0u; k < AT_ONCE; ++k) {
+      const vec3 brick = b.first + vec3(brick_offset(i + k * LIGHT_THREADS, b.size));
+      entry[k] = entry_of(light, brick_code(brick));
+      own[k].count = WORLD_ALL;
+      if (rank[k] != WORLD_NO_RANK) own[k] = buckets[bucket_of(b.level, brick, BUCKETS)];
+    }
+    [[unroll]] for (uint k = 0u; k < AT_ONCE; ++k)
+      if (own[k].count != WORLD_ALL) entries[own[k].first + rank[k]] = entry[k];
   }
 }
 

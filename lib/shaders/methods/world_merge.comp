@@ -1,5 +1,5 @@
-// Merges the ordered pieces of a long bucket: an entry's place is its place in its piece, and how many of each other piece
-// come before it.
+// Merges the ordered pieces of a bucket that has several: an entry's place is its place in its piece, and how many of
+// each other piece come before it.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -7,8 +7,7 @@
 layout(constant_id = 0) const uint HALVES = 4;
 #include "methods/world_words.glsl"
 
-const uint GROUP_THREADS = 64u;
-layout(local_size_x = 64) in;
+layout(local_size_x_id = 1) in;
 layout(set = 0, binding = 0, scalar) readonly buffer TotalBuffer { WorldTotals totals; };
 layout(set = 0, binding = 1, scalar) readonly buffer BucketBuffer { WorldBucket buckets[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer PieceBuffer { WorldPiece bucket_pieces[]; };
@@ -34,9 +33,10 @@ void main() {
   if (number >= totals.pieces) return;
   const WorldPiece piece = bucket_pieces[number];
   const WorldBucket bucket = buckets[piece.bucket];
+  if (bucket.count <= WORLD_PIECE) return;  // world_order.comp has put it in order
   const uint first = first_word(bucket.first);
   const uint count = min(bucket.count - piece.begin, WORLD_PIECE);
-  for (uint i = gl_LocalInvocationIndex; i < count; i += GROUP_THREADS) {
+  for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x) {
     const uint entry = runs[first + piece.begin + i];
     uint place = i;
     for (uint run = 0u; run < bucket.count; run += WORLD_PIECE)

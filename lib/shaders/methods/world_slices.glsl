@@ -68,9 +68,9 @@ uvec3 slices_between(vec3 low, vec3 high) {
 }
 
 // 16 bits for each axis.
-uvec2 slices_of(LightBricks b, Light light, uint code) {
+uvec2 slices_of(LightBricks b, vec3 brick, Light light) {
   const float side = brick_side(b.level);
-  const vec3 corner = side * brick_of_code(b, code);
+  const vec3 corner = side * brick;
   Box part = part_of_sphere(b.center - corner, b.radius, side);
   if (light.type == LIGHT_SPOT) {
     const float slack = world_slack(frame, light.position) + 2.0 * ROUND_RADIUS * (light.range + side);

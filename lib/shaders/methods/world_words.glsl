@@ -5,4 +5,5 @@
 
 // A list begins with a word: where an entry has three halves, with an even entry.
 uint first_word(uint entry) { return HALVES * entry / 2u; }
+uint words_of(uint entries) { return (HALVES * entries + 1u) / 2u; }  // of a list
 uint room_of(uint entries) { return entries + HALVES % 2u * (entries % 2u); }

@@ -23,14 +23,15 @@ using shared::BRICK_SLICES;
 using shared::WORLD_PIECE;
 
 constexpr std::uint32_t THREADS = 256;
-constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, where there are groups for it
+constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, at most
 constexpr std::uint32_t SCAN_BUCKETS = 4;         // of a thread
-constexpr std::uint32_t LIGHT_BUCKETS = 16;       // for each light,
+constexpr std::uint32_t LIGHT_BUCKETS = 8;        // for each light,
 constexpr std::uint32_t LEAST_BUCKETS = 1024;     // but no fewer
 constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes each
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // the place of a word of bits has 32 bits
 constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
 constexpr std::uint64_t RANK_ALIGNMENT = 8;       // a light's ranks begin where 32 bytes do
+constexpr std::uint32_t SCAN_BYTES = 256 * 4;     // of group_scan.glsl
 constexpr std::uint32_t OCTET_SPARE = 64;         // bytes, behind the entries' cells
 constexpr std::uint32_t MOST_PERCENT = 1600;
 constexpr std::uint64_t BUDGET_BYTES = 64U << 20;     // of entries, for brick=0
@@ -138,15 +139,14 @@ Sizes sizes_of(const Problem& problem) {
   const std::uint32_t cells = cells_across(problem);
   Sizes s{.ratio = static_cast<float>(brick_percent(problem, cells)) / 100.0F, .cells = cells};
   s.threads = std::min(THREADS, std::bit_floor(problem.traits.max_group_invocations));
-  s.most_short = std::min(s.threads / 2, WORLD_PIECE);
+  s.most_short = s.threads / 2;
   s.window = s.threads;
   s.buckets = bucket_count(problem);
   s.entries = static_cast<std::uint32_t>(std::min({wanted_entries(problem, s.ratio, cells), MOST_ENTRIES,
                                                    problem.traits.max_storage_buffer_bytes / bit_bytes(cells)}));
   s.kept =
       static_cast<std::uint32_t>(std::min(kept_ranks(s.ratio), bit_words(s.entries, cells) / parts::capacity(problem)));
-  s.pieces =
-      parts::divide_up(s.entries, std::min(s.most_short, WORLD_PIECE / 2));  // but a bucket's last are over half full
+  s.pieces = parts::divide_up(s.entries, s.most_short);  // all but a bucket's last are longer still
   return s;
 }
 
@@ -172,10 +172,11 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
   return b;
 }
 
-/// As many as there are groups for.
+/// Two bricks for each or so, and no more threads than there are groups for.
 std::uint32_t light_threads(const Problem& problem, const Sizes& s) {
   const std::uint32_t lights = parts::capacity(problem);
-  std::uint32_t of_light = LIGHT_THREADS;
+  auto of_light =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(std::bit_floor(most_bricks(s.ratio) / 2), LIGHT_THREADS));
   while (of_light > 1 && parts::divide_up(lights, s.threads / of_light) > problem.traits.max_groups[0]) of_light /= 2;
   return of_light;
 }
@@ -220,7 +221,7 @@ Pass scan_pass(const Sizes& s, const Buffers& b) {
                        {b.pieces, Access::write},
                        {b.windows, Access::write}},
           .extent = {.x = s.buckets / (s.threads * SCAN_BUCKETS)},
-          .shared_bytes = 256 * 4 + 8};
+          .shared_bytes = SCAN_BYTES + 8};
 }
 
 Pass order_pass(const Sizes& s, const Buffers& b) {
@@ -238,7 +239,7 @@ Pass order_pass(const Sizes& s, const Buffers& b) {
                        {b.bits, Access::write},
                        {b.pieces}},
           .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)},
-          .shared_bytes = (s.window + s.most_short) * (20 + bit_bytes(s.cells)) + OCTET_SPARE + 4};
+          .shared_bytes = WORLD_PIECE * (16 + bit_bytes(s.cells)) + OCTET_SPARE + SCAN_BYTES + 12};
 }
 
 Extent of_pieces(const Buffers& b) {
@@ -248,7 +249,7 @@ Extent of_pieces(const Buffers& b) {
 Pass merge_pass(const Sizes& s, const Buffers& b) {
   return {.name = "merge long buckets",
           .shader = "methods/world_merge",
-          .constants = {halves_of(s.cells)},
+          .constants = {halves_of(s.cells), s.threads},
           .bindings = {{b.totals}, {b.buckets}, {b.pieces}, {b.bits}, {b.entries, Access::write}},
           .extent = of_pieces(b)};
 }
@@ -256,7 +257,7 @@ Pass merge_pass(const Sizes& s, const Buffers& b) {
 Pass bits_pass(const Sizes& s, const Buffers& b) {
   return {.name = "bits of long buckets",
           .shader = "methods/world_bits",
-          .constants = {std::bit_cast<std::uint32_t>(s.ratio), halves_of(s.cells)},
+          .constants = {std::bit_cast<std::uint32_t>(s.ratio), halves_of(s.cells), s.threads},
           .bindings = {{INPUT_FRAME},
                        {INPUT_LIGHTS},
                        {INPUT_SPHERES},

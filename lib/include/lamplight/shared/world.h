@@ -41,7 +41,7 @@ LAMP_CONST WORLD_ALL = 0xffffffffu;
 
 // Short buckets are put in order by the work group in whose window of entries they begin. Entries of a longer one that
 // one work group puts in order:
-LAMP_CONST WORLD_PIECE = 128u;
+LAMP_CONST WORLD_PIECE = 384u;
 struct WorldPiece {
   uint bucket;
   uint begin;  // the piece's first entry among the bucket's
