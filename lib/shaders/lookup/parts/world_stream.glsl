@@ -5,7 +5,6 @@
 #include "lookup/parts/cell_field.glsl"
 
 LAMP_CONST LOOKUP_NO_LIGHT = 0xffffffffu;
-LAMP_CONST LOOKUP_CODE_BIT = 12u;  // behind the cells of a brick
 
 // A level's cell with lights left.
 struct LookupStream {
@@ -13,10 +12,10 @@ struct LookupStream {
   uint place;  // the entry that the light's block begins with
   uint left;   // entries of the bucket from there on
   uint bits;   // lights of the block that come behind it
-  uint asks;   // the cell; and from LOOKUP_CODE_BIT on its brick's code, since entries of other bricks share the bucket
+  uint asks;   // its brick's code, as in entries, since entries of other bricks share the bucket; and above it the cell
 };
 
-uint lookup_cell_of(LookupStream stream) { return stream.asks & (1u << LOOKUP_CODE_BIT) - 1u; }
+uint lookup_cell_of(LookupStream stream) { return stream.asks >> ENTRY_CODE_BITS; }
 
 WorldBucket lookup_bucket(uint view, uint bucket) {
   return lookup_buckets[view * (LOOKUP_BUCKETS_VIEW / 2u) + bucket];
@@ -51,7 +50,7 @@ void lookup_advance(uint view, inout LookupStream stream) {
     if (stream.bits == 0u) return;
     entry = lookup_entry(view, stream.place + LAMP_FIRST_BIT(stream.bits));
     stream.bits &= stream.bits - 1u;
-  } while (code_of_entry(entry) != stream.asks >> LOOKUP_CODE_BIT);
+  } while (code_of_entry(entry ^ stream.asks) != 0u);
   stream.light = light_of_entry(entry);
 }
 
@@ -70,7 +69,7 @@ LookupStream lookup_stream(uint view, WorldPlace place, WorldBucket bucket, uint
   stream.place = bucket.first + begin / 32u * 32u;
   stream.left = bucket.count - begin / 32u * 32u;
   stream.bits = 0u;
-  stream.asks = place.code << LOOKUP_CODE_BIT | place.cell;
+  stream.asks = place.cell << ENTRY_CODE_BITS | place.code;
   if (begin == bucket.count) return stream;
   stream.bits = lookup_block(view, stream) & 0xffffffffu << begin % 32u;
   return stream;
