@@ -86,7 +86,7 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
   } else {
     SuiteJson object(value, where + ": methods");
     object.require("name", method.name);
-    object.read("options", method.options);
+    if (object.has("options") && object.at("options") != json::array()) object.read("options", method.options);
     object.read("label", method.label);
     object.read("path", method.path);
     object.read("still_lists", method.still_lists);

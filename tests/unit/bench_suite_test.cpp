@@ -155,6 +155,11 @@ TEST(BenchSuite, SweepsMultiply) {
   EXPECT_EQ(expand(suite, {.scale = 0.01}).groups.back().size, "1x1");
 }
 
+TEST(BenchSuite, NoOptionsMayBeAnEmptyList) {
+  const Suite suite = parse_suite(suite_with(R"("methods": [{"name": "tiled", "options": []}])"), "mine.json");
+  EXPECT_TRUE(suite.series.at(0).methods.at(0).options.empty());
+}
+
 TEST(BenchSuite, SeriesThatAreNotNamedAreLeftOut) {
   const Suite suite = load_suite("world");
   const Expansion all = expand(suite, {});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "lamplight/vulkan.h"
 
@@ -47,6 +48,15 @@ TEST(NullHandles, OfInstancesAndDevicesAreErrors) {
   EXPECT_EQ(error_of(make_device(some_instance(), VK_NULL_HANDLE, device)),
             "device: expected a VkPhysicalDevice, got null");
   EXPECT_EQ(error_of(make_device(some_instance(), physical, VK_NULL_HANDLE)), "device: expected a VkDevice, got null");
+}
+
+TEST(NullHandles, HaveNoExtensionsAndTheLimitsOfNoDevice) {
+  for (const auto& [instance, physical] : {std::pair(Instance(), some<VkPhysicalDevice>()),
+                                           std::pair(some_instance(), VkPhysicalDevice{VK_NULL_HANDLE})}) {
+    EXPECT_TRUE(useful_extensions(instance, physical).empty());
+    EXPECT_FALSE(has_pipeline_robustness(instance, physical));
+    EXPECT_EQ(traits_of(instance, physical).max_storage_buffer_bytes, DeviceTraits().max_storage_buffer_bytes);
+  }
 }
 
 TEST(NullHandles, NothingIsCreatedOnNoDevice) {

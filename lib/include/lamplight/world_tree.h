@@ -32,7 +32,8 @@ struct WorldTreeInfo {
       0.0F;  ///< the most that an eye is away from the origin, 0 .. 1e15: rounding moves its pixels' positions
 };
 
-/// What the options of the method `world-tree` say; without occlusion=ahead, no occluders.
+/// What the options of the method `world-tree` say, as `resolve_options` gives them; without occlusion=ahead, no
+/// occluders.
 LAMPLIGHT_API void set_options(WorldTreeInfo& info, const Options& options);
 
 struct WorldTreeCounts {

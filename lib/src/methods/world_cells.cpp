@@ -40,6 +40,7 @@ constexpr std::uint32_t FINEST_SLICED_PERCENT = 300;  // where slices have bits,
 constexpr std::uint32_t COARSEST_PERCENT = 400;       // and where lights are so many that the budget does not matter
 constexpr std::uint64_t MEAN_BRICKS = 24;             // default of the option
 constexpr std::uint32_t LEAST_PERCENT = 50;           // of the range: a code tells 6 bricks across apart
+static_assert(THREADS + THREADS / 2 <= WORLD_PIECE);  // a group holds a window's entries, and the last short bucket's
 static_assert(2 * 100 / LEAST_PERCENT + 2 <= shared::MOST_BRICKS_ACROSS);
 
 /// Bricks that a sphere anywhere reaches, on average, whose side is `ratio` of its radius: the volume of points within

@@ -15,7 +15,12 @@ namespace {
 
 constexpr std::array USEFUL{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
 
+bool is_there(const Instance& instance, VkPhysicalDevice physical) {
+  return !check_loaded(instance) && physical != VK_NULL_HANDLE;
+}
+
 bool has_extension(const Instance& instance, VkPhysicalDevice physical, std::string_view name) {
+  if (!is_there(instance, physical)) return false;
   std::uint32_t count = 0;
   instance.vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
@@ -110,6 +115,7 @@ SubgroupOperations operations_of(const VkPhysicalDeviceVulkan11Properties& prope
 }  // namespace
 
 DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical) {
+  if (!is_there(instance, physical)) return {};
   constexpr std::uint32_t LLVMPIPE_LOOP_ROUNDS = 65535;  // LP_MAX_TGSI_LOOP_ITERATIONS of Mesa
   VkPhysicalDeviceVulkan13Properties v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES};
   VkPhysicalDeviceVulkan12Properties v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,

@@ -68,6 +68,7 @@ LAMP_CONST WORLD_NO_RANK = 0xffffffffu;
 
 #ifdef __cplusplus
 static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 48);
+static_assert(WORLD_PIECE % 32 == 0);  // its blocks of entries are full ones
 static_assert(CELL_HALVES * 16 == BRICK_CELLS * BRICK_CELLS * BRICK_CELLS);
 static_assert(SLICE_HALVES * 16 == 3 * BRICK_SLICES);
 static_assert(MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS * MOST_BRICKS_ACROSS <= 1U << ENTRY_CODE_BITS);

@@ -36,12 +36,12 @@ struct LAMPLIGHT_API RequiredFeatures {
 
 /// Device extensions that are used where they are enabled, as far as the device has them: VK_KHR_push_descriptor, and
 /// for methods VK_EXT_conservative_rasterization. Who enables the latter says so in Device::traits
-/// (`conservative_raster`).
+/// (`conservative_raster`). Without an instance of `load_instance` or without a device: none.
 [[nodiscard]] LAMPLIGHT_API std::vector<const char*> useful_extensions(const Instance& instance,
                                                                        VkPhysicalDevice physical);
 
 /// Whether the device has VK_EXT_pipeline_robustness and its feature. Who enables both says so in
-/// Device::pipeline_robustness.
+/// Device::pipeline_robustness. Without an instance or a device: no.
 [[nodiscard]] LAMPLIGHT_API bool has_pipeline_robustness(const Instance& instance, VkPhysicalDevice physical);
 
 /// The name of the first of the required features that is VK_FALSE, or nothing.
@@ -51,7 +51,7 @@ struct LAMPLIGHT_API RequiredFeatures {
 /// too: an instance that is not `load_instance`'s, no device.
 [[nodiscard]] LAMPLIGHT_API std::optional<Error> check_device(const Instance& instance, VkPhysicalDevice physical);
 
-/// Limits for planning.
+/// Limits for planning. Without an instance or a device: DeviceTraits().
 [[nodiscard]] LAMPLIGHT_API DeviceTraits traits_of(const Instance& instance, VkPhysicalDevice physical);
 
 class DescriptorSets;
