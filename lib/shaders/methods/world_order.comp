@@ -111,7 +111,7 @@ void order_piece(WorldPiece piece) {
   const WorldBucket own = buckets[piece.bucket];
   const uint begin = own.first + piece.begin;
   const uint count = min(own.count - piece.begin, WORLD_PIECE);
-  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) s_entries[i] = entries[begin + i];
+  for (uint i = gl_LocalInvocationIndex; i < count; i += threads) s_entries[i] = LOAD_OF_DEVICE(entries[begin + i]);
   sort_entries(count);
   barrier();  // the order before it is read, and before cells and bits take the room that it took
   if (own.count > WORLD_PIECE) {
