@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::uint32_t MOST_GROUPS_X = 32768;
 
+/// The first lights, as many as a buffer of the device holds: nothing cuts others.
+std::uint32_t lights_of(const vulkan::Device& device, std::uint64_t bytes, std::uint32_t light_capacity) {
+  const std::uint64_t most = device.traits.max_storage_buffer_bytes / bytes;
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(light_capacity, 1, most));
+}
+
 /// What tells the two apart.
 struct Made {
   const char* name;
@@ -48,9 +54,9 @@ std::vector<vulkan::Constant> constants_of(const vulkan::Device& device, ShadowR
 
 ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
                          std::uint32_t light_capacity, std::uint32_t atlas_size)
-    : name_(made(kind).name), pending_(light_capacity) {
+    : name_(made(kind).name), pending_(lights_of(device, made(kind).bytes, light_capacity)) {
   const auto [name, shader, bytes] = made(kind);
-  const std::uint64_t lights = std::max(1U, light_capacity);
+  const std::uint64_t lights = pending_.size();
   buffer_ = take(
       vulkan::Buffer::create(device, {.name = name,
                                       .bytes = lights * bytes,
@@ -70,7 +76,8 @@ ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shad
 }
 
 void ShadowReach::add(std::span<const shared::RadialJob> jobs) {
-  for (const shared::RadialJob& job : jobs) pending_[job.light] = job;
+  for (const shared::RadialJob& job : jobs)
+    if (job.light < pending_.size()) pending_[job.light] = job;
 }
 
 std::vector<shared::RadialJob> ShadowReach::pending() const {

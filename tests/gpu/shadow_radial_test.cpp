@@ -35,7 +35,8 @@ TEST_P(ShadowRadialBounds, HoldEverythingThatIsLit) {
     sums[0] += shadows[i] == 0.0F ? 1 : 0;
     sums[1] += shadows[i] == 0.0F && point_cut ? 1 : 0;
     sums[2] += shadows[i] > 0.0F && point_cut ? 1 : 0;
-    ASSERT_TRUE((answers[i] & 2U) != 0 || point_cut) << "a box reaches no less far than a point in it";
+    ASSERT_TRUE((answers[i] & 2U) != 0 || point_cut)
+        << "a light that reaches a point reaches a sphere with the point in it";
   }
   for (std::uint32_t light = 0; light < count; ++light) {
     EXPECT_EQ(found[light][2], 0U) << "light " << light << " loses what is lit";

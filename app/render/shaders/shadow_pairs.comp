@@ -29,8 +29,8 @@ bool radial_reaches_point(uint light, vec3 position) {
     const vec3 z = radial_bounds[light].axis_z;
     rel = transpose(mat3(x, cross(z, x), z)) * rel;
   }
-  const float slack = 4.0 * ROUND_POSITION * (length(position) + length(radial_bounds[light].position));
-  return radial_reaches_box(light, rel - slack, rel + slack);
+  const float slack = 8.0 * ROUND_POSITION * (length(position) + length(radial_bounds[light].position));
+  return radial_reaches_sphere(light, rel, slack);
 }
 
 // But for rounding of the position, by which what draws the mesh widens it: as common/light_mesh_view.glsl has it, all that

@@ -5,29 +5,50 @@
 #ifndef LAMP_COMMON_RADIAL_BOUNDS
 #define LAMP_COMMON_RADIAL_BOUNDS
 #include "common/light_bounds.glsl"
-#include "common/radial_cells.glsl"
+#include "common/radial_areas.glsl"
+#include "common/radial_levels.glsl"
 
 layout(set = 0, binding = RADIAL_BINDING, scalar) readonly buffer RadialBuffer { RadialBound radial_bounds[]; };
 
-bool radial_cells_are_lit(uint light, RadialCells cells) {
-  if (!cells.any) return false;
-  precise const float least = cells.nearest_m / radial_bounds[light].unit_m;
-  for (uint y = cells.first.y; y <= cells.last.y; ++y)
-    for (uint x = cells.first.x; x <= cells.last.x; ++x) {
-      const uint i = RADIAL_SIDE * y + x;
-      const uint reach = radial_bounds[light].bytes[i / 16u][i / 4u % 4u] >> (8u * (i % 4u)) & 255u;
-      if (reach == RADIAL_ANY || least <= float(reach)) return true;
-    }
-  return false;
+const float RADIAL_MOST_SINE = 0.7;  // of a sphere's angle: nearer ones are reached
+
+// Byte (x, y) of a level; beside the octahedron's square, whose edges are folded in half, that of the same direction.
+uint radial_byte(uint light, uint level, ivec2 at) {
+  const int n = int(radial_side(level));
+  const bvec2 before = lessThan(at, ivec2(0));
+  if (before.x || at.x >= n) at = ivec2((before.x ? -1 : 2 * n - 1) - at.x, n - 1 - at.y);
+  if (at.y < 0 || at.y >= n) at = ivec2(n - 1 - at.x, (at.y < 0 ? -1 : 2 * n - 1) - at.y);
+  const uint i = radial_first(level) + uint(n * at.y + at.x);
+  return radial_bounds[light].bytes[i / 16u][i / 4u % 4u] >> (8u * (i % 4u)) & 255u;
 }
 
-// Of a box around the light: of a spot in its own axes.
-bool radial_reaches_box(uint light, vec3 low, vec3 high) {
-  if (radial_bounds[light].kind == RADIAL_SPOT)
-    return radial_cells_are_lit(light, radial_cells_of_spot(radial_bounds[light].scale, low, high));
-  for (uint octants = radial_octants(low, high); octants != 0u; octants &= octants - 1u)
-    if (radial_cells_are_lit(light, radial_cells_of_octant(uint(findLSB(octants)), low, high))) return true;
-  return false;
+// The largest byte of an area, or of somewhat more: 2 x 2 bytes of the finest level of which so few are enough. With a
+// loop over the area a subgroup waits for the pair that is nearest to its light.
+uint radial_reach(uint light, RadialArea area) {
+  const int most = max(area.high.x - area.low.x, area.high.y - area.low.y);
+  const uint level = most > 1 ? uint(findMSB(most - 1) + 1) : 0u;
+  if (level >= RADIAL_LEVELS) return RADIAL_ANY;
+  const ivec2 low = area.low >> level;
+  const ivec2 high = area.high >> level;
+  return max(max(radial_byte(light, level, low), radial_byte(light, level, ivec2(high.x, low.y))),
+             max(radial_byte(light, level, ivec2(low.x, high.y)), radial_byte(light, level, high)));
+}
+
+// Whether the light reaches any of a sphere; around the light, of a spot in its own axes.
+bool radial_reaches_sphere(uint light, vec3 center, float radius) {
+  precise const float away = length(center);
+  if (!(radius < RADIAL_MOST_SINE * away)) return true;
+  RadialArea area;
+  if (radial_bounds[light].kind == RADIAL_SPOT) {
+    if (center.z + radius <= 0.0) return false;
+    if (center.z - radius <= 0.0) return true;
+    area = radial_area_of_spot(radial_bounds[light].scale, center, radius);
+  } else {
+    area = radial_area_of_sphere(center / away, radius / away);
+  }
+  const uint reach = radial_reach(light, area);
+  precise const float least = (away - radius) / radial_bounds[light].unit_m;
+  return reach == RADIAL_ANY || least <= float(reach);
 }
 
 // From view space to a light's own.
@@ -54,71 +75,44 @@ vec2 radial_depths(LightBounds sphere, float z_near, float z_far) {
   return vec2(max(z_near, -sphere.center.z - sphere.radius), min(z_far, -sphere.center.z + sphere.radius));
 }
 
-const uint RADIAL_MOST_PIECES = 8u;
-
-// The way between two depths. A long one is cut in pieces of an eighth of the light's range, a cell's width at a third of
-// it: the box around all of it would be wide where the tile is not.
-struct RadialPieces {
-  RadialSpace space;
-  float slack;  // m
-  vec2 depths;
-  float step;
-  uint count;
-};
-
 bool radial_cuts_nothing(uint light) {
   return light >= uint(radial_bounds.length()) || radial_bounds[light].kind == RADIAL_NONE;
 }
 
-// Of a light that something is known of. Rounding: where depths do not meet, another test has said that they do, and one
-// piece has them both.
-RadialPieces radial_pieces(Frame frame, uint light, vec2 depths) {
-  RadialPieces pieces;
-  pieces.space = radial_space(frame, light);
+// Whether it reaches the part of a tile between its edges (TileSides) and two depths: by the sphere around that.
+// Rounding: where depths do not meet, another test has said that they do, and both are held.
+bool radial_reaches_part(Frame frame, uint light, vec4 x_edges, vec4 y_edges, vec2 depths) {
+  if (radial_cuts_nothing(light)) return true;
+  const RadialSpace space = radial_space(frame, light);
+  precise const vec4 x = x_edges.xzxz + x_edges.ywyw * depths.xxyy;
+  precise const vec4 y = y_edges.xzxz + y_edges.ywyw * depths.xxyy;
+  precise const vec2 x_middle = 0.5 * (x.xz + x.yw);
+  precise const vec2 y_middle = 0.5 * (y.xz + y.yw);
+  precise const vec3 center = vec3(0.5 * (x_middle.x + x_middle.y), 0.5 * (y_middle.x + y_middle.y),
+                                   -0.5 * (depths.x + depths.y));
+  precise const vec3 around = 0.5 * vec3(abs(x_middle.y - x_middle.x) + max(abs(x.y - x.x), abs(x.w - x.z)),
+                                         abs(y_middle.y - y_middle.x) + max(abs(y.y - y.x), abs(y.w - y.z)),
+                                         abs(depths.y - depths.x));
   precise const float slack =
       4.0 * ROUND_POSITION *
       (length(radial_bounds[light].position) + length(frame.eye_world) + abs(depths.x) + abs(depths.y));
-  pieces.slack = slack;
-  pieces.depths = vec2(min(depths.x, depths.y), max(depths.x, depths.y));
-  const float length_m = pieces.depths.y - pieces.depths.x;
-  const float piece_m = radial_bounds[light].unit_m * float(RADIAL_ANY) / float(RADIAL_MOST_PIECES);
-  pieces.count = uint(clamp(ceil(length_m / piece_m), 1.0, float(RADIAL_MOST_PIECES)));
-  precise const float step = length_m / float(pieces.count);
-  pieces.step = step;
-  return pieces;
+  return radial_reaches_sphere(light, space.axes * center + space.origin, length(around) + slack);
 }
 
-// Its depths.
-vec2 radial_piece(RadialPieces pieces, uint i) {
-  precise const vec2 piece = pieces.depths.x + pieces.step * vec2(float(i), float(i + 1u));
-  return i + 1u < pieces.count ? piece : vec2(piece.x, pieces.depths.y);
-}
+const uint RADIAL_MOST_PIECES = 8u;
 
-// By the box around the part of a tile between its edges (TileSides) and the depths of a piece, in the light's space.
-bool radial_reaches_piece(uint light, RadialPieces pieces, uint number, vec4 x_edges, vec4 y_edges) {
-  const RadialSpace space = pieces.space;
-  const vec2 depths = radial_piece(pieces, number);
-  const mat3 lengths = mat3(abs(space.axes[0]), abs(space.axes[1]), abs(space.axes[2]));
-  vec3 low = vec3(3e38);
-  vec3 high = vec3(-3e38);
-  for (uint i = 0u; i < 2u; ++i) {
-    const float z = depths[i];
-    precise const vec2 x = x_edges.xz + x_edges.yw * z;
-    precise const vec2 y = y_edges.xz + y_edges.yw * z;
-    precise const vec3 middle = space.axes * vec3(0.5 * (x.x + x.y), 0.5 * (y.x + y.y), -z) + space.origin;
-    precise const vec3 around = lengths * vec3(0.5 * abs(x.y - x.x), 0.5 * abs(y.y - y.x), 0.0);
-    low = min(low, middle - around);
-    high = max(high, middle + around);
-  }
-  return radial_reaches_box(light, low - pieces.slack, high + pieces.slack);
-}
-
-// The part of a tile between its edges and two depths.
+// The same of what may be long: in pieces of an eighth of the light's range, a sphere around each.
 bool radial_reaches(Frame frame, uint light, vec4 x_edges, vec4 y_edges, vec2 depths) {
   if (radial_cuts_nothing(light)) return true;
-  const RadialPieces pieces = radial_pieces(frame, light, depths);
-  for (uint i = 0u; i < pieces.count; ++i)
-    if (radial_reaches_piece(light, pieces, i, x_edges, y_edges)) return true;
+  const float length_m = abs(depths.y - depths.x);
+  const float piece_m = radial_bounds[light].unit_m * float(RADIAL_ANY) / float(RADIAL_MOST_PIECES);
+  const uint count = uint(clamp(ceil(length_m / piece_m), 1.0, float(RADIAL_MOST_PIECES)));
+  precise const float step = (depths.y - depths.x) / float(count);
+  for (uint i = 0u; i < count; ++i) {
+    precise const vec2 piece = depths.x + step * vec2(float(i), float(i + 1u));
+    const float last = i + 1u < count ? piece.y : depths.y;
+    if (radial_reaches_part(frame, light, x_edges, y_edges, vec2(piece.x, last))) return true;
+  }
   return false;
 }
 

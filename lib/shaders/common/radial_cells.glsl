@@ -1,4 +1,4 @@
-// Which of a radial bound's 8 x 8 cells directions to a box touch. The box lies around the light: a point of it minus
+// Which of a radial bound's finest cells directions to a box touch. The box lies around the light: a point of it minus
 // the light's position.
 // Based on: Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3:2 (2014). In an
 // octant the map of (x, y, z) is x / (x + y + z), which grows with x and falls with y and z; so the ends of a box give
@@ -6,9 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_RADIAL_CELLS
 #define LAMP_COMMON_RADIAL_CELLS
-#include "lamplight/shared/radial.h"
-
-const float RADIAL_ROUNDING = 1e-3;  // of a cell
+#include "common/radial_levels.glsl"
 
 struct RadialCells {
   bool any;

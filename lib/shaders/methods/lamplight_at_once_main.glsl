@@ -27,7 +27,7 @@ layout(set = 0, binding = 8) uniform DepthImage depth_image;
 
 shared uint s_lights[PIECE];
 shared uint s_words[PIECE_WORDS];  // a bit for each light that may reach the cell
-#include "methods/lamplight_cut.glsl"
+#include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_tile_depths.glsl"
 
@@ -101,7 +101,8 @@ void main() {
   barrier();  // all lights before they are counted
   const uint count = list_lights();
   barrier();  // lights before they are tested
-  test_lights(cell, count);
+  mark_lights(cell, count);
+  barrier();  // all marks before they are written
   if (gl_LocalInvocationIndex == 0u) cells[index] = LightCell(index, count == 0u ? 0u : 1u, count);
   write_rows(index, count);
 }

@@ -52,7 +52,7 @@ layout(set = 0, binding = DEPTH_BINDING, scalar) readonly buffer TileBuffer { Ti
 layout(set = 0, binding = DEPTH_BINDING + 1) uniform DepthImage depth_image;
 #endif
 
-#include "methods/lamplight_cut.glsl"
+#include "methods/lamplight_marks.glsl"
 #include "methods/lamplight_row_lists.glsl"
 #include "methods/lamplight_list_room.glsl"
 
@@ -110,7 +110,8 @@ void cull_piece(CellPiece piece) {
   if (gl_LocalInvocationIndex < CELL_TILES) load_sides(cell, gl_LocalInvocationIndex);
   if (LIGHTS_MISS && gl_LocalInvocationIndex == CELL_TILES) load_edges(cell);
   order_lights(load, piece);
-  test_lights(cell, piece.count);
+  mark_lights(cell, piece.count);
+  barrier();  // all marks before they are written
   write_piece(s_piece);
 }
 

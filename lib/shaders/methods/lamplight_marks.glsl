@@ -1,9 +1,9 @@
 // Which lights of a piece reach which rows of its cell: a bit matrix in shared memory. Each subgroup takes lights of
 // its own, and no barrier of the group stands between them. A first look at all pairs of light and row decides most.
 // Those that it leaves open wait until there are enough for the exact test of spheres by all of the subgroup's threads.
-// Spots whose spheres reach wait as well, for the test of cones.
-// Needs: FURTHER (lamplight_cut.glsl); TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS, LIGHTS_MISS; `frame`, `lights`, `spheres`; s_lights; PRUNED or
-// not.
+// Spots whose spheres reach wait as well, for the test of cones, and with further tests all others for these.
+// Needs: FURTHER; TILE_PX, CELL_TILES, ROWS, MARK_WORDS, PAIRS, LIGHTS_MISS; `frame`, `lights`, `spheres`; s_lights;
+// PRUNED or not.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_METHODS_LAMPLIGHT_MARKS
 #define LAMP_METHODS_LAMPLIGHT_MARKS
@@ -49,37 +49,40 @@ void mark(Cell cell, Pair pair, bool reached) {
   if (reached) atomicOr(s_bits[bit_word(pair.row, pair.entry / 32u)], 1u << (pair.entry % 32u));
 }
 
-// Pairs whose spheres reach: points are marked, spots wait for the test of cones.
-void keep_pairs(Cell cell, bool reached, uint packed, inout uint spots) {
+// Pairs whose spheres reach: they are marked, or wait for tests of cones and further ones.
+void keep_pairs(Cell cell, bool reached, uint packed, inout uint others) {
   const Pair pair = pair_of(packed);
-  mark(cell, pair, reached && !pair.spot);
-  spots = wait(first_spot(), spots, reached && pair.spot, packed);
+  const bool waits = pair.spot || FURTHER != 0u;
+  mark(cell, pair, reached && !waits);
+  others = wait(first_other(), others, reached && waits, packed);
 }
 
 // Of all pairs of `count` lights and row, those from `first` on.
-void look_at_pairs(Cell cell, uint first, uint count, inout uint pairs, inout uint spots) {
+void look_at_pairs(Cell cell, uint first, uint count, inout uint pairs, inout uint others) {
   const uint i = first + gl_SubgroupInvocationID;
   const uint entry = entry_of(min(i, count * cell.rows - 1u) >> findMSB(cell.rows));
   const uint packed = packed_pair(entry, i & cell.rows - 1u, s_spheres[entry].radius < 0.0 ? PAIR_OF_SPOT : 0u);
   const uint found = look_at_pair(pair_of(packed));
   const uint verdict = i < count * cell.rows ? found : APART;
   pairs = wait(first_pair(), pairs, verdict == UNDECIDED, packed);
-  keep_pairs(cell, verdict == TOUCHES, packed, spots);
+  keep_pairs(cell, verdict == TOUCHES, packed, others);
 }
 
-void test_spheres(Cell cell, inout uint pairs, inout uint spots) {
+void test_spheres(Cell cell, inout uint pairs, inout uint others) {
   bool has_pair;
   const uint packed = take(first_pair(), 1u, pairs, has_pair);
-  keep_pairs(cell, has_pair && sphere_reaches_row(pair_of(packed)), packed, spots);
+  keep_pairs(cell, has_pair && sphere_reaches_row(pair_of(packed)), packed, others);
 }
 
-void test_cones(Cell cell, inout uint spots) {
-  const uint share = sharers(spots);
+void test_others(Cell cell, inout uint others) {
+  const uint share = sharers(others);
   const uint rank = gl_SubgroupInvocationID & share - 1u;
   bool has_pair;
-  const Pair pair = pair_of(take(first_spot(), share, spots, has_pair));
-  const bool reached = any_sharer(has_pair && cone_reaches_row(pair, rank, share), share);
-  mark(cell, pair, reached && rank == 0u);
+  const Pair pair = pair_of(take(first_other(), share, others, has_pair));
+  bool reached = any_sharer(has_pair && (!pair.spot || cone_reaches_row(pair, rank, share)), share);
+  reached = reached && rank == 0u;
+  if (FURTHER != 0u) reached = reached && passes_further_tests_in_row(pair);
+  mark(cell, pair, reached);
 }
 
 // By all threads of the group together: lights [0, count) of the piece. Each subgroup looks until no more pairs have
@@ -91,14 +94,14 @@ void mark_lights(Cell cell, uint entries) {
   const uint all = own * cell.rows;
   uint first = 0u;  // pair of light and row not looked at
   uint pairs = 0u;  // that wait
-  uint spots = 0u;
-  while (first < all || pairs > 0u || spots > 0u) {
-    for (; first < all && has_room(pairs) && has_room(spots); first += gl_SubgroupSize)
-      look_at_pairs(cell, first, own, pairs, spots);
+  uint others = 0u;
+  while (first < all || pairs > 0u || others > 0u) {
+    for (; first < all && has_room(pairs) && has_room(others); first += gl_SubgroupSize)
+      look_at_pairs(cell, first, own, pairs, others);
     const uint enough_pairs = first < all ? gl_SubgroupSize : 1u;
-    while (pairs >= enough_pairs && has_room(spots)) test_spheres(cell, pairs, spots);
-    const uint enough_spots = first < all || pairs > 0u ? gl_SubgroupSize : 1u;
-    while (spots >= enough_spots) test_cones(cell, spots);
+    while (pairs >= enough_pairs && has_room(others)) test_spheres(cell, pairs, others);
+    const uint enough_others = first < all || pairs > 0u ? gl_SubgroupSize : 1u;
+    while (others >= enough_others) test_others(cell, others);
   }
 }
 

@@ -46,14 +46,13 @@ bool sphere_reaches_row(Pair pair) {
   return sphere_touches_parts(target.sphere, target.sides, target.depths.z_near, target.step, target.parts);
 }
 
-// The further tests of the row; of what takes longest a thread has every share-th part.
-bool passes_in_row(Pair pair, uint rank, uint share) {
+bool passes_further_tests_in_row(Pair pair) {
   const Target target = target_of(pair);
   if (target.parts == 0u) return false;
   return passes_further_tests_in_parts(
       frame, s_lights[pair.entry], target.sphere, target.sides.x_edges, target.sides.y_edges,
       depths_of_parts(target.depths.z_near, target.step, target.parts), target.depths.z_near, target.depths.scale,
-      target.parts, rank, share);
+      target.parts);
 }
 
 // What a thread looks at of a row's occupied parts: from the first to the last of them they are cut into quarters, of

@@ -7,7 +7,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-shared uint s_pairs[PAIRS];  // two of each thread for spheres, and behind all these two for cones
+shared uint s_pairs[PAIRS];  // two of each thread for spheres, and behind all these two for other tests
 
 // A light of the piece and a row, in 32 bits.
 struct Pair {
@@ -25,7 +25,7 @@ Pair pair_of(uint packed) {
 
 // All below is for the threads of a subgroup together.
 uint first_pair() { return gl_SubgroupID * 2u * gl_SubgroupSize; }
-uint first_spot() { return PAIRS / 2u + first_pair(); }
+uint first_other() { return PAIRS / 2u + first_pair(); }
 
 // For one more of each thread.
 bool has_room(uint waiting) { return waiting <= gl_SubgroupSize; }

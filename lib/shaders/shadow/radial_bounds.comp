@@ -19,8 +19,8 @@ layout(set = 0, binding = 3, scalar) readonly buffer JobBuffer { RadialJob jobs[
 layout(set = 0, binding = 4, scalar) writeonly buffer BoundBuffer { RadialBound bounds[]; };
 layout(push_constant) uniform Push { uint job_count; };
 
-const uint CELLS = RADIAL_SIDE * RADIAL_SIDE;
-shared uint s_bytes[CELLS];
+const uint CELLS = RADIAL_SIDE * RADIAL_SIDE / 3u * 4u;  // of all levels and more
+shared uint s_cells[CELLS];
 
 // Most blocks find that others reach farther.
 void reach(RadialCells cells, uint value) {
@@ -28,7 +28,7 @@ void reach(RadialCells cells, uint value) {
   for (uint y = cells.first.y; y <= cells.last.y; ++y) {
     for (uint x = cells.first.x; x <= cells.last.x; ++x) {
       const uint cell = y * RADIAL_SIDE + x;
-      if (LOAD_OF_GROUP(s_bytes[cell]) < value) atomicMax(s_bytes[cell], value);
+      if (LOAD_OF_GROUP(s_cells[cell]) < value) atomicMax(s_cells[cell], value);
     }
   }
 }
@@ -51,21 +51,36 @@ float cells_scale_of(uint light) {
   return float(RADIAL_SIDE) * shadow_maps[light].scale / float(max(shadow_maps[light].side, 1u));
 }
 
+// By all threads of the group together: from level to level the largest of 2 x 2 cells.
+void fill_levels() {
+  for (uint level = 1u; level < RADIAL_LEVELS; ++level) {
+    const uint n = radial_side(level);
+    const uint first = radial_first(level);
+    const uint finer = radial_first(level - 1u);
+    for (uint i = gl_LocalInvocationIndex; i < n * n; i += gl_WorkGroupSize.x) {
+      const uint at = finer + 4u * n * (i / n) + 2u * (i % n);
+      const uint below = at + 2u * n;
+      s_cells[first + i] = max(max(s_cells[at], s_cells[at + 1u]), max(s_cells[below], s_cells[below + 1u]));
+    }
+    barrier();  // a level before the next
+  }
+}
+
 void write_bound(uint light, bool known, float unit_m, float cells_scale) {
-  const uint thread = gl_LocalInvocationIndex;
-  if (thread == 0u) {
+  const bool is_spot = shadow_maps[light].kind == SHADOW_SPOT;
+  if (gl_LocalInvocationIndex == 0u) {
     bounds[light].position = shadow_maps[light].position;
-    bounds[light].kind =
-        !known ? RADIAL_NONE : shadow_maps[light].kind == SHADOW_SPOT ? RADIAL_SPOT : RADIAL_OCTAHEDRON;
+    bounds[light].kind = !known ? RADIAL_NONE : is_spot ? RADIAL_SPOT : RADIAL_OCTAHEDRON;
     bounds[light].axis_x = shadow_maps[light].axis_x;
     bounds[light].scale = cells_scale;
     bounds[light].axis_z = shadow_maps[light].axis_z;
     bounds[light].unit_m = unit_m;
   }
-  if (thread >= CELLS / 4u) return;
-  uint word = 0u;
-  for (uint i = 0u; i < 4u; ++i) word |= s_bytes[thread * 4u + i] << (8u * i);
-  bounds[light].bytes[thread / 4u][thread % 4u] = word;
+  for (uint i = gl_LocalInvocationIndex; i < radial_first(RADIAL_LEVELS) / 4u; i += gl_WorkGroupSize.x) {
+    uint word = 0u;
+    for (uint k = 0u; k < 4u; ++k) word |= s_cells[4u * i + k] << (8u * k);
+    bounds[light].bytes[i / 4u][i % 4u] = known ? word : 0u;
+  }
 }
 
 void main() {
@@ -77,7 +92,7 @@ void main() {
       jobs[number].shows_all != 0u && shadow_maps[light].kind != SHADOW_NONE && radial_is_bounded(light);
   const float unit_m = shadow_maps[light].range_m / float(RADIAL_ANY);
   const float cells_scale = cells_scale_of(light);
-  for (uint i = thread; i < CELLS; i += gl_WorkGroupSize.x) s_bytes[i] = known ? 0u : RADIAL_ANY;
+  for (uint i = thread; i < RADIAL_SIDE * RADIAL_SIDE; i += gl_WorkGroupSize.x) s_cells[i] = 0u;
   if (known) {
     const Cut cut = cut_of(light);
     const bool by_columns = cut.size > DIRECT_SIZE;
@@ -89,6 +104,7 @@ void main() {
     for (uint block = thread; block < cut.all_blocks; block += gl_WorkGroupSize.x)
       reach_of_block(light, cut, block, unit_m, cells_scale);
   }
-  barrier();  // all blocks before bytes are packed
+  barrier();  // all blocks before the cells of the next level
+  fill_levels();
   write_bound(light, known, unit_m, cells_scale);
 }

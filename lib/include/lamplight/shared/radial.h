@@ -1,8 +1,9 @@
-// How far a light reaches, by direction, before what its shadow map holds stops it: 8 x 8 bytes a light.
-// Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), for lights cut by
-// their own shadow maps; octahedral maps: Cigolle et al., JCGT 3:2 (2014). Promise: the same bytes in C++ and in GLSL.
-// A point that a shadow look-up finds lit at all, whatever its normal and the seed, is no farther from `position` than
-// the byte of its direction says. All zeros: nothing is known, nothing is cut. SPDX-License-Identifier: Apache-2.0
+// How far a light reaches, by direction, before what its shadow map holds stops it: 16 x 16 bytes a light, and two
+// coarser levels. Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), for
+// lights cut by their own shadow maps; octahedral maps: Cigolle et al., JCGT 3:2 (2014). Promise: the same bytes in C++
+// and in GLSL. A point that a shadow look-up finds lit at all, whatever its normal and the seed, is no farther from
+// `position` than the byte of its direction says. All zeros: nothing is known, nothing is cut. SPDX-License-Identifier:
+// Apache-2.0
 #ifndef LAMPLIGHT_SHARED_RADIAL_H
 #define LAMPLIGHT_SHARED_RADIAL_H
 
@@ -16,8 +17,9 @@ LAMP_CONST RADIAL_NONE = 0u;        // cuts nothing: no map, or one of another p
 LAMP_CONST RADIAL_OCTAHEDRON = 1u;  // bytes by octahedral direction
 LAMP_CONST RADIAL_SPOT = 2u;        // bytes over the spot's own square
 
-LAMP_CONST RADIAL_SIDE = 8u;
-LAMP_CONST RADIAL_ANY = 255u;  // a byte: as far as the light reaches
+LAMP_CONST RADIAL_SIDE = 16u;   // of the finest level
+LAMP_CONST RADIAL_LEVELS = 3u;  // each has half the side of the one before
+LAMP_CONST RADIAL_ANY = 255u;   // a byte: as far as the light reaches
 
 struct RadialBound {
   vec3 position;  // world, m: of the map
@@ -27,7 +29,9 @@ struct RadialBound {
   vec3 axis_z;
   float unit_m;  // of a byte
   // No array of words: spirv-opt would make one type of it and of shared memory of as many, which has no layout.
-  uvec4 bytes[4];  // byte (x, y) is number 8 y + x, four a word, the first lowest
+  // Levels one after the other: 16 x 16, 8 x 8 and 4 x 4 bytes, each the largest of the 2 x 2 below it. Byte (x, y) of
+  // n x n is number n y + x of its level; four a word, the first lowest.
+  uvec4 bytes[21];
 };
 
 // A light whose bound is to be made: its index, and whether its map shows all that it reaches now (shadow_shows_all).
@@ -37,7 +41,7 @@ struct RadialJob {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(RadialBound) == 112);
+static_assert(sizeof(RadialBound) == 384);
 }  // namespace lamp::shared
 #endif
 

@@ -1,0 +1,59 @@
+// Which bytes of a radial bound's finest level directions to a sphere may touch.
+// Octahedral map: Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3:2 (2014).
+// Promise: never too few; the same in every shader.
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMP_COMMON_RADIAL_AREAS
+#define LAMP_COMMON_RADIAL_AREAS
+#include "common/radial_levels.glsl"
+
+// Bytes of the finest level, those beside the square as well.
+struct RadialArea {
+  ivec2 low;
+  ivec2 high;
+};
+
+// How far directions within an angle lie aside of one on an octahedron |x| + |y| + |z| = 1, spread out on a square. The
+// map is v / s with s = |x| + |y| + |z|, or below 1 minus its absolute values. Its x changes by
+// sqrt(1 - 2 q + 3 q^2) / s along one radian, with q = |x| / s; on the way q, and s by sqrt(2), change as well.
+float radial_aside(vec3 direction, float angle) {
+  precise const float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
+  precise const vec2 q = abs(direction.xy) / sum;
+  precise const vec2 squares = 1.0 - 2.0 * q + 3.0 * q * q;
+  precise const float aside = angle * (sqrt(max(squares.x, squares.y)) + 2.0 * angle) / max(1.0, sum - 1.4143 * angle);
+  return aside;
+}
+
+vec2 radial_octahedron(vec3 direction) {
+  precise const vec2 p = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+  if (direction.z >= 0.0) return p;
+  return (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+}
+
+RadialArea radial_area(vec2 low, vec2 high) {
+  return RadialArea(ivec2(floor(low - RADIAL_ROUNDING)), ivec2(floor(high + RADIAL_ROUNDING)));
+}
+
+// Of directions to a sphere.
+RadialArea radial_area_of_sphere(vec3 direction, float sine) {
+  precise const float angle = sine + 0.571 * sine * sine * sine;  // at least asin(sine)
+  const float half_side = 0.5 * float(RADIAL_SIDE);
+  precise const vec2 place = (radial_octahedron(direction) + 1.0) * half_side;
+  precise const float aside = radial_aside(direction, angle) * half_side;
+  return radial_area(place - aside, place + aside);
+}
+
+// Of a sphere before a spot, whose square goes on as at its edges.
+RadialArea radial_area_of_spot(float scale, vec3 center, float radius) {
+  precise const vec4 ends = vec4(center.xy - radius, center.xy + radius);
+  precise const vec4 nearer = ends * (scale / (center.z - radius));
+  precise const vec4 farther = ends * (scale / (center.z + radius));
+  const vec4 middle = vec4(0.5 * float(RADIAL_SIDE));
+  const vec4 most = vec4(RADIAL_SIDE);
+  const vec4 area = clamp(middle + vec4(min(nearer.xy, farther.xy), max(nearer.zw, farther.zw)), -most, 2.0 * most);
+  RadialArea bytes = radial_area(area.xy, area.zw);
+  bytes.low = clamp(bytes.low, 0, int(RADIAL_SIDE) - 1);
+  bytes.high = clamp(bytes.high, 0, int(RADIAL_SIDE) - 1);
+  return bytes;
+}
+
+#endif
