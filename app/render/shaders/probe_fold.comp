@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push { ProbePush push; };
 void main() {
   const ivec2 texel = ivec2(gl_GlobalInvocationID.xy) - int(PROBE_BORDER);
   if (any(greaterThan(texel, ivec2(PROBE_SIDE)))) return;
-  const ivec2 folded = probe_folded(texel, int(PROBE_SIDE));
+  const ivec2 folded = octahedron_texel(texel, int(PROBE_SIDE));
   float weight;
   vec4 mean = folded_faces(uvec2(folded), PROBE_SIDE, weight);
   if (folded == texel && any(greaterThan(mean.rgb, vec3(PROBE_BRIGHTEST)))) atomicAdd(clipped, 1u);

@@ -1,9 +1,9 @@
 // Which bytes of a radial bound's finest level directions to a sphere may touch.
-// Octahedral map: Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3:2 (2014).
 // Promise: never too few; the same in every shader.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_COMMON_RADIAL_AREAS
 #define LAMP_COMMON_RADIAL_AREAS
+#include "common/octahedron.glsl"
 #include "common/radial_levels.glsl"
 
 // Bytes of the finest level, those beside the square as well.
@@ -12,34 +12,24 @@ struct RadialArea {
   ivec2 high;
 };
 
-// How far directions within an angle lie aside of one on an octahedron |x| + |y| + |z| = 1, spread out on a square. The
-// map is v / s with s = |x| + |y| + |z|, or below 1 minus its absolute values. Its x changes by
-// sqrt(1 - 2 q + 3 q^2) / s along one radian, with q = |x| / s; on the way q, and s by sqrt(2), change as well.
-float radial_aside(vec3 direction, float angle) {
-  precise const float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
-  precise const vec2 q = abs(direction.xy) / sum;
-  precise const vec2 squares = 1.0 - 2.0 * q + 3.0 * q * q;
-  precise const float aside = angle * (sqrt(max(squares.x, squares.y)) + 2.0 * angle) / max(1.0, sum - 1.4143 * angle);
-  return aside;
-}
-
-vec2 radial_octahedron(vec3 direction) {
-  precise const vec2 p = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
-  if (direction.z >= 0.0) return p;
-  return (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-}
-
 RadialArea radial_area(vec2 low, vec2 high) {
   return RadialArea(ivec2(floor(low - RADIAL_ROUNDING)), ivec2(floor(high + RADIAL_ROUNDING)));
 }
 
-// Of directions to a sphere.
+// Of directions to a sphere. The octahedron's map is v / s with s = |x| + |y| + |z|, or below 1 minus its absolute values.
+// Its x changes by sqrt(1 - 2 q + 3 q^2) / s along one radian, with q = |x| / s; on the way q, and s by sqrt(2), change as
+// well.
 RadialArea radial_area_of_sphere(vec3 direction, float sine) {
   precise const float angle = sine + 0.571 * sine * sine * sine;  // at least asin(sine)
+  precise const float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
+  precise const vec2 p = direction.xy / sum;
+  const vec2 q = abs(p);
+  precise const vec2 squares = 1.0 - 2.0 * q + 3.0 * q * q;
+  precise const float aside = angle * (sqrt(max(squares.x, squares.y)) + 2.0 * angle) / max(1.0, sum - 1.4143 * angle);
   const float half_side = 0.5 * float(RADIAL_SIDE);
-  precise const vec2 place = (radial_octahedron(direction) + 1.0) * half_side;
-  precise const float aside = radial_aside(direction, angle) * half_side;
-  return radial_area(place - aside, place + aside);
+  precise const vec2 place = half_side * ((direction.z < 0.0 ? octahedron_folded(p) : p) + 1.0);
+  precise const float around = half_side * aside;
+  return radial_area(place - around, place + around);
 }
 
 // Of a sphere before a spot, whose square goes on as at its edges.

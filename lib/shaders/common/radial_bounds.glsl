@@ -5,6 +5,7 @@
 #ifndef LAMP_COMMON_RADIAL_BOUNDS
 #define LAMP_COMMON_RADIAL_BOUNDS
 #include "common/light_bounds.glsl"
+#include "common/octahedron.glsl"
 #include "common/radial_areas.glsl"
 #include "common/radial_levels.glsl"
 
@@ -12,13 +13,11 @@ layout(set = 0, binding = RADIAL_BINDING, scalar) readonly buffer RadialBuffer {
 
 const float RADIAL_MOST_SINE = 0.7;  // of a sphere's angle: nearer ones are reached
 
-// Byte (x, y) of a level; beside the octahedron's square, whose edges are folded in half, that of the same direction.
+// Byte (x, y) of a level; beside an octahedron's square, that of the same direction.
 uint radial_byte(uint light, uint level, ivec2 at) {
   const int n = int(radial_side(level));
-  const bvec2 before = lessThan(at, ivec2(0));
-  if (before.x || at.x >= n) at = ivec2((before.x ? -1 : 2 * n - 1) - at.x, n - 1 - at.y);
-  if (at.y < 0 || at.y >= n) at = ivec2(n - 1 - at.x, (at.y < 0 ? -1 : 2 * n - 1) - at.y);
-  const uint i = radial_first(level) + uint(n * at.y + at.x);
+  const ivec2 inside = octahedron_texel(at, n);
+  const uint i = radial_first(level) + uint(n * inside.y + inside.x);
   return radial_bounds[light].bytes[i / 16u][i / 4u % 4u] >> (8u * (i % 4u)) & 255u;
 }
 

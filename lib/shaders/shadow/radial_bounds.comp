@@ -9,7 +9,7 @@
 #define SHADOW_FIRST_BINDING 0
 #define SHADOW_FIRST_CONSTANT 0
 #include "common/atomic_load.glsl"
-#include "common/radial_cells.glsl"
+#include "shadow/parts/radial_cells.glsl"
 #include "shadow/parts/radial_reach.glsl"
 
 layout(local_size_x_id = 1, local_size_x = 256) in;  // many threads are fast where few lights have large maps
@@ -67,10 +67,10 @@ void fill_levels() {
 }
 
 void write_bound(uint light, bool known, float unit_m, float cells_scale) {
-  const bool is_spot = shadow_maps[light].kind == SHADOW_SPOT;
   if (gl_LocalInvocationIndex == 0u) {
     bounds[light].position = shadow_maps[light].position;
-    bounds[light].kind = !known ? RADIAL_NONE : is_spot ? RADIAL_SPOT : RADIAL_OCTAHEDRON;
+    bounds[light].kind =
+        !known ? RADIAL_NONE : shadow_maps[light].kind == SHADOW_SPOT ? RADIAL_SPOT : RADIAL_OCTAHEDRON;
     bounds[light].axis_x = shadow_maps[light].axis_x;
     bounds[light].scale = cells_scale;
     bounds[light].axis_z = shadow_maps[light].axis_z;

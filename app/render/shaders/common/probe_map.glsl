@@ -5,29 +5,20 @@
 #ifndef LAMP_PROBE_MAP
 #define LAMP_PROBE_MAP
 #include "../probe_atlas_data.h"
-
-vec2 signs_of(vec2 p) { return vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0); }
+#include "common/octahedron.glsl"
 
 // -1 .. 1 on the square. Of a direction of any length.
 vec2 probe_place(vec3 direction) {
   precise const float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
   precise const vec2 p = direction.xy / sum;
-  precise const vec2 folded = (1.0 - abs(p.yx)) * signs_of(p);
-  return direction.z >= 0.0 ? p : folded;
+  return direction.z >= 0.0 ? p : octahedron_folded(p);
 }
 
 // The point of the octahedron |x| + |y| + |z| = 1. The solid angle of an area there is the area over the cube of the
 // point's distance, up to a factor.
 vec3 probe_point(vec2 place) {
   const float z = 1.0 - abs(place.x) - abs(place.y);
-  return vec3(z >= 0.0 ? place : (1.0 - abs(place.yx)) * signs_of(place), z);
-}
-
-// Texels beyond the edges of a square are others of it: the octahedron goes on there.
-ivec2 probe_folded(ivec2 texel, int side) {
-  if (texel.x < 0 || texel.x >= side) texel = ivec2(texel.x < 0 ? -1 - texel.x : 2 * side - 1 - texel.x, side - 1 - texel.y);
-  if (texel.y < 0 || texel.y >= side) texel = ivec2(side - 1 - texel.x, texel.y < 0 ? -1 - texel.y : 2 * side - 1 - texel.y);
-  return texel;
+  return vec3(z >= 0.0 ? place : octahedron_folded(place), z);
 }
 
 uvec2 probe_level_origin(uint level) { return uvec2(probe_level_x(level), probe_level_y(level)); }

@@ -2,8 +2,8 @@
 // coarser levels. Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), for
 // lights cut by their own shadow maps; octahedral maps: Cigolle et al., JCGT 3:2 (2014). Promise: the same bytes in C++
 // and in GLSL. A point that a shadow look-up finds lit at all, whatever its normal and the seed, is no farther from
-// `position` than the byte of its direction says. All zeros: nothing is known, nothing is cut. SPDX-License-Identifier:
-// Apache-2.0
+// `position` than the byte of its direction says. All zeros: nothing is known, nothing is cut.
+// SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_RADIAL_H
 #define LAMPLIGHT_SHARED_RADIAL_H
 

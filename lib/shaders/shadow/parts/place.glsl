@@ -5,6 +5,7 @@
 #ifndef SHADOW_PLACE
 #define SHADOW_PLACE
 #include "shadow/parts/resources.glsl"
+#include "common/octahedron.glsl"
 
 struct ShadowPlace {
   vec2 texel;   // from the square's corner; centres at +0.5
@@ -17,8 +18,6 @@ float shadow_dot(vec3 a, vec3 b) {
   precise const float products = LAMP_FMA(a.x, b.x, LAMP_FMA(a.y, b.y, a.z * b.z));
   return products;
 }
-
-float shadow_sign(float x) { return x < 0.0 ? -1.0 : 1.0; }
 
 // `p`: aside at depth 1.
 ShadowPlace shadow_place_at(uint light, vec2 p, float w) {
@@ -60,7 +59,7 @@ ShadowPlace shadow_place_face(uint light, vec3 rel) {
   const float w = abs(turned.z);
   precise const vec2 p = turned.xy / w;
   ShadowPlace place = shadow_place_at(light, p, w);
-  const float along = shadow_sign(turned.z);
+  const float along = octahedron_sign(turned.z);
   place.square = 2u * major + (along < 0.0 ? 1u : 0u);
   place.axis = vec3(major == 0u ? along : 0.0, major == 1u ? along : 0.0, major == 2u ? along : 0.0);
   return place;
@@ -69,12 +68,9 @@ ShadowPlace shadow_place_face(uint light, vec3 rel) {
 ShadowPlace shadow_place_octahedron(uint light, vec3 rel) {
   precise const float w = abs(rel.x) + abs(rel.y) + abs(rel.z);
   precise vec2 p = rel.xy / w;
-  if (rel.z < 0.0) {
-    precise const vec2 folded = vec2((1.0 - abs(p.y)) * shadow_sign(p.x), (1.0 - abs(p.x)) * shadow_sign(p.y));
-    p = folded;
-  }
+  if (rel.z < 0.0) p = octahedron_folded(p);
   ShadowPlace place = shadow_place_at(light, p, w);
-  place.axis = vec3(shadow_sign(rel.x), shadow_sign(rel.y), shadow_sign(rel.z)) * 0.57735027;
+  place.axis = vec3(octahedron_sign(rel.x), octahedron_sign(rel.y), octahedron_sign(rel.z)) * 0.57735027;
   return place;
 }
 
@@ -102,15 +98,11 @@ ShadowSquare shadow_square(uint light, uint square) {
   return s;
 }
 
-// A texel around a place, in the atlas: beyond the edge of an octahedron the map goes on beside the middle of that edge,
-// turned around; other squares have a border, and end.
+// A texel around a place, in the atlas: an octahedron goes on beyond its edges; other squares have a border, and end.
 ivec2 shadow_texel_of(ShadowSquare square, ivec2 texel) {
   const int side = square.side;
   ivec2 t = texel;
-  if (square.folds) {
-    if (t.x < 0 || t.x >= side) t = ivec2(t.x < 0 ? -1 - t.x : 2 * side - 1 - t.x, side - 1 - t.y);
-    if (t.y < 0 || t.y >= side) t = ivec2(side - 1 - t.x, t.y < 0 ? -1 - t.y : 2 * side - 1 - t.y);
-  }
+  if (square.folds) t = octahedron_texel(texel, side);
   return square.corner + ivec2(clamp(t.x, 0, side - 1), clamp(t.y, 0, side - 1));
 }
 

@@ -1,10 +1,10 @@
 // How a light's map is cut into blocks of texels, what each of them may light, and how far it reaches.
-// Needs: gl_WorkGroupSize; common/radial_cells.glsl, shadow/parts/radial_reach.glsl.
+// Needs: gl_WorkGroupSize; shadow/parts/radial_cells.glsl, shadow/parts/radial_reach.glsl.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_SHADOW_RADIAL_BLOCKS
 #define LAMP_SHADOW_RADIAL_BLOCKS
 
-const uint BLOCKS = 16u;             // a side of a square, a quarter of a cell's angle and less
+const uint BLOCKS = 16u;             // a side of a square, half of a cell's angle and less
 const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
 const uint LEAST_BLOCK = 2u;         // texels; all round a light single ones say hardly more, and take longer
 const uint DIRECT_SIZE = 4u;         // texels a side: a thread reads a block as small as this alone

@@ -98,7 +98,7 @@ RadialBox radial_box(uint light, uint square, vec2 first, float size) {
     const vec2 p = 0.5 * (low + high);
     const float aside = 0.5 * (high.x - low.x);
     vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (v.z < 0.0) v.xy = vec2((1.0 - abs(p.y)) * shadow_sign(p.x), (1.0 - abs(p.x)) * shadow_sign(p.y));
+    if (v.z < 0.0) v.xy = octahedron_folded(p);
     const vec3 around = vec3(aside, aside, 2.0 * aside);
     return radial_box_around(v - around, v + around, offset);
   }
