@@ -16,8 +16,8 @@ LAMP_CONST OUTLINE_CUT = 1u;    // the same of a light that is cut to its shadow
 LAMP_CONST OUTLINE_MESH = 2u;   // what its shadow map lets it light, without a margin
 LAMP_CONST OUTLINE_BOUND = 3u;  // how far it reaches by direction, a patch for each byte
 
-LAMP_CONST OUTLINE_TRIANGLES = 300u;  // of a light, at most
-LAMP_CONST OUTLINE_VERTICES = 900u;
+LAMP_CONST OUTLINE_TRIANGLES = 512u;  // of a light, at most: two a byte of a bound's finest level
+LAMP_CONST OUTLINE_VERTICES = 3u * OUTLINE_TRIANGLES;
 
 struct OutlineJob {
   uint light;

@@ -18,6 +18,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer RadialBuffer { RadialBound 
 layout(set = 0, binding = 4, scalar) readonly buffer JobBuffer { OutlineJob jobs[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer CornerBuffer { OutlineCorner corners[]; };
 #include "common/light_proxy_mesh.glsl"
+#include "common/octahedron.glsl"
 
 vec3 to_world(vec3 view) { return (frame.world_from_view * vec4(view, 1.0)).xyz; }
 
@@ -39,8 +40,7 @@ vec3 radial_way(uint light, vec2 place) {
   }
   const vec2 p = place * (2.0 / float(RADIAL_SIDE)) - 1.0;
   const float z = 1.0 - abs(p.x) - abs(p.y);
-  const vec2 signs = vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-  return normalize(vec3(z < 0.0 ? (1.0 - abs(p.yx)) * signs : p, z));
+  return normalize(vec3(z < 0.0 ? octahedron_folded(p) : p, z));
 }
 
 vec3 bound_vertex(uint light, uint triangle, uint corner) {
