@@ -313,7 +313,7 @@ bool run(const std::string& file) {
   const double stopped = mean_difference(by_rays, unshadowed);
   const double wrong = mean_difference(by_rays, by_maps);
   std::printf("shadows take %.4f of the light, on average over pixels; %.4f is not what rays say\n", stopped, wrong);
-  return good && stopped > 0.01 && wrong < 0.1 * stopped && mean_walked(cut) < 0.9 * mean_walked(uncut);
+  return good && stopped > 0.01 && wrong < 0.1 * stopped && mean_walked(cut) < 0.95 * mean_walked(uncut);
 }
 
 }  // namespace
