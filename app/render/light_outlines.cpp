@@ -8,12 +8,10 @@
 #include "gpu/transfer.h"
 #include "lamplight/shared/light_mesh.h"
 #include "lamplight/shared/proxy.h"
-#include "lamplight/shared/radial.h"
 #include "render/pass_uses.h"
 
 namespace lamp::app {
 
-static_assert(gpu::OUTLINE_TRIANGLES >= 2 * shared::RADIAL_SIDE * shared::RADIAL_SIDE);
 static_assert(gpu::OUTLINE_TRIANGLES >= shared::MESH_TRIANGLES);
 static_assert(gpu::OUTLINE_VERTICES >= shared::PROXY_VERTICES);
 

@@ -5,6 +5,7 @@
 #define LAMP_LIGHT_OUTLINE_DATA_H
 
 #include "lamplight/shared/glsl.h"
+#include "lamplight/shared/radial.h"
 
 #ifdef __cplusplus
 namespace lamp::app::gpu {
@@ -16,7 +17,7 @@ LAMP_CONST OUTLINE_CUT = 1u;    // the same of a light that is cut to its shadow
 LAMP_CONST OUTLINE_MESH = 2u;   // what its shadow map lets it light, without a margin
 LAMP_CONST OUTLINE_BOUND = 3u;  // how far it reaches by direction, a patch for each byte
 
-LAMP_CONST OUTLINE_TRIANGLES = 512u;  // of a light, at most: two a byte of a bound's finest level
+LAMP_CONST OUTLINE_TRIANGLES = 2u * RADIAL_SIDE * RADIAL_SIDE;  // of a light, at most: a bound's, two a byte
 LAMP_CONST OUTLINE_VERTICES = 3u * OUTLINE_TRIANGLES;
 
 struct OutlineJob {
