@@ -67,7 +67,9 @@ bool compare(Pixels culled, Pixels brute_force, const std::string& file, std::ui
 
 int run_example(int argc, char** argv, bool (*run)(const std::string& file)) {
   try {
-    return run(argc > 1 ? argv[1] : "") ? 0 : 1;
+    if (run(argc > 1 ? argv[1] : "")) return 0;
+    std::fprintf(stderr, "%s: a picture or a number above is not as main.cpp expects it\n", argv[0]);
+    return 1;
   } catch (const vk::FeatureNotPresentError&) {
     std::fprintf(stderr, "%s: the device lacks a feature that this example shows\n", argv[0]);
     return 77;

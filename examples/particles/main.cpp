@@ -175,7 +175,7 @@ bool run(const std::string& file) {
                .height = SIZE.height,
                .light_capacity = LIGHTS,
                .method = "world-cells",
-               .options = {"mean_bricks=9"},  // by default there is enough
+               .options = {"mean_bricks=10"},  // too little at first; by default there is enough
                .light_layout = lamp::LightLayout::interleaved(sizeof(HostLight), offsetof(HostLight, position),
                                                               offsetof(HostLight, direction))}));
   const lamp::vulkan::BoundLookUp lookup = culler.lookup();

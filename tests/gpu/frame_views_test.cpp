@@ -152,7 +152,7 @@ std::vector<LookUpCase> steady_cases() {
   std::vector<LookUpCase> cases = lookup_cases();
   std::erase_if(cases, [](const LookUpCase& c) {
     return c.method != "clustered" && std::ranges::any_of(c.settings, [](const std::string& setting) {
-             return setting.starts_with("mean_capacity=");
+             return setting.starts_with("mean_capacity=") || setting.starts_with("mean_bricks=");
            });
   });
   return cases;
