@@ -4,15 +4,23 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu/context.h"
 #include "lamplight/shadow_atlas.h"
 #include "lamplight/shared/radial.h"
+#include "lamplight/shared/shadow.h"
 #include "render/pass_uses.h"
 #include "render/shader_library.h"
 
 namespace lamp::app {
+
+struct ShadowReachInput {
+  vulkan::Resource maps;                         ///< the buffer of all maps
+  std::span<const shared::ShadowMap> host_maps;  ///< the same
+  const GpuImage& atlas;                         ///< depths
+};
 
 class ShadowReach {
  public:
@@ -20,12 +28,11 @@ class ShadowReach {
 
   /// At first nothing is known of any light.
   ShadowReach(const vulkan::Device& device, const ShaderLibrary& shaders, Kind kind, ShadowFilter filter,
-              std::uint32_t light_capacity, std::uint32_t atlas_size);
+              std::uint32_t light_capacity);
 
   /// For the next `record`, with those that are still to be done.
   void add(std::span<const shared::RadialJob> jobs);
-  /// `maps`: the buffer of all maps; `atlas`: depths.
-  void record(vulkan::Recorder& recorder, const vulkan::Resource& maps, const GpuImage& atlas);
+  void record(vulkan::Recorder& recorder, const ShadowReachInput& input);
 
   /// What the next `record` makes.
   [[nodiscard]] std::vector<shared::RadialJob> pending() const;
@@ -36,10 +43,11 @@ class ShadowReach {
  private:
   void record_nothing_known(vulkan::Recorder& recorder);
 
-  const char* name_;
+  Kind kind_;
   vulkan::Buffer buffer_;
   vulkan::Buffer jobs_;
-  vulkan::Pipeline pipeline_;
+  std::vector<vulkan::Pipeline> pipelines_;                ///< for many lights, for few
+  vulkan::Pipeline clear_;                                 ///< before several groups make a bound
   std::vector<std::optional<shared::RadialJob>> pending_;  ///< by light
   bool begun_ = false;
 };

@@ -139,7 +139,7 @@ void Shadows::set_pending(const Pending& pending) {
 void Shadows::need(ShadowReach::Kind kind) {
   std::optional<ShadowReach>& reach = reaches_[static_cast<std::size_t>(kind)];
   if (reach) return;
-  reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_, settings_.atlas_size);
+  reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_);
   if (!bounds_lights()) return;
   std::vector<shared::RadialJob> jobs;
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
@@ -150,7 +150,9 @@ void Shadows::need(ShadowReach::Kind kind) {
 void Shadows::record_reach(vulkan::Recorder& recorder) {
   record(recorder);
   for (std::optional<ShadowReach>& reach : reaches_)
-    if (reach) reach->record(recorder, vulkan::Resource::storage(map_buffer_.handle()), atlas());
+    if (reach)
+      reach->record(recorder,
+                    {.maps = vulkan::Resource::storage(map_buffer_.handle()), .host_maps = maps_, .atlas = atlas()});
 }
 
 const vulkan::Buffer* Shadows::reach(ShadowReach::Kind kind) const {

@@ -88,20 +88,25 @@ std::vector<float> shadows_of(const std::vector<shared::ShadowCase>& cases, cons
   return contents<float>(shadow);
 }
 
-ShadowReach reach_of(ShadowReach::Kind kind, const LitLights& lit, const GpuImage& atlas, ShadowFilter filter) {
-  const auto count = static_cast<std::uint32_t>(lit.lights.size());
+void make_reach(ShadowReach& reach, const LitLights& lit, const GpuImage& atlas) {
   const vulkan::Buffer map_buffer = host_buffer_of("maps", lit.maps);
-  ShadowReach reach(test_context().device(), shader_library(), kind, filter, count, LIT_ATLAS);
   std::vector<shared::RadialJob> jobs;
-  for (std::uint32_t i = 0; i < count; ++i)
+  for (std::uint32_t i = 0; i < lit.lights.size(); ++i)
     jobs.push_back({.light = i, .shows_all = shadow_shows_all(lit.maps[i], lit.lights[i]) ? 1U : 0U});
   reach.add(jobs);
   vulkan::AccessTracker tracker;
   tracker.assume(atlas.sampled());
   test_context().submit([&](VkCommandBuffer commands) {
     vulkan::Recorder recorder(test_context().device(), commands, tracker);
-    reach.record(recorder, vulkan::Resource::storage(map_buffer.handle()), atlas);
+    reach.record(recorder,
+                 {.maps = vulkan::Resource::storage(map_buffer.handle()), .host_maps = lit.maps, .atlas = atlas});
   });
+}
+
+ShadowReach reach_of(ShadowReach::Kind kind, const LitLights& lit, const GpuImage& atlas, ShadowFilter filter) {
+  ShadowReach reach(test_context().device(), shader_library(), kind, filter,
+                    static_cast<std::uint32_t>(lit.lights.size()));
+  make_reach(reach, lit, atlas);
   return reach;
 }
 

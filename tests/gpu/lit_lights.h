@@ -33,7 +33,8 @@ struct LitLights {
 /// What shadow_of says of each case.
 [[nodiscard]] std::vector<float> shadows_of(const std::vector<shared::ShadowCase>& cases, const LitLights& lit,
                                             const GpuImage& atlas, ShadowFilter filter);
-/// Radial bounds, or meshes, of all lights.
+/// Makes radial bounds, or meshes, of all lights, as often as it is called.
+void make_reach(ShadowReach& reach, const LitLights& lit, const GpuImage& atlas);
 [[nodiscard]] ShadowReach reach_of(ShadowReach::Kind kind, const LitLights& lit, const GpuImage& atlas,
                                    ShadowFilter filter);
 

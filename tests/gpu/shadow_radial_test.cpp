@@ -2,6 +2,7 @@
 // seeds; and bounds cut what lies in shadow.
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cstring>
 
 #include "gpu/lit_lights.h"
 
@@ -9,6 +10,14 @@ namespace lamp::app {
 namespace {
 
 using shared::ShadowCase;
+
+std::vector<shared::RadialBound> bounds_in(const vulkan::Buffer& buffer, std::size_t count) {
+  const VkBufferCopy all{.size = count * sizeof(shared::RadialBound)};
+  const vulkan::Buffer copy = host_buffer("bounds", all.size);
+  test_context().submit(
+      [&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, buffer.handle(), copy.handle(), 1, &all); });
+  return contents<shared::RadialBound>(copy);
+}
 
 class ShadowRadialBounds : public GpuTest, public ::testing::WithParamInterface<ShadowFilter> {};
 
@@ -48,6 +57,29 @@ TEST_P(ShadowRadialBounds, HoldEverythingThatIsLit) {
       EXPECT_GT(found[light][1], found[light][0] / 16) << "light " << light << " is hardly cut";
     }
   }
+}
+
+/// Of the few lights that a device has to spare for, several groups make one bound.
+TEST_P(ShadowRadialBounds, AreTheSameHoweverManyGroupsMakeThem) {
+  Random random(6);
+  const LitLights few = some_lit_lights(GetParam());
+  LitLights many;
+  while (many.lights.size() < 200) {
+    many.lights.insert(many.lights.end(), few.lights.begin(), few.lights.end());
+    many.maps.insert(many.maps.end(), few.maps.begin(), few.maps.end());
+  }
+  const GpuImage atlas = depth_image(LIT_ATLAS, LIT_ATLAS, some_wall_depths(random));
+  const GpuImage far_atlas = depth_image(LIT_ATLAS, LIT_ATLAS, std::vector(std::size_t{LIT_ATLAS} * LIT_ATLAS, 0.0F));
+  const auto bounds_of = [&](const LitLights& lit) {
+    ShadowReach reach = reach_of(ShadowReach::Kind::radial, lit, far_atlas, GetParam());
+    make_reach(reach, lit, atlas);  // nothing is left of larger bounds
+    return bounds_in(reach.buffer(), lit.lights.size());
+  };
+  const std::vector<shared::RadialBound> of_few = bounds_of(few);
+  const std::vector<shared::RadialBound> of_many = bounds_of(many);
+  ASSERT_EQ(of_many.size(), many.lights.size());
+  for (std::size_t i = 0; i < of_many.size(); ++i)
+    EXPECT_EQ(std::memcmp(&of_many[i], &of_few[i % of_few.size()], sizeof(of_many[i])), 0) << "light " << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ShadowRadialBounds, ::testing::Values(ShadowFilter::hard, ShadowFilter::pcf),

@@ -11,8 +11,6 @@
 
 layout(set = 0, binding = RADIAL_BINDING, scalar) readonly buffer RadialBuffer { RadialBound radial_bounds[]; };
 
-const float RADIAL_MOST_SINE = 0.7;  // of a sphere's angle: nearer ones are reached
-
 // Byte (x, y) of a level; beside an octahedron's square, that of the same direction.
 uint radial_byte(uint light, uint level, ivec2 at) {
   const int n = int(radial_side(level));

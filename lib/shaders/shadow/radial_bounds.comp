@@ -1,6 +1,6 @@
-// Radial bounds (shared/radial.h) of lights from their shadow maps: a work group a light. A block of texels may light
-// points whose directions lie around it, by what taps and the normal offset move; each cell that such a direction
-// touches must reach as far as the farthest of them.
+// Radial bounds (shared/radial.h) of lights from their shadow maps: a work group a light, or several, each with some rows
+// of the map's blocks. A block of texels may light points whose directions lie around it, by what taps and the normal
+// offset move; each cell that such a direction touches must reach as far as the farthest of them.
 // Promise: shadow_of of the same map and filter is 0 beyond the bound. docs/methods/shadow-maps.md has the reasoning.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
@@ -10,41 +10,36 @@
 #define SHADOW_FIRST_CONSTANT 0
 #include "common/atomic_load.glsl"
 #include "shadow/parts/radial_cells.glsl"
-#include "shadow/parts/radial_reach.glsl"
 
-layout(local_size_x_id = 1, local_size_x = 256) in;  // many threads are fast where few lights have large maps
+layout(local_size_x_id = 1, local_size_x = 256) in;  // many idle with a small map
 #include "shadow/parts/radial_blocks.glsl"
 
 layout(set = 0, binding = 3, scalar) readonly buffer JobBuffer { RadialJob jobs[]; };
-layout(set = 0, binding = 4, scalar) writeonly buffer BoundBuffer { RadialBound bounds[]; };
+layout(set = 0, binding = 4, scalar) buffer BoundBuffer { RadialBound bounds[]; };
 layout(push_constant) uniform Push { uint job_count; };
 
 const uint CELLS = RADIAL_SIDE * RADIAL_SIDE / 3u * 4u;  // of all levels and more
 shared uint s_cells[CELLS];
 
 // Most blocks find that others reach farther.
-void reach(RadialCells cells, uint value) {
-  if (!cells.any) return;
-  for (uint y = cells.first.y; y <= cells.last.y; ++y) {
-    for (uint x = cells.first.x; x <= cells.last.x; ++x) {
-      const uint cell = y * RADIAL_SIDE + x;
+void reach(RadialArea cells, uint value) {
+  for (int y = cells.low.y; y <= cells.high.y; ++y) {
+    for (int x = cells.low.x; x <= cells.high.x; ++x) {
+      const ivec2 at = octahedron_texel(ivec2(x, y), int(RADIAL_SIDE));  // a spot's lie all inside
+      const uint cell = uint(at.y) * RADIAL_SIDE + uint(at.x);
       if (LOAD_OF_GROUP(s_cells[cell]) < value) atomicMax(s_cells[cell], value);
     }
   }
 }
 
 void reach_of_block(uint light, Cut cut, uint block, float unit_m, float cells_scale) {
-  const float stored = cut.size > DIRECT_SIZE ? uintBitsToFloat(s_nearest_stored[block])
+  const float stored = int(cut.size) > DIRECT_SIZE ? uintBitsToFloat(s_nearest_stored[block])
                                               : farthest_of_block(light, cut, block);
-  const RadialBox box = radial_box(light, square_of(cut, block), vec2(place_of(cut, block)), float(cut.size));
-  const float reach_m = radial_farthest_lit(light, radial_depth_of(light, stored)) * radial_longest(light, box);
+  const RadialReach reaches = radial_reach_of(light, square_of(cut, block), vec2(place_of(cut, block)),
+                                              float(cut.size), cells_scale);
+  const float reach_m = radial_farthest_lit(light, radial_depth_of(light, stored)) * reaches.farthest;
   const uint value = reach_m < unit_m * float(RADIAL_ANY - 1u) ? uint(reach_m / unit_m * 1.00001) + 1u : RADIAL_ANY;
-  if (cut.kind == SHADOW_SPOT) {
-    reach(radial_cells_of_spot(cells_scale, box.low, box.high), value);
-  } else {
-    for (uint octants = radial_octants(box.low, box.high); octants != 0u; octants &= octants - 1u)
-      reach(radial_cells_of_octant(uint(findLSB(octants)), box.low, box.high), value);
-  }
+  reach(reaches.cells, value);
 }
 
 float cells_scale_of(uint light) {
@@ -66,8 +61,24 @@ void fill_levels() {
   }
 }
 
-void write_bound(uint light, bool known, float unit_m, float cells_scale) {
-  if (gl_LocalInvocationIndex == 0u) {
+uint larger_bytes(uint a, uint b) {
+  uint larger = 0u;
+  for (uint k = 0u; k < 32u; k += 8u) larger |= max(a >> k & 255u, b >> k & 255u) << k;
+  return larger;
+}
+
+void enlarge(uint light, uint i, uint word) {
+  uint found = 0u;
+  for (uint wanted = word; wanted != found; wanted = larger_bytes(found, word)) {
+    const uint expected = found;
+    found = atomicCompSwap(bounds[light].bytes[i / 4u][i % 4u], expected, wanted);
+    if (found == expected) return;
+  }
+}
+
+void write_bound(RadialJob job, bool known, float unit_m, float cells_scale) {
+  const uint light = job.light;
+  if (gl_LocalInvocationIndex == 0u && job.part == 0u) {
     bounds[light].position = shadow_maps[light].position;
     bounds[light].kind =
         !known ? RADIAL_NONE : shadow_maps[light].kind == SHADOW_SPOT ? RADIAL_SPOT : RADIAL_OCTAHEDRON;
@@ -79,7 +90,12 @@ void write_bound(uint light, bool known, float unit_m, float cells_scale) {
   for (uint i = gl_LocalInvocationIndex; i < radial_first(RADIAL_LEVELS) / 4u; i += gl_WorkGroupSize.x) {
     uint word = 0u;
     for (uint k = 0u; k < 4u; ++k) word |= s_cells[4u * i + k] << (8u * k);
-    bounds[light].bytes[i / 4u][i % 4u] = known ? word : 0u;
+    if (!known) word = 0u;
+    if (job.parts > 1u) {
+      enlarge(light, i, word);
+    } else {
+      STORE_OF_DEVICE(bounds[light].bytes[i / 4u][i % 4u], word);
+    }
   }
 }
 
@@ -87,24 +103,28 @@ void main() {
   const uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   if (number >= job_count) return;
   const uint thread = gl_LocalInvocationIndex;
-  const uint light = jobs[number].light;
-  const bool known =
-      jobs[number].shows_all != 0u && shadow_maps[light].kind != SHADOW_NONE && radial_is_bounded(light);
+  const RadialJob job = jobs[number];
+  const uint light = job.light;
+  const bool known = job.shows_all != 0u && shadow_maps[light].kind != SHADOW_NONE && radial_is_bounded(light);
   const float unit_m = shadow_maps[light].range_m / float(RADIAL_ANY);
   const float cells_scale = cells_scale_of(light);
   for (uint i = thread; i < RADIAL_SIDE * RADIAL_SIDE; i += gl_WorkGroupSize.x) s_cells[i] = 0u;
   if (known) {
     const Cut cut = cut_of(light);
-    const bool by_columns = cut.size > DIRECT_SIZE;
-    for (uint i = thread; by_columns && i < cut.all_blocks; i += gl_WorkGroupSize.x)
+    const bool by_columns = int(cut.size) > DIRECT_SIZE;
+    const uint parts = max(job.parts, 1u);
+    const uint rows = cut.all_blocks >> cut.block_bits;
+    const uint first = rows * job.part / parts << cut.block_bits;
+    const uint end = rows * (job.part + 1u) / parts << cut.block_bits;
+    for (uint i = first + thread; by_columns && i < end; i += gl_WorkGroupSize.x)
       s_nearest_stored[i] = floatBitsToUint(1.0);
     barrier();  // initial values before texels are nearer, and blocks reach farther
-    if (by_columns) farthest_of_blocks(light, cut);
+    if (by_columns) farthest_of_blocks(light, cut, first, end);
     if (by_columns) barrier();  // all texels before blocks reach
-    for (uint block = thread; block < cut.all_blocks; block += gl_WorkGroupSize.x)
+    for (uint block = first + thread; block < end; block += gl_WorkGroupSize.x)
       reach_of_block(light, cut, block, unit_m, cells_scale);
   }
   barrier();  // all blocks before the cells of the next level
   fill_levels();
-  write_bound(light, known, unit_m, cells_scale);
+  write_bound(job, known, unit_m, cells_scale);
 }

@@ -271,7 +271,8 @@ void ShadowAtlas::State::list_radial_jobs(const ShadowFrameInfo& frame) {
                       .kind = maps[i].kind,
                       .square = maps[i].squares[0],
                       .shows_all = shadow_shows_all(maps[i], frame.lights[i]) ? 1U : 0U};
-    if (std::exchange(bounded[i], now) != now) radial_jobs.push_back({.light = i, .shows_all = now.shows_all});
+    if (std::exchange(bounded[i], now) != now)
+      radial_jobs.push_back({.light = i, .shows_all = now.shows_all, .parts = 1});
   }
 }
 

@@ -35,10 +35,14 @@ struct RadialBound {
 };
 
 // A light whose bound is to be made: its index, and whether its map shows all that it reaches now (shadow_shows_all).
+// Several work groups may share a large map: as many jobs, one for each part, after shadow/clear_radial_bounds.
 struct RadialJob {
   uint light;
   uint shows_all;
+  uint part;   // 0 .. parts - 1
+  uint parts;  // 0 and 1: the whole map; at most RADIAL_MOST_PARTS
 };
+LAMP_CONST RADIAL_MOST_PARTS = 8u;
 
 #ifdef __cplusplus
 static_assert(sizeof(RadialBound) == 384);

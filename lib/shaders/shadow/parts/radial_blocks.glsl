@@ -6,8 +6,10 @@
 
 const uint BLOCKS = 16u;             // a side of a square, half of a cell's angle and less
 const uint OCTAHEDRON_BLOCKS = 32u;  // which holds all directions
-const uint LEAST_BLOCK = 2u;         // texels; all round a light single ones say hardly more, and take longer
-const uint DIRECT_SIZE = 4u;         // texels a side: a thread reads a block as small as this alone
+// Texels: all around a light smaller ones say hardly more, since taps and offsets are as large, and take longer.
+const uint LEAST_BLOCK = 4u;
+const uint LEAST_OCTAHEDRON_BLOCK = 2u;
+const int DIRECT_SIZE = 4;  // texels a side: a thread reads a block as small as this alone
 const uint MOST_BLOCKS = max(OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS, SQUARES_A_LIGHT * BLOCKS * BLOCKS);
 shared uint s_nearest_stored[MOST_BLOCKS];  // bits of near / w of a larger block's farthest texel
 
@@ -25,8 +27,8 @@ Cut cut_of(uint light) {
   Cut cut;
   cut.kind = shadow_maps[light].kind;
   cut.side = max(shadow_maps[light].side, LEAST_SQUARE);
-  cut.blocks = min(cut.side / (cut.kind == SHADOW_SPOT ? 1u : LEAST_BLOCK),
-                   cut.kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
+  const uint least = cut.kind == SHADOW_SPOT ? 1u : cut.kind == SHADOW_FACES ? LEAST_BLOCK : LEAST_OCTAHEDRON_BLOCK;
+  cut.blocks = min(cut.side / least, cut.kind == SHADOW_OCTAHEDRON ? OCTAHEDRON_BLOCKS : BLOCKS);
   cut.block_bits = uint(findMSB(cut.blocks));
   cut.size = cut.side >> cut.block_bits;
   cut.all_blocks = (cut.kind == SHADOW_FACES ? SQUARES_A_LIGHT : 1u) << (2u * cut.block_bits);
@@ -40,16 +42,16 @@ uvec2 place_of(Cut cut, uint block) {
   return (uvec2(block, block >> cut.block_bits) & (cut.blocks - 1u)) * cut.size;
 }
 
-// A thread takes a column of a block; those of a row of blocks lie together in memory.
-void farthest_of_blocks(uint light, Cut cut) {
+// Of whole rows of blocks. A thread takes a column of a block; those of a row lie together in memory.
+void farthest_of_blocks(uint light, Cut cut, uint first, uint end) {
   const uint side_bits = uint(findMSB(cut.side));
-  const uint columns = cut.all_blocks * cut.size;
-  for (uint column = gl_LocalInvocationIndex; column < columns; column += gl_WorkGroupSize.x) {
+  const uint last = end * cut.size;
+  for (uint column = first * cut.size + gl_LocalInvocationIndex; column < last; column += gl_WorkGroupSize.x) {
     const uint row = column >> side_bits;  // of blocks, in all squares
     const uint x = column & (cut.side - 1u);
-    const ivec2 first = ivec2(x, (row & (cut.blocks - 1u)) * cut.size);
+    const ivec2 texel = ivec2(x, (row & (cut.blocks - 1u)) * cut.size);
     const float stored =
-        radial_least_of_column(shadow_square(light, row >> cut.block_bits), first, int(cut.size));
+        radial_least_of_column(shadow_square(light, row >> cut.block_bits), texel, int(cut.size));
     atomicMin(s_nearest_stored[(row << cut.block_bits) + x / cut.size], floatBitsToUint(stored));
   }
 }
@@ -57,18 +59,14 @@ void farthest_of_blocks(uint light, Cut cut) {
 float farthest_of_block(uint light, Cut cut, uint block) {
   const ShadowSquare square = shadow_square(light, square_of(cut, block));
   const ivec2 first = ivec2(place_of(cut, block));
-  float least = 1.0;
-  for (int y = 0; y < int(cut.size); y += 2) {
-    for (int x = 0; x < int(cut.size); x += 2) {
-      float stored[4];
-      [[unroll]] for (int i = 0; i < 4; ++i) {
-        const ivec2 at = ivec2(x + i % 2, y + i / 2);
-        stored[i] = 1.0;
-        if (max(at.x, at.y) < int(cut.size)) stored[i] = SHADOW_TEXEL(shadow_atlas, square.corner + first + at).x;
-      }
-      least = min(least, min(min(stored[0], stored[1]), min(stored[2], stored[3])));
-    }
+  float stored[DIRECT_SIZE * DIRECT_SIZE];  // all are asked for before the first is waited for
+  [[unroll]] for (int i = 0; i < DIRECT_SIZE * DIRECT_SIZE; ++i) {
+    const ivec2 at = ivec2(i % DIRECT_SIZE, i / DIRECT_SIZE);
+    stored[i] = 1.0;
+    if (max(at.x, at.y) < int(cut.size)) stored[i] = SHADOW_TEXEL(shadow_atlas, square.corner + first + at).x;
   }
+  float least = 1.0;
+  [[unroll]] for (int i = 0; i < DIRECT_SIZE * DIRECT_SIZE; ++i) least = min(least, stored[i]);
   return max(least, 0.0);
 }
 

@@ -43,6 +43,11 @@ float radial_taps(uint light) {
   return radial_offset_taps(light);
 }
 
+// The same over depths of 1, and somewhat more: where rounding may take a place.
+float radial_taps_aside(uint light) {
+  return (radial_taps(light) + RADIAL_PLACE_ROUNDING) / shadow_maps[light].scale;
+}
+
 // h over M's depth; negative: without bound.
 float radial_offset(uint light) {
   const float folded = shadow_fold(light);
@@ -90,10 +95,10 @@ RadialBox radial_box_around(vec3 low, vec3 high, float offset) { return RadialBo
 RadialBox radial_box(uint light, uint square, vec2 first, float size) {
   const float scale = shadow_maps[light].scale;
   const float middle = 0.5 * float(shadow_maps[light].side);
-  const float taps = radial_taps(light) + RADIAL_PLACE_ROUNDING;
+  const float taps = radial_taps_aside(light);
   const float offset = radial_offset(light);
-  const vec2 low = (first - taps - middle) / scale;
-  const vec2 high = (first + size + taps - middle) / scale;
+  const vec2 low = (first - middle) / scale - taps;
+  const vec2 high = (first + size - middle) / scale + taps;
   if (shadow_maps[light].kind == SHADOW_OCTAHEDRON) {
     const vec2 p = 0.5 * (low + high);
     const float aside = 0.5 * (high.x - low.x);
