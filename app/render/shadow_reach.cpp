@@ -65,7 +65,7 @@ std::uint32_t parts_of(const shared::ShadowMap& map, std::uint32_t texels) {
 std::vector<shared::RadialJob> in_parts(std::vector<shared::RadialJob> whole, std::span<const shared::ShadowMap> maps) {
   const std::uint32_t texels = (whole.size() <= FEW_LIGHTS ? FOR_FEW : FOR_MANY).texels;
   for (shared::RadialJob& job : whole) job.parts = job.light < maps.size() ? parts_of(maps[job.light], texels) : 1;
-  std::ranges::stable_sort(whole, std::greater(), &shared::RadialJob::parts);
+  std::ranges::sort(whole, std::greater(), [](const auto& job) { return std::pair(job.parts, ~job.light); });
   std::size_t spare = SPARE_JOBS;
   std::vector<shared::RadialJob> jobs;
   for (shared::RadialJob job : whole) {

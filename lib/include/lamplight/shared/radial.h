@@ -42,7 +42,7 @@ struct RadialJob {
   uint part;   // 0 .. parts - 1
   uint parts;  // 0 and 1: the whole map; at most RADIAL_MOST_PARTS
 };
-LAMP_CONST RADIAL_MOST_PARTS = 8u;
+LAMP_CONST RADIAL_MOST_PARTS = 16u;
 
 #ifdef __cplusplus
 static_assert(sizeof(RadialBound) == 384);
