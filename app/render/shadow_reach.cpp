@@ -3,7 +3,6 @@
 #include "render/shadow_reach.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <functional>
 #include <utility>
@@ -44,16 +43,13 @@ Made made(ShadowReach::Kind kind) {
   return {"radial bounds", "shadow/radial_bounds", sizeof(shared::RadialBound)};
 }
 
-/// Constant 1 of the shader: threads of a group; or the side of the lattice on which meshes are fitted, finer where
-/// shared memory has room for it. For many lights and for few.
-std::array<std::uint32_t, 2> second_constants(const vulkan::Device& device, ShadowReach::Kind kind) {
+/// Constant 1 of the shader, of each pipeline: threads of a group, for many lights and for few; or the side of the
+/// lattice on which meshes are fitted, finer where shared memory has room for it.
+std::vector<std::uint32_t> second_constants(const vulkan::Device& device, ShadowReach::Kind kind) {
   constexpr std::uint32_t FINE_BYTES = 24576;
-  if (kind == ShadowReach::Kind::radial) {
-    const std::uint32_t most = device.traits.max_group_invocations;
-    return {std::min(FOR_MANY.threads, most), std::min(FOR_FEW.threads, most)};
-  }
-  const std::uint32_t side = device.traits.shared_memory_bytes >= FINE_BYTES ? 6 : 4;
-  return {side, side};
+  if (kind == ShadowReach::Kind::meshes) return {device.traits.shared_memory_bytes >= FINE_BYTES ? 6U : 4U};
+  const std::uint32_t most = device.traits.max_group_invocations;
+  return {std::min(FOR_MANY.threads, most), std::min(FOR_FEW.threads, most)};
 }
 
 std::uint32_t parts_of(const shared::ShadowMap& map, std::uint32_t texels) {
@@ -62,8 +58,8 @@ std::uint32_t parts_of(const shared::ShadowMap& map, std::uint32_t texels) {
 }
 
 /// Lights with several parts first, the largest before others, since the pass lasts until the last group is done.
-std::vector<shared::RadialJob> in_parts(std::vector<shared::RadialJob> whole, std::span<const shared::ShadowMap> maps) {
-  const std::uint32_t texels = (whole.size() <= FEW_LIGHTS ? FOR_FEW : FOR_MANY).texels;
+std::vector<shared::RadialJob> in_parts(std::vector<shared::RadialJob> whole, std::span<const shared::ShadowMap> maps,
+                                        std::uint32_t texels) {
   for (shared::RadialJob& job : whole) job.parts = job.light < maps.size() ? parts_of(maps[job.light], texels) : 1;
   std::ranges::sort(whole, std::greater(), [](const auto& job) { return std::pair(job.parts, ~job.light); });
   std::size_t spare = SPARE_JOBS;
@@ -108,6 +104,7 @@ ShadowReach::ShadowReach(const vulkan::Device& device, const ShaderLibrary& shad
                                         .bindings = {{0}, {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {3}, {4}},
                                         .push_constant_bytes = sizeof(std::uint32_t)},
                                        shaders.spirv(shader))));
+  if (kind == Kind::meshes) return;
   clear_ = take(vulkan::Pipeline::compute(
       device, {.name = "clear radial bounds", .bindings = {{3}, {4}}, .push_constant_bytes = sizeof(std::uint32_t)},
       shaders.spirv("shadow/clear_radial_bounds")));
@@ -137,8 +134,9 @@ void ShadowReach::record(vulkan::Recorder& recorder, const ShadowReachInput& inp
   if (!std::exchange(begun_, true)) record_nothing_known(recorder);
   std::vector<shared::RadialJob> jobs = pending();
   if (jobs.empty()) return;
-  const vulkan::Pipeline& pipeline = pipelines_[jobs.size() <= FEW_LIGHTS ? 1 : 0];
-  if (kind_ == Kind::radial) jobs = in_parts(std::move(jobs), input.host_maps);
+  const bool few = jobs.size() <= FEW_LIGHTS;
+  const vulkan::Pipeline& pipeline = few ? pipelines_.back() : pipelines_.front();
+  if (kind_ == Kind::radial) jobs = in_parts(std::move(jobs), input.host_maps, (few ? FOR_FEW : FOR_MANY).texels);
   std::memcpy(jobs_.mapped().data(), jobs.data(), jobs.size() * sizeof(jobs[0]));
   std::ranges::fill(pending_, std::nullopt);
   const vulkan::Bound job_buffer{3, vulkan::Resource::storage(jobs_.handle())};

@@ -46,8 +46,8 @@ class ShadowReach {
   Kind kind_;
   vulkan::Buffer buffer_;
   vulkan::Buffer jobs_;
-  std::vector<vulkan::Pipeline> pipelines_;                ///< for many lights, for few
-  vulkan::Pipeline clear_;                                 ///< before several groups make a bound
+  std::vector<vulkan::Pipeline> pipelines_;                ///< for many lights, for few; of meshes one
+  vulkan::Pipeline clear_;                                 ///< before several groups make a bound; meshes have none
   std::vector<std::optional<shared::RadialJob>> pending_;  ///< by light
   bool begun_ = false;
 };

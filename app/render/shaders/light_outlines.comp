@@ -38,9 +38,7 @@ vec3 radial_way(uint light, vec2 place) {
     const vec2 aside = (place - 0.5 * float(RADIAL_SIDE)) / radial_bounds[light].scale;
     return normalize(mat3(x, cross(z, x), z) * vec3(aside, 1.0));
   }
-  const vec2 p = place * (2.0 / float(RADIAL_SIDE)) - 1.0;
-  const float z = 1.0 - abs(p.x) - abs(p.y);
-  return normalize(vec3(z < 0.0 ? octahedron_folded(p) : p, z));
+  return normalize(octahedron_point(place * (2.0 / float(RADIAL_SIDE)) - 1.0));
 }
 
 vec3 bound_vertex(uint light, uint triangle, uint corner) {

@@ -25,7 +25,7 @@ void main() {
   const ivec2 texel = ivec2(gl_GlobalInvocationID.xy) - int(PROBE_BORDER);
   if (any(greaterThan(texel, ivec2(side)))) return;
   const vec2 place = (vec2(octahedron_texel(texel, int(side))) + 0.5) * (2.0 / float(side)) - 1.0;
-  const vec3 normal = normalize(probe_point(place));
+  const vec3 normal = normalize(octahedron_point(place));
   const float roughness = PROBE_SHARP + PROBE_STEP * float(push.level);
   const float a2 = roughness * roughness * roughness * roughness;
   vec3 sum = vec3(0.0);

@@ -13,6 +13,13 @@ vec2 octahedron_folded(vec2 p) {
   return folded;
 }
 
+// The octahedron's point at a place on the square. The solid angle of an area there is the area over the cube of the
+// point's distance, up to a factor.
+vec3 octahedron_point(vec2 p) {
+  const float z = 1.0 - abs(p.x) - abs(p.y);
+  return vec3(z < 0.0 ? octahedron_folded(p) : p, z);
+}
+
 // A texel of a square of side x side: beyond an edge the octahedron goes on beside the middle of that edge, turned
 // around.
 ivec2 octahedron_texel(ivec2 texel, int side) {

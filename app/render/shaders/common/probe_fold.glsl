@@ -15,7 +15,7 @@ vec4 folded_faces(uvec2 texel, uint side, out float weight) {
   for (uint y = 0u; y < points; ++y) {
     for (uint x = 0u; x < points; ++x) {
       const vec2 place = (vec2(texel * points + uvec2(x, y)) + 0.5) * (2.0 / float(FOLD_POINTS)) - 1.0;
-      const vec3 point = probe_point(place);
+      const vec3 point = octahedron_point(place);
       const float inverse = inversesqrt(dot(point, point));
       const float area = inverse * inverse * inverse;
       sum += area * faces[face_pixel(point)];

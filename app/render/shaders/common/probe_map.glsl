@@ -14,13 +14,6 @@ vec2 probe_place(vec3 direction) {
   return direction.z >= 0.0 ? p : octahedron_folded(p);
 }
 
-// The point of the octahedron |x| + |y| + |z| = 1. The solid angle of an area there is the area over the cube of the
-// point's distance, up to a factor.
-vec3 probe_point(vec2 place) {
-  const float z = 1.0 - abs(place.x) - abs(place.y);
-  return vec3(z >= 0.0 ? place : octahedron_folded(place), z);
-}
-
 uvec2 probe_level_origin(uint level) { return uvec2(probe_level_x(level), probe_level_y(level)); }
 
 // A face of the cube looks along an axis: +x, -x, +y, -y, +z, -z.

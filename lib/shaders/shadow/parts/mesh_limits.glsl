@@ -50,7 +50,7 @@ void limit_block(uint light, uint square, uvec2 first, uint size) {
     stored = min(stored, radial_least_of_column(texels, ivec2(first) + ivec2(x, 0), int(size)));
   const RadialBox box = radial_box(light, square, vec2(first), float(size));
   const float w = radial_farthest_lit(light, radial_depth_of(light, stored));
-  const float spread = 1.001 * MESH_SPREAD * length(max(abs(box.low), abs(box.high)));
+  const float spread = 1.001 * MESH_SPREAD * radial_longest(box);
   const vec3 low = box.low - spread;
   const vec3 high = box.high + spread;
   if (g_kind == MESH_SPOT) limit_face(0u, low, high, w);

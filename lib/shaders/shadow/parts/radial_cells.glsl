@@ -21,9 +21,6 @@ struct RadialBlock {
   float farthest;
 };
 
-// Coordinates of a face as those of the world: its axis is the third.
-vec3 radial_turned(uint square, vec3 v) { return square / 2u == 0u ? v.zxy : square / 2u == 1u ? v.yzx : v; }
-
 // On the square, along one side, when a place on a face moves along both of its sides by 1; `sum`: at most |x| + |y| + |z|,
 // of which the face's own is 1. What is x / s there changes by at most (1 + |y|) / s^2 + |x| / s^2 = 1 / s, and what is
 // 1 / s by 2 / s^2.
@@ -60,8 +57,7 @@ RadialBlock radial_block_of_octahedron(uint light, vec2 low, vec2 high) {
   const vec2 p = 0.5 * (low + high);
   const float taps = radial_taps_aside(light);
   const float aside = 0.5 * (high.x - low.x) + taps;
-  vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-  if (v.z < 0.0) v.xy = octahedron_folded(p);
+  const vec3 v = octahedron_point(p);
   RadialBlock block;
   block.low = low - taps;
   block.high = high + taps;
@@ -104,7 +100,7 @@ struct RadialReach {
 RadialReach radial_reach_of(uint light, uint square, vec2 first, float size, float cells_scale) {
   if (shadow_maps[light].kind == SHADOW_SPOT) {
     const RadialBox box = radial_box(light, square, first, size);
-    return RadialReach(radial_area_of_box(cells_scale, box.low, box.high), radial_longest(light, box));
+    return RadialReach(radial_area_of_box(cells_scale, box.low, box.high), radial_longest(box));
   }
   const float scale = shadow_maps[light].scale;
   const float middle = 0.5 * float(shadow_maps[light].side);

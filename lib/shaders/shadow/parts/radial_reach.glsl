@@ -90,6 +90,9 @@ float radial_farthest_lit(uint light, float w) {
   return lit < 0.99 ? lit * longest : RADIAL_UNBOUNDED;  // depths are cut off at 1
 }
 
+// Coordinates of a face as those of the world: its axis is the third.
+vec3 radial_turned(uint square, vec3 v) { return square / 2u == 0u ? v.zxy : square / 2u == 1u ? v.yzx : v; }
+
 RadialBox radial_box_around(vec3 low, vec3 high, float offset) { return RadialBox(low - offset, high + offset); }
 
 RadialBox radial_box(uint light, uint square, vec2 first, float size) {
@@ -100,26 +103,17 @@ RadialBox radial_box(uint light, uint square, vec2 first, float size) {
   const vec2 low = (first - middle) / scale - taps;
   const vec2 high = (first + size - middle) / scale + taps;
   if (shadow_maps[light].kind == SHADOW_OCTAHEDRON) {
-    const vec2 p = 0.5 * (low + high);
+    const vec3 v = octahedron_point(0.5 * (low + high));
     const float aside = 0.5 * (high.x - low.x);
-    vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (v.z < 0.0) v.xy = octahedron_folded(p);
     const vec3 around = vec3(aside, aside, 2.0 * aside);
     return radial_box_around(v - around, v + around, offset);
   }
   if (shadow_maps[light].kind == SHADOW_SPOT) return radial_box_around(vec3(low, 1.0), vec3(high, 1.0), offset);
   const float along = (square & 1u) == 0u ? 1.0 : -1.0;
-  const vec3 a = vec3(low, along);
-  const vec3 b = vec3(high, along);
-  if (square / 2u == 0u) return radial_box_around(a.zxy, b.zxy, offset);
-  if (square / 2u == 1u) return radial_box_around(a.yzx, b.yzx, offset);
-  return radial_box_around(a, b, offset);
+  return radial_box_around(radial_turned(square, vec3(low, along)), radial_turned(square, vec3(high, along)), offset);
 }
 
-// From the light, over M's depth, to the farthest of the points. On an octahedron M itself is no farther than 1.
-float radial_longest(uint light, RadialBox box) {
-  const float corner = length(max(abs(box.low), abs(box.high)));
-  return shadow_maps[light].kind == SHADOW_OCTAHEDRON ? min(corner, 1.0 + radial_offset(light)) : corner;
-}
+// From the light, over M's depth, to the farthest of the points.
+float radial_longest(RadialBox box) { return length(max(abs(box.low), abs(box.high))); }
 
 #endif
