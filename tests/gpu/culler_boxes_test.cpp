@@ -100,6 +100,11 @@ TEST(CullerBoxCount, IsAtMostTheLightCount) {
     ASSERT_FALSE(recorded);
     EXPECT_EQ(recorded.error().text(),
               fmt::format("box count: expected at most {}, the light count, got {}", told.light_count, told.box_count));
+    told.box_count = 5;
+    told.probe_count = 6;
+    const auto of_probes = culler.record(buffer, told);
+    ASSERT_FALSE(of_probes);
+    EXPECT_EQ(of_probes.error().text(), "probe count: expected at most 5, the box count, got 6");
   });
 }
 

@@ -124,13 +124,13 @@ TEST_F(CullerErrors, OfPartsOfBuffersNameTheNumber) {
   EXPECT_EQ(refusal(coarse, told),
             "cones offset: expected a multiple of 64 bytes, this device's minStorageBufferOffsetAlignment, got 16");
   told.lights = {lights, 0, 319};
-  EXPECT_EQ(refusal(fine, told), "lights: expected a part of at least 320 bytes, for all lights, got 319");
+  EXPECT_EQ(refusal(fine, told), "lights: expected a part of at least 320 bytes for what the shaders read, got 319");
   told.lights = {lights, 0, 320};
   told.spheres = {frame.sphere_buffer.handle(), 16, 319};
-  EXPECT_EQ(refusal(fine, told), "spheres: expected a part of at least 320 bytes, for all lights, got 319");
+  EXPECT_EQ(refusal(fine, told), "spheres: expected a part of at least 320 bytes for what the shaders read, got 319");
   told.light_count = 0;
   told.spheres = {frame.sphere_buffer.handle(), 16, 0};
-  EXPECT_EQ(refusal(fine, told), "spheres: expected a part of at least 1 bytes, for all lights, got 0");
+  EXPECT_EQ(refusal(fine, told), "spheres: expected a part of at least 1 bytes for what the shaders read, got 0");
 }
 
 TEST_F(CullerErrors, FewerHostLightsThanLights) {

@@ -61,6 +61,12 @@ class CullerViews : public GpuTest {
     return cull_and_walk(culler, eyes_[eye], frame);
   }
 
+  static std::vector<std::uint32_t> constants_of(const vulkan::Culler& culler) {
+    std::vector<std::uint32_t> values;
+    for (const vulkan::Constant& constant : culler.lookup().constants) values.push_back(constant.value);
+    return values;
+  }
+
   std::vector<EngineFrame> eyes_;
   std::vector<vulkan::CullerView> views_;
 };
@@ -115,7 +121,10 @@ TEST_F(CullerViews, WhatDoesNotFitIsCountedOverAllAndGetsRoom) {
     const std::vector<Masks> crowded = walk_together(small, number);
     EXPECT_GT(overflowed, 0U);
     EXPECT_EQ(small.counters().overflowed_cells, overflowed);
-    EXPECT_NE(take(small.finish(number)), vulkan::Growth::none);
+    const std::vector<std::uint32_t> before = constants_of(small);
+    const vulkan::Growth growth = take(small.finish(number));
+    EXPECT_EQ(growth, constants_of(small) == before ? vulkan::Growth::buffers : vulkan::Growth::constants);
+    EXPECT_NE(constants_of(small), before) << "views' parts of larger buffers lie elsewhere";
     const std::vector<Masks> found = walk_together(small, number);
     EXPECT_EQ(small.counters().overflowed_cells, 0U);
     for (std::uint32_t eye = 0; eye < 2; ++eye) {

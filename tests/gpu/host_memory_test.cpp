@@ -137,6 +137,20 @@ TEST_F(HostMemory, MemoryThatIsNotMappedIsRefusedWhereTheHostReads) {
   EXPECT_TRUE(block.live.empty());
 }
 
+TEST_F(HostMemory, HalfOfTheCallbacksAndMemoryThatIsNoneAreRefused) {
+  vulkan::Device device = test_context().device();
+  const vulkan::CullerInfo info{.width = 64, .height = 64, .light_capacity = 8, .method = "tiled"};
+  device.memory_callbacks.allocate = [](void*, VkBuffer, const VkMemoryRequirements&, vulkan::MemoryUse,
+                                        vulkan::Allocation&) { return VK_SUCCESS; };
+  const auto half = vulkan::Culler::create(device, info);
+  ASSERT_FALSE(half.ok());
+  EXPECT_EQ(half.error().text(), "memory callbacks: expected both allocate and release, or neither");
+  device.memory_callbacks.release = [](void*, const vulkan::Allocation&) {};
+  const auto none = vulkan::Culler::create(device, info);
+  ASSERT_FALSE(none.ok());
+  EXPECT_NE(none.error().text().find("expected memory from MemoryCallbacks::allocate, got null"), std::string::npos);
+}
+
 // A host keeps its cache between runs: every pipeline is looked for and kept there.
 TEST_F(HostMemory, PipelinesAreMadeWithTheCacheOfTheHost) {
   vulkan::Device device = test_context().device();

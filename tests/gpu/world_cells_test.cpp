@@ -91,6 +91,16 @@ TEST_F(WorldCells, WalkEveryLightWhereRoomIsLacking) {
   EXPECT_EQ(answered.findings.list_max, LIGHTS);
 }
 
+// Where a device ends loops, as many lights as the plan says.
+TEST_F(WorldCells, WalkToTheEndOfWhatTheDeviceLets) {
+  constexpr std::uint32_t MOST = 65535 / 8 / 2;  // the check walks twice
+  const Answered answered = ask({.lights = lights_around({}, 10.0F, 1.0F, 4.0F, MOST),
+                                 .points = points_in(1, 64, glm::vec3(-10.0F), glm::vec3(10.0F)),
+                                 .settings = {"mean_bricks=1"}});
+  EXPECT_EQ(answered.findings.list_max, MOST);
+  EXPECT_EQ(answered.findings.unfollowed, 0U);
+}
+
 // There is room for all entries, but not for a rank of each of the 27 bricks around a light.
 TEST_F(WorldCells, LookForBricksAgainWhereRanksHaveNoRoom) {
   const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),

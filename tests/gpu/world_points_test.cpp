@@ -75,6 +75,18 @@ TEST_P(WorldPoints, KnowLightsOfEveryRange) {
   EXPECT_GT(answered.findings.useful, 3 * points.size());
 }
 
+// Seen from the corner of the least brick, a place is rounded by more than such a range.
+TEST_P(WorldPoints, KnowLightsOfNanometresAtTheOrigin) {
+  for (const float range : {3e-9F, 2e-7F, 5e-5F}) {
+    SCOPED_TRACE(range);
+    Asked asked;
+    for (const glm::vec3& place : points_in(7, 200, glm::vec3(-8.0F * range), glm::vec3(8.0F * range)))
+      asked.lights.push_back(pack(Light{.position = place, .range = range}));
+    asked.points = points_in(8, 1000, glm::vec3(-8.0F * range), glm::vec3(8.0F * range));
+    EXPECT_GT(ask(asked).findings.useful, 10U);
+  }
+}
+
 TEST_P(WorldPoints, NameTheLightsOfInfiniteRangeWherePositionsAreNone) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<shared::Light> lights = lights_around({}, 1.0F, 0.5F, 1.5F, 100);

@@ -91,6 +91,18 @@ TEST_F(WorldTreeLookUp, IsRightFarAwayNowhereAndOfEveryLight) {
   }
 }
 
+// A pixel's helper may read nothing else: then a node's children are that node again.
+TEST_F(WorldTreeLookUp, EndsWhereAllWordsAreZeros) {
+  const std::vector<shared::Light> lights = pack(std::vector<Light>{{.position = {9.0F, 0.0F, 0.0F}, .range = 1.0F}});
+  const std::vector<std::uint32_t> zeros(64, 0);
+  const Points points{{0.0F, 0.0F, 0.0F}, {1.0F, 2.0F, 3.0F}};
+  PointWalks walks(test_context(), shader_library(), plan_of(lights.size()), made_up_view({SIDE, SIDE}, 0.0), lights,
+                   zeros);
+  const PointLights found = walks.walk(points);
+  EXPECT_EQ(check_points(found, truth_at(points, lights), lights.size()).reason(), "");
+  EXPECT_TRUE(found.of(0).empty() && found.of(1).empty());
+}
+
 TEST_F(WorldTreeLookUp, WalksInHlslAsInGlsl) {
   const glm::uvec2 size(85, 53);
   const View view = made_up_view(size, 0.2);

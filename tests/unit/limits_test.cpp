@@ -150,6 +150,10 @@ TEST(LoopLimits, ADeviceThatEndsLoopsWalksNoMoreLights) {
               "a pixel that walks more than 21845 lights can lose some: the device ends a thread's loops after 65535 "
               "rounds");
   }
+  EXPECT_TRUE(plan("world-cells", 8191).value().notes.empty());
+  EXPECT_EQ(plan("world-cells", 8192).value().notes.front(),
+            "a pixel that walks more than 8191 lights can lose some: the device ends a thread's loops after 65535 "
+            "rounds");
   // Of 32 threads of a subgroup, each may bring a cell of its own.
   EXPECT_TRUE(plan("olsson-clustered", 682).value().notes.empty());
   EXPECT_EQ(plan("olsson-clustered", 683).value().notes.front(),

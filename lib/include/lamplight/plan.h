@@ -147,7 +147,7 @@ struct LookUp {
   std::uint64_t most_walked = ~0ULL;
 };
 
-/// Rounds of a look-up's loops for each light, at most: two loops, one in the other.
+/// Rounds of a look-up's loops for each light, at most, where its plan says nothing else: two loops, one in the other.
 inline constexpr std::uint32_t WALK_ROUNDS = 3;
 
 /// Where a look-up's constants and bindings begin, in every shader that includes one (lookup/ *.glsl, *.hlsl) and does

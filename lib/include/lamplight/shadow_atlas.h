@@ -56,13 +56,13 @@ struct ShadowAtlasInfo {
 
 struct ShadowFrameInfo {
   /// What the picture shows: a light's size goes by the view that shows it largest. Without views nothing is seen.
-  std::span<const View> views;
-  std::span<const shared::Light> lights;
+  std::span<const View> views{};
+  std::span<const shared::Light> lights{};
   /// Which light is which from frame to frame: each once, less than the capacity. Empty: light i has id i.
-  std::span<const std::uint32_t> ids;
+  std::span<const std::uint32_t> ids{};
   /// Geometry that moved since the last frame: a sphere around where it was and one around where it is. A sphere with a
   /// number that is not finite touches every light.
-  std::span<const shared::LightSphere> moved;
+  std::span<const shared::LightSphere> moved{};
   /// Texels that may be drawn in this frame. No light gets squares that take more than this, so another budget means
   /// other sizes, and draws, also where nothing moves. A light whose least squares take more keeps what it has; 0: all
   /// do, and nothing is drawn.

@@ -47,8 +47,8 @@ using Hides = std::function<bool(std::uint32_t light, std::span<const DVec3> hul
                                             std::uint32_t texels = 32, std::size_t kept_maps = 1024);
 
 struct TriangleListsInfo {
-  std::span<const StillTriangle> triangles;
-  std::span<const shared::Light> lights;  ///< ids count from 0
+  std::span<const StillTriangle> triangles{};
+  std::span<const shared::Light> lights{};  ///< ids count from 0
   /// m, >= 0, finite: how far from its triangle a position may be that asks. A pixel's is off by what rasterisation
   /// rounds: see `raster_slack`.
   float slack_m = 0.0F;
@@ -57,7 +57,7 @@ struct TriangleListsInfo {
   /// What the lists may take, > 0. Where they would take more, patches grow, and then neighbours share longer lists; a
   /// note says so.
   std::uint64_t budget_bytes = UINT64_MAX;
-  Hides hides;  ///< or empty: nothing hides anything
+  Hides hides{};  ///< or empty: nothing hides anything
 };
 
 /// What was made.

@@ -22,9 +22,9 @@ namespace lamp {
 class Options;
 
 struct WorldTreeInfo {
-  std::span<const shared::Light> lights;            ///< light i has id i; at most MAX_LIGHTS (method.h)
-  std::shared_ptr<const StillOccluders> occluders;  ///< kept with the tree; null: nothing hides anything
-  std::uint64_t budget = 64ULL << 20;               ///< bytes of `words`, as built
+  std::span<const shared::Light> lights{};            ///< light i has id i; at most MAX_LIGHTS (method.h)
+  std::shared_ptr<const StillOccluders> occluders{};  ///< kept with the tree; null: nothing hides anything
+  std::uint64_t budget = 64ULL << 20;                 ///< bytes of `words`, as built
   std::uint32_t detail = 16;  ///< cells in a light's range, at most, 1 .. 64; fewer where the budget holds no more
   std::uint32_t texels = 32;  ///< a side of a face of OcclusionMap, 1 .. 1024
   std::uint32_t threads = 0;  ///< that build; 0: as many as the machine has

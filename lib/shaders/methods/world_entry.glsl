@@ -82,8 +82,9 @@ uvec2 cells_of(LightBricks b, vec3 brick, Light light) {
   const float side = 0.25 * brick_side(b.level);
   const vec3 corner = 4.0 * side * brick;
   const WorldSpot spot = world_spot(frame, light);
-  const uvec2 cells =
-      cells_of_sphere((spot.is_spot ? spot.tip : b.center) - corner, spot.is_spot ? spot.range : b.radius, side);
+  // Seen from the corner, a tiny light's place is rounded by more than its radius.
+  const float radius = (spot.is_spot ? spot.range : b.radius) + 4.0 * ROUND_RADIUS * side;
+  const uvec2 cells = cells_of_sphere((spot.is_spot ? spot.tip : b.center) - corner, radius, side);
   return spot.is_spot ? cells & cells_of_cone(spot, corner - spot.tip, side) : cells;
 }
 

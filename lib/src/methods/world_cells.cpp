@@ -18,6 +18,8 @@
 namespace lamp {
 namespace {
 
+constexpr std::uint32_t ROUNDS_A_LIGHT = 8;  // of a walk's loops, one in the other, where a device counts them all
+
 using shared::BRICK_CELLS;
 using shared::BRICK_SLICES;
 using shared::WORLD_PIECE;
@@ -283,6 +285,7 @@ Plan plan_world_cells(const Problem& problem) {
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets, sizes.cells},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};
+  if (problem.traits.max_loop_rounds != ~0U) plan.lookup.most_walked = problem.traits.max_loop_rounds / ROUNDS_A_LIGHT;
   return plan;
 }
 

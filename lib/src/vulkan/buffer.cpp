@@ -56,6 +56,8 @@ Result<Allocation> Buffer::allocate(const Device& device, const BufferInfo& info
                       host.release(host.user, *allocation);
                       delete allocation;
                     }};
+    if (made.memory == VK_NULL_HANDLE)
+      return Error{"buffer " + info.name, "expected memory from MemoryCallbacks::allocate, got null"};
     if (info.memory == MemoryUse::device || made.mapped != nullptr) return made;
     return Error{"buffer " + info.name, "expected mapped memory from MemoryCallbacks::allocate, got none"};
   }

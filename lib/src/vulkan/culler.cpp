@@ -115,6 +115,7 @@ Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
     if (view.view == nullptr) return Error{"view", "expected the frame's camera, got none"};
     seen.records[i] = view.view->frame(lights, capacity);
     seen.records[i].box_count = frame.box_count;
+    seen.records[i].probe_count = frame.probe_count;
     if (view.depth_offset.x < 0 || view.depth_offset.y < 0)
       return Error{"depth offset", "expected where the picture begins in the depth image, got " +
                                        std::to_string(view.depth_offset.x) + ", " +
@@ -133,6 +134,7 @@ Result<Culler::Views> Culler::views_of(const CullerFrame& frame) const {
 }
 
 Result<std::uint64_t> Culler::record(VkCommandBuffer commands, const CullerFrame& frame) {
+  if (slots_.empty()) return Error{"Culler", "expected one that Culler::create made, got an empty one"};
   const bool gpu_counts = frame.light_count_buffer != VK_NULL_HANDLE;
   if (gpu_counts)
     if (auto error = check_gpu_count(frame, runner_.plan())) return *error;
@@ -285,14 +287,16 @@ void Culler::drop(std::uint64_t frame) {
 }
 
 Result<Growth> Culler::grow(GrownPlan grown) {
-  const std::vector<std::uint32_t> constants = runner_.plan().lookup.constants;
+  const LookUp before = runner_.plan().lookup;
   Result<PlanRunner> runner = PlanRunner::create(device_, std::move(grown.plan));
   if (!runner) return runner.error();
   retired_.push_back({std::exchange(runner_, std::move(runner.value())), frames_});
   problem_.options = std::move(grown.options);
   first_frame_ = frames_ + 1;
   reserve();
-  return runner_.plan().lookup.constants == constants ? Growth::buffers : Growth::constants;
+  const LookUp& now = runner_.plan().lookup;
+  const bool same = now.constants == before.constants && now.view_words == before.view_words;
+  return same ? Growth::buffers : Growth::constants;
 }
 
 }  // namespace lamp::vulkan

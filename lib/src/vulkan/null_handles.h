@@ -21,8 +21,11 @@ namespace lamp::vulkan {
 
 /// What is not `make_device`'s.
 [[nodiscard]] inline std::optional<Error> check_made(const Device& device) {
-  if (device.handle != VK_NULL_HANDLE && device.vk.vkCreateBuffer != nullptr) return std::nullopt;
-  return Error{"device", "expected one that make_device gave, got null"};
+  if (device.handle == VK_NULL_HANDLE || device.vk.vkCreateBuffer == nullptr)
+    return Error{"device", "expected one that make_device gave, got null"};
+  if ((device.memory_callbacks.allocate == nullptr) != (device.memory_callbacks.release == nullptr))
+    return Error{"memory callbacks", "expected both allocate and release, or neither"};
+  return std::nullopt;
 }
 
 }  // namespace lamp::vulkan

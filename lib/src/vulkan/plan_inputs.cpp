@@ -58,7 +58,7 @@ std::optional<Error> check_part(const std::string& element, const BufferPart& pa
                                           ", got " + std::to_string(part.offset)};
   if (part.bytes != VK_WHOLE_SIZE && (part.bytes == 0 || part.bytes < needed))
     return Error{element, "expected a part of at least " + std::to_string(std::max<std::uint64_t>(needed, 1)) +
-                              " bytes, for all lights, got " + std::to_string(part.bytes)};
+                              " bytes for what the shaders read, got " + std::to_string(part.bytes)};
   return std::nullopt;
 }
 

@@ -8,11 +8,12 @@
 #include <numbers>
 #include <vector>
 
+#include "lamplight/shared/world_tree.h"
+
 namespace lamp::world {
 namespace {
 
 constexpr double MOST_CELLS_ACROSS = 1U << 20;  // of the root, and from the origin to it: exact in 32-bit arithmetic
-constexpr std::uint32_t MOST_LEVELS = 18;       // 4 * 2^18 cells
 constexpr double FAR_REACHING = 4.0;            // times how far lights lie apart, and a usual range
 constexpr double SHIFT = 0.381966;              // of a cell: walls at whole numbers are no faces of cells
 constexpr double BUDGETS = 4.0;                 // times the budget is what is made and then pruned,
@@ -80,7 +81,8 @@ TreeGrid grid_of(const WorldTreeInfo& info) {
   // Exact as floats: eighths of a cell.
   grid.low = (glm::floor(bounds.min / grid.cell_m) * 8.0 - std::round(SHIFT * 8.0) - 8.0) / 8.0;
   const double across = bounds.longest() / grid.cell_m + 4.0;
-  while (grid.levels < MOST_LEVELS && std::ldexp(4.0, static_cast<int>(grid.levels)) < across) ++grid.levels;
+  while (grid.levels < shared::TREE_MOST_LEVELS && std::ldexp(4.0, static_cast<int>(grid.levels)) < across)
+    ++grid.levels;
   return grid;
 }
 

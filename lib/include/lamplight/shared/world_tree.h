@@ -21,6 +21,8 @@ LAMP_CONST TREE_OUTSIDE = 6u;  // node, a plain leaf: of points outside of the r
 LAMP_CONST TREE_LIGHTS = 7u;   // how many there are
 LAMP_CONST TREE_HEADER = 8u;   // words
 
+LAMP_CONST TREE_MOST_LEVELS = 18u;
+
 // A node is a word: a kind, and the place of words. An inner node's words are its 8 children, child x + 2 y + 4 z. A
 // leaf's are a count and as many lights, ascending; a leaf has 4 x 4 x 4 cells. A plain one's lights are those of all
 // cells. In another the cells' bits follow, in blocks of 32 lights: in a block of n each cell has n bits, one cell

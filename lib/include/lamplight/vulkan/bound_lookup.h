@@ -42,7 +42,8 @@ struct LAMPLIGHT_API BoundLookUp {
   std::vector<Bound> resources;
   std::vector<Use> uses;
 
-  /// The same for a shader that says LOOKUP_FIRST_BINDING and LOOKUP_FIRST_CONSTANT.
+  /// The same for a shader that says LOOKUP_FIRST_BINDING and LOOKUP_FIRST_CONSTANT. Of a look-up as Culler::lookup or
+  /// PlanRunner gives it, not of one that was moved before.
   [[nodiscard]] BoundLookUp moved_to(std::uint32_t first_binding, std::uint32_t first_constant = LOOKUP_CONSTANT) const;
   /// Its bindings, for VkDescriptorSetLayoutCreateInfo, behind those of your own.
   [[nodiscard]] std::vector<VkDescriptorSetLayoutBinding> layout_bindings(

@@ -19,10 +19,10 @@ struct CullerInfo {
   std::uint32_t height = 0;  ///< likewise
   std::uint32_t views = 1;   ///< of a frame, 1 .. MAX_VIEWS: eyes, faces of a cube, parts of a split screen
   std::uint32_t light_capacity = 0;
-  std::string method = "clustered";  ///< `lamp list methods`
-  std::vector<std::string> options;  ///< "tile=32"
-  LightLayout light_layout;          ///< what frames bring of each light, and where it lies
-  std::uint32_t depth_samples = 1;   ///< of the depth image, a pixel: a power of two up to 64
+  std::string method = "clustered";    ///< `lamp list methods`
+  std::vector<std::string> options{};  ///< "tile=32"
+  LightLayout light_layout{};          ///< what frames bring of each light, and where it lies
+  std::uint32_t depth_samples = 1;     ///< of the depth image, a pixel: a power of two up to 64
   bool brings_spheres = false;  ///< frames bring the lights' spheres; else a method that reads them makes them itself
   /// Where the look-up is read. On a queue without graphics: VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT.
   VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -32,7 +32,7 @@ struct CullerInfo {
   bool host_barriers = false;
   /// Only for world-tree, else an error: a storage buffer with WorldTree::words, which the caller keeps, and brings up
   /// to date after changes. None: every point walks every light.
-  BufferPart still;
+  BufferPart still{};
 };
 
 /// One of several views of a frame. The look-up takes its place among them.
@@ -49,29 +49,30 @@ struct CullerView {
 struct CullerFrame {
   const View* view = nullptr;  ///< of any size up to the Culler's; another one each frame, if need be
   /// Storage buffers. The part of each begins at a multiple of 16 bytes and of minStorageBufferOffsetAlignment.
-  BufferPart lights;   ///< of shared::Light (`lamp::pack`), or what CullerInfo::light_layout says
-  BufferPart cones;    ///< of shared::LightCone, where the layout has them
-  BufferPart spheres;  ///< CullerInfo::brings_spheres: of shared::LightSphere (`lamp::bounding_spheres`), which is a
-                       ///< quarter to read
-  BufferPart radial;   ///< only for option occlusion=radial: of shared::RadialBound, of the first lights, at least one;
-                       ///< nothing cuts the others
-  BufferPart meshes;   ///< only for option proxy=cut: of shared::LightMesh, likewise
+  BufferPart lights{};   ///< of shared::Light (`lamp::pack`), or what CullerInfo::light_layout says
+  BufferPart cones{};    ///< of shared::LightCone, where the layout has them
+  BufferPart spheres{};  ///< CullerInfo::brings_spheres: of shared::LightSphere (`lamp::bounding_spheres`), which is a
+                         ///< quarter to read
+  BufferPart radial{};   ///< read with option occlusion=radial alone: of shared::RadialBound, of the first lights, at
+                         ///< least one; nothing cuts the others
+  BufferPart meshes{};   ///< read with option proxy=cut alone: of shared::LightMesh, likewise
   std::uint32_t light_count = 0;  ///< at most the capacity; with the boxes
   /// How many of them, the last ones, are boxes: decals, then probes (`lamp::entity_records`). Option boxes=shape tests
   /// these by their shape; without a count they are tested by their spheres, as lights are.
   std::uint32_t box_count = 0;
+  std::uint32_t probe_count = 0;  ///< how many of the boxes, the last ones, are probes (`first_probe`, common/box.glsl)
   /// Instead of light_count, for lights that the GPU makes: a buffer with the count, a 32-bit word. Its usage has
   /// VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Of more lights than the capacity the first ones are taken, and the others
   /// counted (Counters::excess_lights).
   VkBuffer light_count_buffer = VK_NULL_HANDLE;
-  VkDeviceSize light_count_offset = 0;         ///< bytes, a multiple of 4
-  std::span<const shared::Light> host_lights;  ///< only for options that work on the CPU: the same lights
-  VkImage depth_image = VK_NULL_HANDLE;        ///< only for methods that need depth: device depth, reversed or not as
-                                               ///< the view says; may be larger than the picture
-  VkImageView depth_view = VK_NULL_HANDLE;     ///< 2D, of its depth aspect alone and of one layer
+  VkDeviceSize light_count_offset = 0;           ///< bytes, a multiple of 4
+  std::span<const shared::Light> host_lights{};  ///< only for options that work on the CPU: the same lights
+  VkImage depth_image = VK_NULL_HANDLE;          ///< only for methods that need depth: device depth, reversed or not as
+                                                 ///< the view says; may be larger than the picture
+  VkImageView depth_view = VK_NULL_HANDLE;       ///< 2D, of its depth aspect alone and of one layer
   VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-  VkOffset2D depth_offset = {0, 0};   ///< where the picture begins in the depth image, pixels, not negative
-  std::span<const CullerView> views;  ///< CullerInfo::views of them, instead of `view` and the depth above
+  VkOffset2D depth_offset = {0, 0};     ///< where the picture begins in the depth image, pixels, not negative
+  std::span<const CullerView> views{};  ///< CullerInfo::views of them, instead of `view` and the depth above
 };
 
 /// What `Culler::finish` changed.
@@ -92,11 +93,12 @@ class LAMPLIGHT_API Culler {
   /// the device's limits, no memory left.
   [[nodiscard]] static Result<Culler> create(const Device& device, const CullerInfo& info);
 
-  /// Records the passes. What they wrote is visible to CullerInfo::readers recorded later. Returns the frame's number,
-  /// from 1 on. A recorded frame may be dropped (`drop`): none relies on what another one would have done. Errors, and
-  /// then nothing is recorded: no command buffer, no view or a larger one, another number of views, a handle that the
-  /// method needs and that is missing, more lights than the capacity, fewer host lights than lights, a count on the GPU
-  /// for an option that works on the CPU.
+  /// Records the passes, into a primary or a secondary command buffer outside of a render pass. What they wrote is
+  /// visible to CullerInfo::readers recorded later. Returns the frame's number, from 1 on. A recorded frame may be
+  /// dropped (`drop`): none relies on what another one would have done. Errors, and then nothing is recorded: no
+  /// command buffer, no view or a larger one, another number of views, a handle that the method needs and that is
+  /// missing, more lights than the capacity, fewer host lights than lights, a count on the GPU for an option that works
+  /// on the CPU.
   [[nodiscard]] Result<std::uint64_t> record(VkCommandBuffer commands, const CullerFrame& frame);
 
   /// Makes room where lists of a frame did not fit, with a quarter in reserve, for the frames that are recorded from
@@ -127,6 +129,9 @@ class LAMPLIGHT_API Culler {
 
   /// Bytes on the GPU of the buffers in use.
   [[nodiscard]] std::uint64_t bytes() const { return runner_.plan().bytes(); }
+  /// What there is to know of the plan on this device, a sentence each: such as how many lights a pixel can walk where
+  /// the device ends loops. They change when the Culler grows.
+  [[nodiscard]] std::span<const std::string> notes() const { return runner_.plan().notes; }
   /// The method's options, as they have grown.
   [[nodiscard]] const Options& options() const { return problem_.options; }
 

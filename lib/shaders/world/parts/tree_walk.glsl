@@ -43,7 +43,8 @@ TreePlace TREE_LEAF(vec3 position) {
   if (!lies) return place;
   const uvec3 finest = uvec3(at);
   uint node = TREE_WORD(TREE_ROOT);
-  for (; node >> TREE_KIND_BIT == TREE_INNER; --shift) {
+  // Bounded: a pixel's helper that reads nothing but zeros would go down for ever.
+  for (uint level = 0u; level < TREE_MOST_LEVELS && node >> TREE_KIND_BIT == TREE_INNER; ++level, --shift) {
     const uint x = finest.x >> (shift + 1u) & 1u;
     const uint y = finest.y >> (shift + 1u) & 1u;
     const uint z = finest.z >> (shift + 1u) & 1u;
