@@ -36,7 +36,7 @@ constexpr const char* WELCOME =
     "  lamp verify                            check that no method misses a light\n"
     "  lamp compare tiled clustered           compare two methods: compare.png\n"
     "  lamp bench --out out/quick             measure methods; the report is out/quick/report.html\n"
-    "  lamp capture --out frame               write one frame as files, a scene for every command\n"
+    "  lamp capture --out frame               write one frame as files, a scene for other commands\n"
     "  lamp list methods                      list the methods; also scenes, suites, devices\n"
     "  lamp info atrium                       say what a scene holds\n"
     "  lamp completion bash                   a script that completes commands; also zsh, fish\n"

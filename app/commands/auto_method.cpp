@@ -33,6 +33,10 @@ std::string words_of(const Choice& choice, const std::string& origin) {
 
 }  // namespace
 
+std::string method_words(const MethodChoice& chosen) {
+  return fmt::format("{}{}{}", chosen.method->name, chosen.options.empty() ? "" : " ", fmt::join(chosen.options, " "));
+}
+
 const KnownCalibration& AutoMethod::known() {
   if (!known_) known_ = find_calibration(context_, shaders_, file_);
   return *known_;

@@ -18,6 +18,9 @@ struct MethodChoice {
   bool by_auto = false;
 };
 
+/// "tiled", "lamplight cells=gather": the method, and its options.
+[[nodiscard]] std::string method_words(const MethodChoice& chosen);
+
 /// A frame that a method is to be chosen for.
 struct AutoFrame {
   const Scene& scene;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -14,8 +13,8 @@
 #include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
 #include "bench/regret.h"
-#include "bench/report.h"
 #include "bench/results.h"
+#include "commands/bench_folder.h"
 #include "commands/bench_measure.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -131,14 +130,6 @@ void go_on(json& results, const json& earlier, const std::string& file, std::spa
         file, again, earlier["results"].size());
 }
 
-void check_folder(const std::string& out) {
-  const fs::path folder = fs::absolute(followed(out));
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error(fmt::format("--out '{}': the folder cannot be made: {}", out, error.message()));
-  if (access(folder.c_str(), W_OK) != 0) throw Error(fmt::format("--out '{}': the folder is not writable", out));
-}
-
 /// How long a group takes, in some unit: pixels, rounds, and lights where they are many.
 double weight_of(const Group& group) {
   const double rounds = group.frames + group.warm_up + (group.verify.what == Verify::What::nothing ? 1.0 : 4.0);
@@ -208,6 +199,7 @@ void check_name(const std::string& name) {
 void check_series(const BenchOptions& o, const Suite& suite) {
   if (!o.series.empty() && !is_suite(o.request.scene))
     throw Error(fmt::format("--series: belongs to a suite, and {} is a scene", o.request.scene));
+  check_once("--series", o.series);
   std::vector<std::string_view> names;
   for (const Series& series : suite.series) names.push_back(series.name);
   for (const std::string& name : o.series)
@@ -230,13 +222,6 @@ Exit conclude(const json& results, std::size_t left_out, const std::string& repo
             std::ssize(results["results"]) - impossible, wrong, unchecked, impossible, left_out, report);
   if (wrong != 0) return Exit::check_failed;
   return unchecked != 0 ? Exit::unchecked : Exit::done;
-}
-
-void write_all(const fs::path& folder, const json& results) {
-  write_text(folder / "results.json", json_text(results, 1) + "\n");
-  write_text(folder / "results.csv", results_csv(results));
-  const ReportRun run{.results = results, .file = folder / "results.json"};
-  write_text(folder / "report.html", report_html({&run, 1}));
 }
 
 json results_of(const BenchOptions& o, const DeviceRow& row, const Suite& suite) {
@@ -270,10 +255,14 @@ Exit bench(const BenchOptions& o) {
                                        .verifier = parse_verifier(o.verifier, device.context()),
                                        .every_list = !device.software()});
   const std::span<Group> groups = expansion.groups;
+  if (groups.empty() && expansion.left_out != 0)
+    throw Error(fmt::format("{}: --max-lights and --max-size leave out all of its {} configurations", o.request.scene,
+                            expansion.left_out));
   check_groups(from_suite ? o.request.scene : "", groups);
   json results = results_of(o, device.context().row(), suite);
   const fs::path folder = o.out;
   const std::string file = (folder / "results.json").string();
+  check_own_file(o.out, o.request.scene);
   std::optional<json> earlier;
   if (std::error_code none; !o.overwrite && fs::exists(file, none)) {
     earlier = load_results(file);
@@ -281,6 +270,7 @@ Exit bench(const BenchOptions& o) {
   }
   name_calibration(device, groups);
   check_folder(o.out);
+  if (o.overwrite) remove_pictures(folder);
   if (earlier) go_on(results, *earlier, file, groups);
   const int signal = measure_all(device, folder, groups, results, o.request.explain);
   const bool complete = std::ranges::all_of(groups, [&](const Group& g) { return has_group(results, g); });
@@ -330,6 +320,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   auto o = std::make_shared<BenchOptions>();
   o->request.scene = "quick";
   add_common_options(*command, o->request);
+  add_statistics_flag(*command, o->request);
   add_depth_options(*command, o->request);
   command->get_option("scene")->description("a suite (lamp list suites), a suite's .json file, or a scene");
   add_method_option(*command, o->methods, "method to measure on a scene");

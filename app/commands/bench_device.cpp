@@ -39,9 +39,10 @@ View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
     const View& view = scene.captured->view;
     if (size != glm::uvec2(view.width(), view.height()) || group.projection != "camera" || group.frame >= 0 ||
         group.flight)
-      throw Error(fmt::format("scene '{}': is a captured frame of {}x{} pixels, with one camera of its own; got {}{}",
+      throw Error(fmt::format("scene '{}': is a captured frame of {}x{} pixels, with one camera of its own; got {}{}{}",
                               group.scene, view.width(), view.height(), group.size,
-                              group.projection != "camera" ? ", projection " + group.projection : ""));
+                              group.projection != "camera" ? ", projection " + group.projection : "",
+                              group.frame >= 0 || group.flight ? ", a frame of a flight" : ""));
     if (!depth.reversed || depth.samples != 1)
       throw Error(fmt::format("scene '{}': is a captured frame with reversed depth of one sample a pixel; got {} of {}",
                               group.scene, group.depth, depth.samples));

@@ -1,5 +1,6 @@
 // Measures what the cost model is fitted to: each candidate on a few sizes and counts of lights.
 // Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "render/frame_times.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
@@ -233,7 +235,10 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
   std::vector<std::vector<CostSample>> samples(candidates.size());
   // Kept where there is room: to free memory takes time, in which the GPU falls asleep.
   std::list<std::list<Timed>> timed_all;
+  Progress progress;
   for (std::size_t i = 0; i < loads.size(); ++i) {
+    progress.show(fmt::format("auto: measure frame {} of {}", i + 1, loads.size()),
+                  static_cast<double>(i) / static_cast<double>(loads.size()));
     Renderer& renderer = *pictures[i]->renderer;
     renderer.set_frame(pictures[i]->view, loads[i].lights);
     std::list<Timed>& timed =
@@ -242,6 +247,7 @@ Calibration measure_calibration(Context& context, const ShaderLibrary& shaders) 
     for (const Timed& one : timed) samples[one.candidate].push_back(sample_of(one, loads[i].workload));
     if (!compiled.all_wait) timed_all.clear();
   }
+  progress.clear();
   Calibration calibration{.device = context.row().name, .driver = context.row().driver};
   for (std::size_t i = 0; i < candidates.size(); ++i) calibration.costs.push_back(fit_cost(candidates[i], samples[i]));
   return calibration;

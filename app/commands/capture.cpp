@@ -1,4 +1,4 @@
-// lamp capture: one frame as files, which every command takes as a scene.
+// lamp capture: one frame as files, which other commands take as a scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/capture.h"
 
@@ -60,7 +60,7 @@ Exit capture(const CaptureOptions& o) {
 }  // namespace
 
 Run add_capture(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("capture", "Write one frame as files; every command takes them as a scene");
+  CLI::App* command = app.add_subcommand("capture", "Write one frame as files, a scene for other commands");
   auto o = std::make_shared<CaptureOptions>();
   add_common_options(*command, o->request);
   add_decal_option(*command, o->request);

@@ -16,6 +16,7 @@
 #include "files/read_json.h"
 #include "render/heatmap.h"
 #include "system/print.h"
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
@@ -38,12 +39,13 @@ struct Side {
 
 Side measure(const CompareOptions& o, Session& session, const Setup& setup, const MethodChoice& chosen,
              const std::string& word) {
+  show_progress(fmt::format("compare: {}", word));
   Lighting lighting = session.lighting(*chosen.method, chosen.options, parse_path(o.request.path));
   session.renderer().wake(lighting);
   Rendered rendered = session.renderer().render(lighting);
   const std::vector<Visit> visits = visit_all(session, lighting);
   HdrImage image = rendered.image;
-  Side side{.label = chosen.by_auto ? std::string(chosen.method->name) : word,
+  Side side{.label = chosen.by_auto ? method_words(chosen) : word,
             .stats = make_stats(o.request, session, lighting, setup, std::move(rendered), 1),
             .image = std::move(image),
             .counts = walked_lights(visits)};
@@ -98,6 +100,7 @@ Exit compare_panels(const CompareOptions& o) {
   if (!o.b.empty()) throw Error(fmt::format("compare --panels: takes one scene, got '{}' too", o.b));
   Request request = o.request;
   if (!o.a.empty()) request.scene = o.a;
+  check_request(request, "tiled");
   return draw_panels(request, o.out, o.json);
 }
 
@@ -118,9 +121,11 @@ Exit compare(const CompareOptions& o) {
   const auto map = [&](std::span<const std::uint32_t> counts, const std::string& title) {
     return heatmap_of(session, counts, {.title = title, .scale_max = scale});
   };
-  const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, o.a), map(b.counts, o.b),
-                               map(differences(a, b), fmt::format("{} - {}", o.a, o.b))};
+  const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, a.label),
+                               map(b.counts, b.label),
+                               map(differences(a, b), fmt::format("{} - {}", a.label, b.label))};
   const LdrImage row = side_by_side(pictures);
+  show_progress("");
   write_output(o.out, [&](const auto& file) { write_png(file, row); });
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
@@ -150,6 +155,7 @@ Run add_compare(CLI::App& app) {
       ->type_name("METHOD");
   command->add_option("b", o->b, "the other method, likewise")->type_name("METHOD");
   add_common_options(*command, o->request);
+  add_statistics_flag(*command, o->request);
   add_grow_option(*command, o->request);
   add_auto_options(*command, o->request);
   add_decal_option(*command, o->request);

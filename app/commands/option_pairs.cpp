@@ -21,20 +21,49 @@ bool is_given(const CLI::App& command, const char* name) {
 
 bool is_off(const CLI::Option& option) { return option.results().size() == 1 && option.results().front() == "off"; }
 
-/// A state that lamp-view saved may have shadows. With `--shadows off` the others may stay where they are.
-bool may_have_shadows(const CLI::App& command) {
-  return command.get_option_no_throw("--shadows") == nullptr || is_given(command, "--shadows") ||
-         is_given(command, "--state");
+std::string value_of(const CLI::App& command, const char* name) {
+  return is_given(command, name) ? command.get_option(name)->results().front() : std::string();
 }
 
+/// A state that lamp-view saved may have shadows. With `--shadows off` the others may stay where they are, but a method
+/// that cuts by shadows would be another than its name says.
 void check_shadow_options(const CLI::App& command) {
-  if (may_have_shadows(command)) return;
-  for (const CLI::Option* option : command.get_options())
-    if (option->count() != 0 && option->get_group() == "Shadows")
-      throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option->get_name()));
-  if (!is_given(command, "--option")) return;
+  if (command.get_option_no_throw("--shadows") == nullptr) return;
+  const std::string filter = value_of(command, "--shadows");
+  const bool unknown = filter.empty() && is_given(command, "--state");
+  if (!unknown && filter.empty())
+    for (const CLI::Option* option : command.get_options())
+      if (option->count() != 0 && option->get_group() == "Shadows")
+        throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option->get_name()));
+  if (is_given(command, "--shadow-blur") && (filter == "hard" || filter == "pcf"))
+    throw Error(
+        fmt::format("--shadow-blur: blurs vsm and evsm, and --shadows {} is filtered where it is looked up", filter));
+  if (unknown || (!filter.empty() && filter != "off") || !is_given(command, "--option")) return;
   if (const auto cut = cut_by_shadows(command.get_option("--option")->results()))
     throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", *cut));
+}
+
+/// Four methods and a table of tests, which are always the same.
+void check_panel_options(const CLI::App& command) {
+  constexpr std::array DO_NOTHING{"--grow",         "--explain", "--path",         "--probes-show",
+                                  "--probe-budget", "--mirror",  "--mirror-lists", "--pipeline-statistics"};
+  if (!is_given(command, "--panels")) return;
+  for (const char* name : DO_NOTHING)
+    if (is_given(command, name))
+      throw Error(fmt::format("{}: the panels have methods of their own, drawn deferred; expected no --panels", name));
+  if (is_given(command, "a") && is_given(command, "--scene"))
+    throw Error(fmt::format("--scene {}: beside the scene {}, expected one of them", value_of(command, "--scene"),
+                            value_of(command, "a")));
+}
+
+/// What has no picture of its own to show it in.
+void check_numbers_and_places(const CLI::App& command) {
+  const bool numbers = is_given(command, "--json") || is_given(command, "--stats") || is_given(command, "--panels");
+  if (is_given(command, "--pipeline-statistics") && command.get_option_no_throw("--json") != nullptr && !numbers)
+    throw Error("--pipeline-statistics: stands in the numbers; expected --json too");
+  if (is_given(command, "--at") && is_given(command, "--camera"))
+    throw Error(
+        fmt::format("--camera {}: the probe is where --at says; expected one of them", value_of(command, "--camera")));
 }
 
 /// Look-ups at points that no picture has: nothing of a picture matters.
@@ -62,6 +91,8 @@ void check_pairs(const CLI::App& command) {
   }
   check_point_options(command);
   check_shadow_options(command);
+  check_panel_options(command);
+  check_numbers_and_places(command);
 }
 
 }  // namespace lamp::app

@@ -15,6 +15,7 @@
 #include "render/probe_capture.h"
 #include "render/probe_panorama.h"
 #include "system/print.h"
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
@@ -61,10 +62,13 @@ Exit probe(const ProbeOptions& o) {
   ProbeCaptureInfo info{.light_capacity = lights, .brdf = parse_brdf(o.request.brdf)};
   if (const Shadows* shadows = session.renderer().shadows()) info.shadows = shadows->settings();
   const ProbeAtlas atlas(session.context(), session.shaders(), 1);
+  show_progress("probe: capture what is around it");
   ProbeCapture capture(session.context(), session.shaders(), session.gpu_scene(), info);
   capture.set(setup.lights);
   capture.capture(position, atlas, 0);
-  write_png(o.out, pictures(session, atlas));
+  const LdrImage picture = pictures(session, atlas);
+  show_progress("");
+  write_output(o.out, [&](const auto& file) { write_png(file, picture); });
   print_out("probe     at ({:.2f}, {:.2f}, {:.2f}), {} lights: {}\n", position.x, position.y, position.z, lights,
             setup.lights_note);
   if (atlas.clipped() != 0)
@@ -78,7 +82,7 @@ Exit probe(const ProbeOptions& o) {
 Run add_probe(CLI::App& app) {
   CLI::App* command = app.add_subcommand("probe", "Write what a reflection probe sees, sharp and rough");
   auto o = std::make_shared<ProbeOptions>();
-  add_common_options(*command, o->request);
+  add_scene_options(*command, o->request);
   command->add_option("--at", o->at, "where the probe is, in metres; default: where the camera is")
       ->type_name("X Y Z")
       ->group("View")

@@ -22,11 +22,13 @@
 #include "render/leak_map.h"
 #include "scene/flight.h"
 #include "system/print.h"
+#include "system/progress.h"
 
 namespace lamp::app {
 namespace {
 
 struct RenderOptions {
+  std::string state_file;         ///< empty: none
   ViewState state{.samples = 0};  ///< samples: 0: as many as the scene allows and are worth the time
   std::string out = "lamp.png";
   std::string heatmap;
@@ -48,25 +50,35 @@ constexpr std::string_view PICTURES[] = {".png", ".exr"};
 constexpr std::string_view MAPS[] = {".png"};
 constexpr std::string_view NUMBERS[] = {".json"};
 
+std::filesystem::path place_of(const std::string& file) {
+  if (file.empty()) return {};
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(followed(file)));
+}
+
 void check_outputs(const RenderOptions& o) {
   check_output("--out", o.out, PICTURES);
   if (!o.heatmap.empty()) check_output("--heatmap", o.heatmap, MAPS);
   if (!o.overlay.empty()) check_output("--overlay", o.overlay, MAPS);
-  if (parse_heat(o.heatmap_of, o.state.request) != HeatOf::lights && o.heatmap.empty() && o.overlay.empty())
+  const HeatOf heat = parse_heat(o.heatmap_of, o.state.request);
+  if (heat != HeatOf::lights && o.heatmap.empty() && o.overlay.empty())
     throw Error(fmt::format("--heatmap-of {}: expected --heatmap or --overlay with it", o.heatmap_of));
+  if (heat == HeatOf::lights && parse_path(o.state.request.path) == ShadingPath::standard_deferred &&
+      !(o.heatmap.empty() && o.overlay.empty()))
+    throw Error(fmt::format("{}: of the lights that pixels walk, and with --path standard-deferred they walk none",
+                            o.heatmap.empty() ? "--overlay" : "--heatmap"));
   if (!o.stats.empty()) check_output("--stats", o.stats, NUMBERS);
-  std::set<std::filesystem::path> files;
+  std::set<std::filesystem::path> files{place_of(o.state_file)};
   for (const std::string& file : {o.out, o.heatmap, o.overlay, o.stats})
-    if (!file.empty() &&
-        !files.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(followed(file)))).second)
-      throw Error(fmt::format("{}: is asked for twice, expected a file of its own for each output", file));
+    if (!file.empty() && !files.insert(place_of(file)).second)
+      throw Error(fmt::format("{}: is {}, expected a file of its own for each output", file,
+                              place_of(file) == place_of(o.state_file) ? "the --state" : "asked for twice"));
 }
 
-/// "lamplight tile=8, chosen by auto", or the method's name.
-std::string method_words(const MethodChoice& chosen) {
-  if (!chosen.by_auto) return std::string(chosen.method->name);
-  return fmt::format("{}{}{}, chosen by auto", chosen.method->name, chosen.options.empty() ? "" : " ",
-                     fmt::join(chosen.options, " "));
+/// Before any is drawn: the pictures of a flight.
+void check_numbered(const RenderOptions& o, const FrameRange& range) {
+  for (std::uint32_t frame = range.first; frame <= range.last; ++frame)
+    for (const auto& [option, file] : {std::pair{"--out", o.out}, {"--heatmap", o.heatmap}, {"--overlay", o.overlay}})
+      if (!file.empty()) check_output(option, numbered(file, frame), PICTURES);
 }
 
 /// A line of the summary; on a terminal, as many as it takes.
@@ -87,9 +99,12 @@ void print_subject(const Stats& stats, const Setup& setup, const MethodChoice& c
     line("probes", fmt::format("{}: {}{}", setup.probes.size(), setup.probes_note,
                                stats.captures ? fmt::format("; {} captured", stats.captures->captured) : ""));
   if (!setup.decals.empty()) line("decals", fmt::format("{}: {}", setup.decals.size(), setup.decals_note));
-  line("method", fmt::format("{}, {} path, {} cells, {:.1f} MB", method_words(chosen), stats.path, stats.cells,
-                             static_cast<double>(stats.bytes.back().second) * 1e-6));
+  line("method",
+       fmt::format("{}{}, {} path, {} cells, {:.1f} MB", method_words(chosen), chosen.by_auto ? ", chosen by auto" : "",
+                   stats.path, stats.cells, static_cast<double>(stats.bytes.back().second) * 1e-6));
   for (const std::string& note : stats.notes) line("note", note);
+  if (parse_path(stats.path) == ShadingPath::standard_deferred)
+    line("note", "this path draws a volume for each light: opaque surfaces walk no list of the method's");
 }
 
 /// What one frame took, and where its picture is.
@@ -100,7 +115,7 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   if (stats.mirror) line("mirror", mirror_words(*stats.mirror));
   if (stats.mirror)
     for (const std::string& note : stats.mirror->notes) line("note", note);
-  if (stats.findings)
+  if (stats.findings && parse_path(stats.path) != ShadingPath::standard_deferred)
     line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",
                                stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
   for (const std::string& words : all_overflow_words(stats)) line("overflow", words);
@@ -127,12 +142,13 @@ void print_frame(const Stats& stats, std::uint32_t frame, const std::string& fil
        fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms{}: {}", stats.rendered.cull_ms,
                    stats.rendered.shade_ms, stats.rendered.frame_ms,
                    overflowed == 0 ? "" : fmt::format(", {} cells did not fit", overflowed), file));
+  if (stats.shadows) line("  shadows", shadow_words(*stats.shadows));
 }
 
 /// Samples a pixel. A captured frame has what its depth buffer has, one; and so has depth that was asked for.
 std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
   if (const std::uint32_t of_depth = o.state.request.depth_samples; of_depth > 1) {
-    if (o.state.samples > 1 && o.state.samples != of_depth)
+    if (o.state.samples != 0 && o.state.samples != of_depth)
       throw Error(fmt::format("--samples: got {}, but with --depth-samples {} the picture has those", o.state.samples,
                               of_depth));
     return of_depth;
@@ -205,7 +221,14 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
   auto& [session, setup, chosen, lighting, sampling, clock] = drawing;
   const std::optional<float> exposure = parse_exposure(o.state.exposure);
   session.renderer().wake(lighting);
-  Rendered rendered = render_views(session.renderer(), lighting, setup.lights, setup.decals, sampling);
+  Progress progress;
+  Sampling shown = sampling;
+  shown.progress = [&](std::uint32_t sample) {
+    progress.show(fmt::format("render: sample {} of {}", sample + 1, sampling.samples),
+                  static_cast<double>(sample) / sampling.samples);
+  };
+  Rendered rendered = render_views(session.renderer(), lighting, setup.lights, setup.decals, shown);
+  progress.clear();
   const Clock clock_now = clock.read();
   const std::vector<Visit> visits = visit_all(session, lighting);
   const HdrImage image = std::move(rendered.image);
@@ -266,7 +289,10 @@ Exit render(const RenderOptions& o) {
   check_request(o.state.request, o.state.request.method);
   static_cast<void>(parse_exposure(o.state.exposure));
   Setup setup = make_setup(first_state(o, wanted.flight));
-  if (wanted.flight) static_cast<void>(frame_camera(setup.scene, static_cast<int>(wanted.flight->last)));
+  if (wanted.flight) {
+    static_cast<void>(frame_camera(setup.scene, static_cast<int>(wanted.flight->last)));
+    check_numbered(o, *wanted.flight);
+  }
   const std::uint32_t samples = sample_count(o, setup.scene);
   for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
   Session session(o.state.request, setup);
@@ -300,6 +326,7 @@ Run add_render(CLI::App& app) {
   auto o = std::make_shared<RenderOptions>();
   add_state_option(*command, o->state);
   add_common_options(*command, o->state.request);
+  add_statistics_flag(*command, o->state.request);
   add_depth_options(*command, o->state.request);
   add_stereo_option(*command, o->state.request);
   add_picture_options(*command, o->state.request);
@@ -339,7 +366,11 @@ Run add_render(CLI::App& app) {
       "  lamp render atrium --frame 40 --decals 64 --method tight --out decals.png\n"
       "  lamp render atrium --frames 0..59 --exposure 1 --out flight.png\n"
       "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
-  return [o] { return render(*o); };
+  return [o, command] {
+    const CLI::Option* state = command->get_option("--state");
+    if (state->count() != 0) o->state_file = state->results().front();
+    return render(*o);
+  };
 }
 
 }  // namespace lamp::app

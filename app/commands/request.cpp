@@ -81,6 +81,18 @@ PlaceLights light_placement(const Request& request, const Scene& scene) {
           .frames = scene.flight ? scene.flight->frames : 300};
 }
 
+/// To a capture lights are added only when a number of them is asked for.
+void check_generated(const Request& request, const Scene& scene) {
+  if (!scene.captured || request.lights_given) return;
+  const char* about = !request.range.empty()             ? "--range"
+                      : request.spots != Request().spots ? "--spots"
+                      : request.still != Request().still ? "--still"
+                                                         : nullptr;
+  if (about != nullptr)
+    throw Error(fmt::format("{}: no light is generated beside those of the capture {}; expected --lights N too", about,
+                            request.scene));
+}
+
 }  // namespace
 
 void check_scene_lights(const Request& request, const Scene& scene) {
@@ -154,8 +166,10 @@ glm::uvec2 parse_size(const std::string& text, std::string_view option) {
   const std::size_t x = text.find('x');
   glm::uvec2 size(0);
   if (x == std::string::npos || !parse_number(std::string_view(text).substr(0, x), size.x) ||
-      !parse_number(std::string_view(text).substr(x + 1), size.y) || size.x == 0 || size.y == 0)
-    throw Error(fmt::format("{} '{}': expected WIDTHxHEIGHT, both at least 1, such as 1280x720", option, text));
+      !parse_number(std::string_view(text).substr(x + 1), size.y) || std::min(size.x, size.y) == 0 ||
+      std::max(size.x, size.y) > MAX_IMAGE_SIZE)
+    throw Error(fmt::format("{} '{}': expected WIDTHxHEIGHT, both from 1 to {}, such as 1280x720", option, text,
+                            MAX_IMAGE_SIZE));
   return size;
 }
 
@@ -176,84 +190,6 @@ std::pair<float, float> parse_range(const std::string& text) {
   return {low, high};
 }
 
-ShadingPath parse_path(const std::string& text) {
-  const auto found = std::ranges::find(path_names(), text);
-  if (found == path_names().end()) throw unknown_name("--path", text, path_names());
-  return static_cast<ShadingPath>(found - path_names().begin());
-}
-
-std::span<const std::string_view> brdf_names() {
-  static constexpr std::array<std::string_view, 2> NAMES{"ggx", "blinn-phong"};
-  return NAMES;
-}
-
-Brdf parse_brdf(const std::string& text) {
-  if (text == brdf_names()[0]) return Brdf::ggx;
-  if (text == brdf_names()[1]) return Brdf::blinn_phong;
-  throw unknown_name("--brdf", text, brdf_names());
-}
-
-std::span<const std::string_view> verifier_names() {
-  static constexpr std::array<std::string_view, 3> NAMES{"oracle", "gpu", "auto"};
-  return NAMES;
-}
-
-std::span<const std::string_view> depth_names() {
-  static constexpr std::array<std::string_view, 2> NAMES{"reversed", "standard"};
-  return NAMES;
-}
-
-HostDepth parse_depth(const std::string& text, std::uint32_t samples) {
-  if (std::ranges::find(depth_names(), text) == depth_names().end()) throw unknown_name("--depth", text, depth_names());
-  constexpr std::array<std::uint32_t, 4> COUNTS{1, 2, 4, 8};
-  if (std::ranges::find(COUNTS, samples) == COUNTS.end())
-    throw Error(fmt::format("--depth-samples {}: expected 1, 2, 4 or 8", samples));
-  return {.samples = samples, .reversed = text == depth_names()[0]};
-}
-
-VerifierChoice parse_verifier(const std::string& text, const Context& context) {
-  if (text == "oracle") return VerifierChoice::oracle;
-  if (text == "auto") return context.has_doubles() ? VerifierChoice::by_pairs : VerifierChoice::oracle;
-  if (!context.has_doubles())
-    throw Error(
-        fmt::format("--verifier gpu: device {} lacks the feature shaderFloat64; expected oracle", context.row().name),
-        Exit::no_device);
-  return VerifierChoice::gpu;
-}
-
-std::uint64_t brute_force_pairs(const Context& context) {
-  return context.row().kind == "CPU" ? 3'000'000'000 : 200'000'000'000;
-}
-
-std::uint64_t brute_force_lights(const Context& context) {
-  const Problem problem{.width = 1, .height = 1, .traits = context.device().traits};
-  return take(make_plan(parse_method("all"), problem)).lookup.most_walked;
-}
-
-const Method& parse_method(const std::string& text) { return *take(find_method(text)); }
-
-MethodWord parse_method_word(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  MethodWord word{.method = text.substr(0, colon), .options = {}};
-  if (colon == std::string::npos) return word;
-  if (is_auto(word.method))
-    throw Error(fmt::format("method '{}': auto chooses its own options, expected auto alone", text));
-  for (std::size_t begin = colon + 1; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    word.options.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return word;
-}
-
-bool is_auto(std::string_view method) { return method == "auto"; }
-
-void check_once(std::string_view option, std::vector<std::string> values) {
-  std::ranges::sort(values);
-  if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
-    throw Error(fmt::format("{} {}: is given twice, expected once", option, *twice));
-}
-
 void check_request(const Request& request, const std::string& method) {
   std::vector<std::string> keys;
   for (const std::string& option : request.options) keys.push_back(option.substr(0, option.find('=')));
@@ -266,6 +202,8 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_path(request.path));
   static_cast<void>(parse_brdf(request.brdf));
   static_cast<void>(parse_depth(request.depth, request.depth_samples));
+  if (std::ranges::find(projection_names(), request.projection) == projection_names().end())
+    throw unknown_name("--projection", request.projection, projection_names());
   check_shadow_choice(request);
   check_still(request);
   check_mirror(request);
@@ -277,10 +215,14 @@ Scene load_scene(const std::string& name) {
   if (builtin != builtin_scenes().end()) return builtin->make();
   const fs::path path(name);
   std::error_code not_there;
-  if (fs::is_directory(path, not_there)) return load_capture(path);
-  if (path.filename() == CAPTURE_FILE) return load_capture(path.has_parent_path() ? path.parent_path() : ".");
   const std::string extension = path.extension().string();
-  if (extension == ".gltf" || extension == ".glb") return load_gltf(path);
+  const bool is_gltf = extension == ".gltf" || extension == ".glb";
+  if (fs::is_directory(path, not_there)) {
+    if (is_gltf) throw Error(fmt::format("scene '{}': is a folder, expected a glTF file", name));
+    return load_capture(path);
+  }
+  if (path.filename() == CAPTURE_FILE) return load_capture(path.has_parent_path() ? path.parent_path() : ".");
+  if (is_gltf) return load_gltf(path);
   std::vector<std::string_view> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
   throw Error(
@@ -293,6 +235,7 @@ Setup make_setup(const Request& request) {
   static_cast<void>(parse_range(request.range));
   Setup setup;
   setup.scene = load_scene(request.scene);
+  check_generated(request, setup.scene);
   check_scene_lights(request, setup.scene);
   if (still_kind(request.still_lists) == gpu::STILL_TRIANGLES) number_triangles(setup.scene);
   setup.views = requested_views(request, setup.scene);

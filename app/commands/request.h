@@ -72,7 +72,9 @@ struct Request {
   bool grow = false;        ///< make room until everything fits
 };
 
-/// Adds what all commands with a scene take: the scene, its view, its lights, the device.
+/// Adds what all commands with a scene take: the scene, its camera, its lights, the device.
+void add_scene_options(CLI::App& command, Request& request);
+/// The same, and the size and the projection of a picture.
 void add_common_options(CLI::App& command, Request& request);
 /// Adds `--method` for several methods; `help` says what is done with them.
 void add_method_option(CLI::App& command, std::vector<std::string>& methods, const std::string& help);
@@ -104,6 +106,8 @@ CLI::Option* add_probe_option(CLI::App& command, Request& request);
 void add_probe_options(CLI::App& command, Request& request);
 /// Adds `-o` and `--out`.
 CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help);
+/// Adds `--pipeline-statistics`, for commands that have numbers of each pass.
+void add_statistics_flag(CLI::App& command, Request& request);
 /// Adds `--json`.
 void add_json_flag(CLI::App& command, bool& json, const std::string& help);
 

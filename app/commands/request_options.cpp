@@ -47,12 +47,21 @@ void add_light_options(CLI::App& command, Request& r) {
       ->capture_default_str();
 }
 
-void add_view_options(CLI::App& command, Request& r) {
+void add_picture_shape_options(CLI::App& command, Request& r) {
   command.add_option("--size", r.size, "size of the picture in pixels; a capture has its own")
       ->each([&r](const std::string&) { r.size_given = true; })
       ->type_name("WIDTHxHEIGHT")
       ->group("View")
       ->capture_default_str();
+  command
+      .add_option("--projection", r.projection,
+                  "camera (as the scene's camera has it), perspective, infinite, orthographic or off-centre")
+      ->type_name("NAME")
+      ->group("View")
+      ->capture_default_str();
+}
+
+void add_camera_options(CLI::App& command, Request& r) {
   command.add_option("--camera", r.camera, "camera of the scene (lamp info SCENE names them); default: its first")
       ->type_name("NAME")
       ->group("View");
@@ -62,12 +71,6 @@ void add_view_options(CLI::App& command, Request& r) {
       ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N")
       ->group("View");
-  command
-      .add_option("--projection", r.projection,
-                  "camera (as the scene's camera has it), perspective, infinite, orthographic or off-centre")
-      ->type_name("NAME")
-      ->group("View")
-      ->capture_default_str();
   command.add_option("--brdf", r.brdf, "how surfaces reflect: ggx or blinn-phong")
       ->type_name("NAME")
       ->group("View")
@@ -77,10 +80,6 @@ void add_view_options(CLI::App& command, Request& r) {
 void add_device_options(CLI::App& command, Request& r) {
   command.add_option("--device", r.device, "Vulkan device: its number, or a part of its name (lamp list devices)")
       ->type_name("NAME")
-      ->group("Device");
-  command
-      .add_flag("--pipeline-statistics", r.pipeline_statistics,
-                "add what the driver says of each pass, such as its registers, to the numbers; few drivers say it")
       ->group("Device");
   command
       .add_option("--shader-dir", r.shader_dir,
@@ -97,13 +96,18 @@ void check_one_method(std::size_t methods, std::span<const std::string> options)
 }
 
 void add_common_options(CLI::App& command, Request& r) {
+  add_scene_options(command, r);
+  add_picture_shape_options(command, r);
+}
+
+void add_scene_options(CLI::App& command, Request& r) {
   command
       .add_option("scene,--scene", r.scene,
                   "a built-in scene (lamp list scenes), a .gltf or .glb file, or the folder of a capture")
       ->type_name("SCENE")
       ->capture_default_str();
   command.add_flag_callback("-q,--quiet", hide_progress, "show no progress on the terminal");
-  add_view_options(command, r);
+  add_camera_options(command, r);
   add_light_options(command, r);
   add_device_options(command, r);
 }
@@ -164,7 +168,7 @@ void add_stereo_option(CLI::App& command, Request& r) {
       .add_option(
           "--stereo", r.stereo_m,
           "two eyes, so many metres apart (people's: 0.064), each in its half of the picture; lights are culled "
-          "for both at once")
+          "for both at once; 0: one eye")
       ->check(number_between(0.0, 1000.0))
       ->type_name("METRES")
       ->group("View");
@@ -207,6 +211,13 @@ void add_decal_option(CLI::App& command, Request& r) {
 
 CLI::Option& add_out_option(CLI::App& command, std::string& out, const std::string& help) {
   return *command.add_option("-o,--out", out, help)->type_name("FILE")->group("Output")->capture_default_str();
+}
+
+void add_statistics_flag(CLI::App& command, Request& r) {
+  command
+      .add_flag("--pipeline-statistics", r.pipeline_statistics,
+                "add what the driver says of each pass, such as its registers, to the numbers; few drivers say it")
+      ->group("Device");
 }
 
 void add_json_flag(CLI::App& command, bool& json, const std::string& help) {

@@ -29,7 +29,8 @@ Number parse_count(const char* option, const std::string& text, Number all) {
   Number number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size())
-    throw Error(fmt::format("{} '{}': expected a whole number, 0 or more, or all", option, text));
+    throw Error(fmt::format("{} '{}': expected a whole number from 0 to {}, or all", option, text,
+                            std::numeric_limits<Number>::max()));
   return number;
 }
 

@@ -143,7 +143,7 @@ void print_rows(const Request& request, const Context& context, const Setup& set
     const PointFindings& f = row.findings;
     print_out("{:<26} {:<22} {:>8} {:>8} {:>11} {:>11} {:>11} {:>7.2f} {:>8}  {}\n", row.method, row.kind, row.points,
               f.missed, f.evaluations, f.reaching, row.hides ? std::to_string(f.useful) : "", f.waste(), f.list_max,
-              table_words(f.verdict()));
+              row.points == 0 ? "none" : table_words(f.verdict()));
     if (const std::string reason = f.reason(); !reason.empty()) print_out("  {}\n", reason);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -153,6 +153,8 @@ void print_rows(const Request& request, const Context& context, const Setup& set
       print_out("{}: {} cells did not fit, and their points walk every light: give it more room (lamp list methods)\n",
                 rows[i].method, rows[i].overflowed);
   }
+  if (std::ranges::any_of(rows, [](const PointRow& row) { return row.points == 0; }))
+    print_out("none: {} has no surface there\n", request.scene);
   print_out("waste: lights walked for each that reaches its point, or sees it where some need not be named; {}\n",
             std::ranges::all_of(rows, [](const PointRow& row) { return row.findings.verdict() == Verdict::ok; })
                 ? "no point misses a light"
@@ -221,7 +223,6 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
       cuts.push_back(draw_point_cut(walks, bounds(setup.scene), eye.y,
                                     fmt::format("{}, {} lights", asked.label(), setup.lights.size())));
   }
-  if (!of.cut.empty()) write_png(of.cut, stacked(cuts));
   show_progress("");
   Verdict worst = Verdict::ok;
   for (const PointRow& row : rows) worst = std::max(worst, row.findings.verdict());
@@ -232,6 +233,7 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
   } else {
     print_rows(request, context, setup, rows);
   }
+  if (!of.cut.empty()) write_output(of.cut, [&](const auto& file) { write_png(file, stacked(cuts)); });
   return exit_of(worst);
 }
 

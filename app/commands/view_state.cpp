@@ -8,10 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "commands/command_line.h"
 #include "commands/pictures.h"
 #include "scene/flight.h"
+#include "system/print.h"
 
 namespace lamp::app {
 namespace {
@@ -23,9 +27,44 @@ constexpr std::array<std::string_view, 3> PALETTES{"rainbow", "blue-yellow", "gr
 constexpr std::array<std::string_view, 3> LIGHT_MARKS{"none", "cell", "all"};
 constexpr std::array<std::string_view, 3> SHADOW_SHAPES{"none", "bound", "mesh"};
 
-void check_projection(const std::string& name) {
-  if (const std::string wrong = one_of(name, projection_names()); !wrong.empty())
-    throw Error(fmt::format("--projection: {}", wrong));
+std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
+
+/// Who names another camera leaves that of the state; lights stay where they are, unless a frame is named.
+void change_camera(const CLI::App& command, Request& request) {
+  const auto value_of = [&](const char* name) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    return option == nullptr || option->count() == 0 ? std::string() : option->results().front();
+  };
+  const bool flight = value_of("--frames").find("..") != std::string::npos;
+  if (flight || !value_of("--frame").empty()) {
+    request.free_camera.reset();
+    request.camera.clear();
+    request.light_frame = -1;
+    if (flight && value_of("--frame").empty()) request.frame = -1;
+  } else if (!value_of("--camera").empty()) {
+    request.free_camera.reset();
+    if (request.light_frame < 0) request.light_frame = request.frame;
+    request.frame = -1;
+  }
+}
+
+/// Options of the state's method stay, but those that are given anew. Another method has none of them.
+void change_options(const CLI::App& command, const Request& read, Request& request) {
+  const CLI::Option* option = command.get_option_no_throw("--option");
+  const bool given = option != nullptr && option->count() != 0;
+  if (request.method != read.method) {
+    if (given || read.options.empty()) return;
+    print_error("--method {}: the state's {} is of {}, and left out\n", request.method, fmt::join(read.options, ", "),
+                read.method);
+    request.options.clear();
+    return;
+  }
+  if (!given) return;
+  std::vector<std::string> merged;
+  for (const std::string& old : read.options)
+    if (std::ranges::find(request.options, key_of(old), key_of) == request.options.end()) merged.push_back(old);
+  merged.insert(merged.end(), request.options.begin(), request.options.end());
+  request.options = std::move(merged);
 }
 
 }  // namespace
@@ -36,12 +75,22 @@ std::span<const std::string_view> light_mark_names() { return LIGHT_MARKS; }
 std::span<const std::string_view> shadow_shape_names() { return SHADOW_SHAPES; }
 
 void add_state_option(CLI::App& command, ViewState& state) {
+  const auto read = std::make_shared<std::optional<Request>>();
   command
       .add_option_function<std::string>(
-          "--state", [&state](const std::string& file) { state = load_state(file); },
+          "--state",
+          [&state, read](const std::string& file) {
+            state = load_state(file);
+            *read = state.request;
+          },
           "begin with the state that lamp-view saved in this file; other options change it")
       ->type_name("FILE")
       ->group("View");
+  command.parse_complete_callback([&command, &state, read] {
+    if (!*read) return;
+    change_camera(command, state.request);
+    change_options(command, **read, state.request);
+  });
 }
 
 void add_exposure_option(CLI::App& command, std::string& exposure) {
@@ -53,7 +102,6 @@ void add_exposure_option(CLI::App& command, std::string& exposure) {
 
 void check_state(const ViewState& state) {
   check_request(state.request, state.request.method);
-  check_projection(state.request.projection);
   static_cast<void>(parse_exposure(state.exposure));
   if (!state.other.empty()) static_cast<void>(parse_method(state.other));
   if (!state.against) return;

@@ -197,6 +197,9 @@ std::string complaint(const Rule& rule, const json& value, std::size_t into_size
       if (!fits(of_one, index, into_size))
         return fmt::format("{} {} is {}, expected {}", rule.key, name, shown(index), expectation(of_one, into_size));
   }
+  const bool shows_max = range_text(rule).find("..") != std::string::npos;
+  if (rule.want == Want::number && !shows_max && value.is_number() && value.get<double>() > rule.max)
+    return fmt::format("{} is {}, expected at most {}", rule.key, shown(value), rule.max);
   return fmt::format("{} is {}, expected {}", rule.key, shown(value), expectation(rule, into_size));
 }
 

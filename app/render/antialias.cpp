@@ -58,6 +58,7 @@ Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const 
   HdrImage sum;
   for (std::uint32_t i = 1; i < samples; ++i) {
     turn_to(i);
+    if (sampling.progress) sampling.progress(i);
     add(sum, renderer.render(lighting).image);
   }
   turn_to(0);
@@ -74,7 +75,9 @@ Rendered render_views(Renderer& renderer, Lighting& lighting, std::span<const sh
   std::vector<HdrImage> pictures(renderer.depth().views);
   for (std::uint32_t view = renderer.depth().views; --view != 0;) {
     renderer.show({.view = view});
-    pictures[view] = render_samples(renderer, lighting, lights, decals, {.samples = sampling.samples}).image;
+    pictures[view] =
+        render_samples(renderer, lighting, lights, decals, {.samples = sampling.samples, .progress = sampling.progress})
+            .image;
   }
   renderer.show({});
   Rendered rendered = render_samples(renderer, lighting, lights, decals, sampling);

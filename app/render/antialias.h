@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -19,9 +20,10 @@ namespace lamp::app {
 
 /// What is averaged and what is timed.
 struct Sampling {
-  std::uint32_t samples = 1;  ///< of the picture, a pixel
-  std::uint32_t frames = 1;   ///< that are timed, at the pixels' centres
-  std::uint32_t warm_up = 0;  ///< frames before those, besides the other samples
+  std::uint32_t samples = 1;                              ///< of the picture, a pixel
+  std::uint32_t frames = 1;                               ///< that are timed, at the pixels' centres
+  std::uint32_t warm_up = 0;                              ///< frames before those, besides the other samples
+  std::function<void(std::uint32_t)> progress = nullptr;  ///< called before each sample with its number
 };
 
 /// Renders the renderer's frame, the view that is shown: first the samples beside the pixels' centres, then the timed

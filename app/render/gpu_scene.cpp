@@ -95,7 +95,7 @@ gpu::MaterialData material_data(const Material& m) {
           .roughness = m.roughness,
           .normal_scale = m.normal_texture.image < 0 ? 0.0F : m.normal_scale,
           .occlusion_strength = m.occlusion_strength,
-          .alpha_cutoff = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0F,
+          .alpha_cutoff = m.alpha_mode == AlphaMode::mask ? drawn_alpha(m) : 0.0F,
           .least_alpha = m.alpha_mode == AlphaMode::blend ? 0.0F : 1.0F,
           .base_color_texture = texture_data(m.base_color_texture),
           .metallic_roughness_texture = texture_data(m.metallic_roughness_texture),

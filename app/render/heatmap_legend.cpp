@@ -39,11 +39,7 @@ void draw_title(const LegendStrip& strip, std::string title, const HeatSummary& 
   const std::string numbers = numbers_line(summary, width - text_width(title, strip.scale) - gap, strip.scale);
   const std::int32_t numbers_x = strip.right() - text_width(numbers, strip.scale);
   const std::int32_t room = numbers_x - gap - strip.left();
-  if (text_width(title, strip.scale) > room) {
-    while (!title.empty() && text_width(title + "..", strip.scale) > room) title.pop_back();
-    title += "..";
-  }
-  strip.text(strip.left(), LegendStrip::PAD, title, LegendStrip::BRIGHT);
+  strip.text(strip.left(), LegendStrip::PAD, fitting(std::move(title), room, strip.scale), LegendStrip::BRIGHT);
   strip.text(numbers_x, LegendStrip::PAD, numbers, LegendStrip::QUIET);
 }
 
@@ -102,7 +98,7 @@ void draw_signals(const LegendStrip& strip, const HeatSummary& summary) {
 void append_legend(LdrImage& image, const std::string& title, const HeatSummary& summary) {
   if (image.width < LEGEND_MIN_WIDTH) return;
   const std::int32_t signals = static_cast<std::int32_t>(summary.signals.size()) * SIGNAL_HEIGHT;
-  const LegendStrip strip = append_strip(image, STRIP_HEIGHT + signals);
+  const LegendStrip strip = append_strip(image, STRIP_HEIGHT + signals, legend_scale(image.width));
   draw_title(strip, title, summary);
   draw_scale(strip, summary);
   draw_signals(strip, summary);

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "image/font_5x7.h"
 #include "render/legend_strip.h"
@@ -32,29 +36,48 @@ std::uint8_t grey_of(glm::u8vec4 color) {
   return static_cast<std::uint8_t>(std::lround(DARKEST + (BRIGHTEST - DARKEST) * (luma(color) / 255.0F)));
 }
 
-/// A bar from no light to all of it, as its shares are coloured, and what it means.
-void draw_bar(const LegendStrip& strip, std::int32_t line, glm::u8vec3 color, const std::string& words) {
-  const std::int32_t width = BAR_WIDTH * strip.scale;
-  for (std::int32_t x = 0; x < width; ++x) {
-    const float part = static_cast<float>(x) / static_cast<float>(width - 1);
-    const glm::vec3 mixed = glm::mix(glm::vec3(DARKEST), glm::vec3(color), part);
-    strip.rect(strip.left() + x, LegendStrip::PAD + LINE * line, {1, BAR_HEIGHT * strip.scale},
-               glm::u8vec3(mixed + 0.5F));
-  }
-  strip.text(strip.left() + width + LegendStrip::PAD * strip.scale, LegendStrip::PAD + LINE * line, words,
-             LegendStrip::BRIGHT);
+/// A line of the legend.
+struct Line {
+  std::string words;
+  glm::u8vec3 color = LegendStrip::BRIGHT;        ///< of the words
+  std::optional<glm::u8vec3> bar = std::nullopt;  ///< from no light to all of it, as its shares are coloured
+};
+
+std::int32_t words_left(const Line& line, std::int32_t scale) {
+  return LegendStrip::PAD * scale + (line.bar ? (BAR_WIDTH + LegendStrip::PAD) * scale : 0);
 }
 
+void draw_line(const LegendStrip& strip, std::int32_t y, const Line& line) {
+  const std::int32_t width = line.bar ? BAR_WIDTH * strip.scale : 0;
+  for (std::int32_t x = 0; x < width; ++x) {
+    const float part = static_cast<float>(x) / static_cast<float>(width - 1);
+    const glm::vec3 mixed = glm::mix(glm::vec3(DARKEST), glm::vec3(*line.bar), part);
+    strip.rect(strip.left() + x, y, {1, BAR_HEIGHT * strip.scale}, glm::u8vec3(mixed + 0.5F));
+  }
+  const std::int32_t left = words_left(line, strip.scale);
+  strip.text(left, y, fitting(line.words, strip.right() - left, strip.scale), line.color);
+}
+
+/// Letters as large as the picture allows for, or smaller where words are long.
 void draw_legend(LdrImage& image, const LeakMap& map) {
   if (image.width < LEGEND_MIN_WIDTH) return;
   const LeakSums sums = sum_of(map.pixels);
-  const std::string left_out = left_out_words(sums);
-  const LegendStrip strip = append_strip(image, 2 * LegendStrip::PAD + LINE * (left_out.empty() ? 3 : 4));
   const LeakColors colors;
-  strip.text(strip.left(), LegendStrip::PAD, map.title, LegendStrip::BRIGHT);
-  draw_bar(strip, 1, colors.leaked, leak_words(sums));
-  draw_bar(strip, 2, colors.lost, lost_words(sums));
-  if (!left_out.empty()) strip.text(strip.left(), LegendStrip::PAD + LINE * 3, left_out, LegendStrip::QUIET);
+  std::vector<Line> lines{{.words = map.title},
+                          {.words = leak_words(sums), .bar = colors.leaked},
+                          {.words = lost_words(sums), .bar = colors.lost}};
+  if (const std::string left_out = left_out_words(sums); !left_out.empty())
+    lines.push_back({.words = left_out, .color = LegendStrip::QUIET});
+  std::int32_t scale = legend_scale(image.width);
+  const auto is_long = [&](const Line& line) {
+    return words_left(line, scale) + text_width(line.words, scale) + LegendStrip::PAD * scale >
+           static_cast<std::int32_t>(image.width);
+  };
+  while (scale > 1 && std::ranges::any_of(lines, is_long)) --scale;
+  const auto count = static_cast<std::int32_t>(lines.size());
+  const LegendStrip strip = append_strip(image, 2 * LegendStrip::PAD + LINE * count, scale);
+  for (std::int32_t i = 0; i < count; ++i)
+    draw_line(strip, LegendStrip::PAD + LINE * i, lines[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace

@@ -21,9 +21,16 @@ void LegendStrip::rect(std::int32_t x, std::int32_t font_y, glm::ivec2 size, glm
   fill_rect(image, {x, y(font_y)}, size, color);
 }
 
-LegendStrip append_strip(LdrImage& image, std::int32_t font_pixels) {
-  const LegendStrip strip{image, static_cast<std::int32_t>(image.height),
-                          static_cast<std::int32_t>(1 + image.width / 640)};
+std::string fitting(std::string text, std::int32_t room, std::int32_t scale) {
+  if (text_width(text, scale) <= room) return text;
+  while (!text.empty() && text_width(text + "..", scale) > room) text.pop_back();
+  return text + "..";
+}
+
+std::int32_t legend_scale(std::uint32_t width) { return static_cast<std::int32_t>(1 + width / 640); }
+
+LegendStrip append_strip(LdrImage& image, std::int32_t font_pixels, std::int32_t scale) {
+  const LegendStrip strip{image, static_cast<std::int32_t>(image.height), scale};
   image.height += static_cast<std::uint32_t>(font_pixels * strip.scale);
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height, PANEL);
   return strip;

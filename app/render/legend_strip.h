@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string>
 #include <string_view>
 
 #include "image/image.h"
@@ -30,10 +31,16 @@ struct LegendStrip {
   void rect(std::int32_t x, std::int32_t font_y, glm::ivec2 size, glm::u8vec3 color) const;
 };
 
+/// Pixels of a picture for one of the font.
+[[nodiscard]] std::int32_t legend_scale(std::uint32_t width);
+
 /// Makes the picture higher by so many pixels of the font.
-[[nodiscard]] LegendStrip append_strip(LdrImage& image, std::int32_t font_pixels);
+[[nodiscard]] LegendStrip append_strip(LdrImage& image, std::int32_t font_pixels, std::int32_t scale);
 
 /// Pixels of a line.
 [[nodiscard]] std::int32_t text_width(std::string_view text, std::int32_t scale);
+
+/// As much of it as there is room for, with ".." where some is left out.
+[[nodiscard]] std::string fitting(std::string text, std::int32_t room, std::int32_t scale);
 
 }  // namespace lamp::app

@@ -90,8 +90,11 @@ bool MirrorReference::is_near(const Line& line, const Found& found, const Met& e
   const glm::dvec3 any = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(direction, any));
   const glm::dvec3 y = glm::cross(direction, x);
-  for (const glm::dvec3& side : {x, -x, y, -y, x + y, x - y, y - x, -x - y, direction, -direction})
-    if (is_same(first({origin + off * side, direction}).distance, found.distance)) return true;
+  for (const glm::dvec3& side : {x, -x, y, -y, x + y, x - y, y - x, -x - y, direction, -direction}) {
+    const Met met = first({origin + off * side, direction});
+    if (is_same(met.distance, found.distance)) return true;
+    if (std::abs(met.distance - found.distance) * std::max(met.cosine, LEAST_COSINE) <= 2.0 * off) return true;
+  }
   if (std::isinf(found.distance)) return false;
   const glm::dvec3 to_hit = found.at - origin;
   const double along = glm::dot(to_hit, direction);

@@ -59,7 +59,7 @@ bool is_there(const Scene& scene, const Origin& origin, double u, double v) {
   alpha *= material.base_color.a;
   if (const Texture& texture = material.base_color_texture; texture.image >= 0)
     alpha *= alpha_at(scene.images[static_cast<std::size_t>(texture.image)], texture, uv);
-  return alpha >= material.alpha_cutoff;
+  return alpha >= drawn_alpha(material);
 }
 
 template <class Use>

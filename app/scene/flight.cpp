@@ -140,12 +140,12 @@ Camera flight_camera(const Flight& flight, std::uint32_t frame) {
 }
 
 Camera frame_camera(const Scene& scene, int frame) {
-  if (!scene.flight) throw Error(fmt::format("--frame {}: the scene {} has no camera flight", frame, scene.name));
+  if (!scene.flight) throw Error(fmt::format("frame {}: the scene {} has no camera flight", frame, scene.name));
   const std::uint32_t frames = scene.flight->frames;
   // The path is closed, so that later frames would only be the same ones again.
   if (frame < 0 || static_cast<std::uint32_t>(frame) >= frames)
     throw Error(
-        fmt::format("--frame {}: the flight of the scene {} has the frames 0 to {}", frame, scene.name, frames - 1));
+        fmt::format("frame {}: the flight of the scene {} has the frames 0 to {}", frame, scene.name, frames - 1));
   return flight_camera(*scene.flight, static_cast<std::uint32_t>(frame));
 }
 

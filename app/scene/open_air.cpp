@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -76,10 +77,30 @@ std::size_t nearest_air(const Occupancy& grid, const Marks& air, const glm::vec3
   return best;
 }
 
+// Where a ray is within the grid, from its origin on; the end before the begin: nowhere.
+std::pair<float, float> within(const Occupancy& grid, const Ray& ray) {
+  constexpr float FARTHEST = 1e15F;  // steps are counted
+  float begin = 0.0F;
+  float end = ray.forward == glm::vec3(0.0F) ? 0.0F : FARTHEST;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float size = static_cast<float>(grid.size[axis]);
+    if (ray.forward[axis] == 0.0F) {
+      if (ray.origin[axis] < 0.0F || ray.origin[axis] > size) end = -1.0F;
+      continue;
+    }
+    const float a = -ray.origin[axis] / ray.forward[axis];
+    const float b = (size - ray.origin[axis]) / ray.forward[axis];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return {begin, end};
+}
+
 // The cell where a camera's air begins: its own, or else the first air that it looks at, or else the nearest.
 std::size_t first_air(const Occupancy& grid, const Marks& air, const Ray& ray) {
-  const auto farthest = static_cast<int>(glm::length(glm::vec3(grid.size)) + glm::length(ray.origin));
-  for (int step = 0; step <= 2 * farthest; ++step) {
+  const auto [begin, end] = within(grid, ray);
+  if (begin > end) return nearest_air(grid, air, ray.origin);
+  for (auto step = static_cast<std::int64_t>(2.0F * begin); static_cast<float>(step) <= 2.0F * end; ++step) {
     const glm::ivec3 cell(glm::floor(ray.origin + 0.5F * static_cast<float>(step) * ray.forward));
     if (grid.inner(cell) && air[grid.index(cell)] != 0) return grid.index(cell);
   }

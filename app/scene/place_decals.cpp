@@ -33,8 +33,8 @@ std::vector<Triangle> surfaces(const Scene& scene) {
     for (std::uint32_t t = 0; t < triangle_count(mesh); ++t) {
       Triangle triangle{.corners = world_triangle<float>(scene, instance, t)};
       const auto& [a, b, c] = triangle.corners;
-      const double doubled = glm::length(glm::dvec3(glm::cross(b - a, c - a)));
-      if (!(doubled > 1e-10) || !std::isfinite(doubled)) continue;
+      const double doubled = glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
+      if (!(doubled > 0.0) || !std::isfinite(doubled)) continue;
       area += 0.5 * doubled;
       triangle.area_before = area;
       triangles.push_back(triangle);
@@ -78,7 +78,7 @@ Decal generated(const std::vector<Triangle>& triangles, float scale_m, std::uint
   const Triangle& triangle = chosen == triangles.end() ? triangles.back() : *chosen;
   Decal decal{.center = point_on(triangle, random)};
   const auto& [a, b, c] = triangle.corners;
-  const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+  const glm::vec3 normal = glm::vec3(glm::normalize(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a))));
   const bool level = std::abs(normal.y) > 0.7F;
   const float turn = random.between(0.0F, 6.2831853F);
   decal.orientation = facing(normal, level ? glm::vec3(std::cos(turn), 0.0F, std::sin(turn)) : glm::vec3(0, 1, 0));

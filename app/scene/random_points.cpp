@@ -50,7 +50,7 @@ std::string_view name_of(PointKind kind) {
 }
 
 void PointSource::add(Surfaces& to, Facet facet) {
-  const double area = 0.5 * static_cast<double>(glm::length(glm::cross(facet.u, facet.v)));
+  const double area = 0.5 * glm::length(glm::cross(glm::dvec3(facet.u), glm::dvec3(facet.v)));
   if (!(area > 0.0) || !std::isfinite(area)) return;  // degenerate: no point is on it
   facet.area_before = to.area;
   to.facets.push_back(facet);

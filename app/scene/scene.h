@@ -87,6 +87,9 @@ struct Mesh {
   std::uint32_t material = 0;
 };
 
+/// Alpha from which a masked surface is drawn: the cutoff, less what interpolation in 32 bits may round away.
+[[nodiscard]] inline float drawn_alpha(const Material& material) { return material.alpha_cutoff * (1.0F - 0x1p-20F); }
+
 struct Instance {
   std::uint32_t mesh = 0;
   glm::mat4 world_from_object{1.0F};

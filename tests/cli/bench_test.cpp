@@ -348,7 +348,7 @@ TEST_F(Bench, BadInput) {
   write_suite("[4]", R"(, "cameras": ["nowhere"])");
   expect_error(BAD_INPUT, MINE, {"lamp: mine.json: series 'small': plane: camera 'nowhere'", "front"});
   write_suite("[4]", R"(, "frame": 300)");
-  expect_error(BAD_INPUT, MINE, {"lamp: mine.json: series 'small': --frame 300", "0 to 299"});
+  expect_error(BAD_INPUT, MINE, {"lamp: mine.json: series 'small': frame 300", "0 to 299"});
   write("mine.json", R"({"version": 1, "name": "mine", "series": [{"name": "small", "scenes": ["nowhere"]}]})");
   expect_error(BAD_INPUT, MINE, {"lamp: mine.json: series 'small': scene 'nowhere'", "nearest are"});
   expect_error(BAD_INPUT, {"bench", "plane", "--camera", "nowhere"}, {"lamp: plane: camera 'nowhere'"});

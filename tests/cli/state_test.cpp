@@ -33,6 +33,44 @@ TEST_F(StateTest, IsChangedByOptions) {
   EXPECT_EQ(json.at("width"), 48);
 }
 
+TEST_F(StateTest, KeepsOptionsOfItsMethodThatAreNotGivenAnew) {
+  write("state.json", STATE);
+  const nlohmann::json more =
+      json_of({"render", "--state", "state.json", "--option", "bounds=mask", "--json", "-o", "a.png"});
+  EXPECT_EQ(more.at("options").at("tile"), "32");
+  EXPECT_EQ(more.at("options").at("bounds"), "mask");
+  const Outcome other = lamp({"render", "--state", "state.json", "--method", "clustered", "--json", "-o", "b.png"});
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_EQ(other.err, "--method clustered: the state's tile=32 is of tiled, and left out\n");
+  EXPECT_EQ(lamp({"render", "--state", "state.json", "--method", "auto", "-o", "c.png"}).exit_code, 0);
+}
+
+// A frame moves the lights too; a camera leaves them where they are. Both leave a free camera.
+TEST_F(StateTest, GoesToTheCameraAndTheFrameThatAreGiven) {
+  const std::string plane = R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "method": "tiled",)";
+  write("free.json", plane + R"("light_frame": 9, "free_camera": {"eye": [0, 3, 0], "yaw": 1.5, "pitch": -0.25,
+    "near": 0.05, "far": 0, "fov_y": 1}})");
+  write("camera.json", plane + R"("light_frame": 9, "camera": "front"})");
+  write("frame.json", plane + R"("frame": 9})");
+  const auto picture = [&](const Arguments& arguments) {
+    static_cast<void>(output_of(with({"render"}, with(arguments, {"--samples", "1", "-o", "picture.exr"}))));
+    return read("picture.exr");
+  };
+  const Arguments plain{"plane", "--size", "48x27", "--lights", "40", "--method", "tiled", "--frame", "30"};
+  EXPECT_EQ(picture({"--state", "free.json", "--frame", "30"}), picture(plain));
+  EXPECT_EQ(picture({"--state", "frame.json", "--frame", "30"}), picture(plain));
+  EXPECT_EQ(picture({"--state", "free.json", "--camera", "front"}), picture({"--state", "camera.json"}));
+  EXPECT_EQ(picture({"--state", "frame.json", "--camera", "front"}), picture({"--state", "camera.json"}));
+  static_cast<void>(
+      output_of({"render", "--state", "frame.json", "--frames", "30..30", "--samples", "1", "-o", "flight.exr"}));
+  EXPECT_EQ(read("flight-0030.exr"), picture(plain));
+}
+
+TEST_F(StateTest, IsNotWrittenOver) {
+  write("state.json", STATE);
+  expect_error(BAD_INPUT, {"render", "--state", "state.json", "--stats", "state.json"}, {"state.json: is the --state"});
+}
+
 TEST_F(StateTest, PutsCameraAndLightsWhereItSays) {
   write("still.json", STATE);
   write("moved.json", R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "seed": 3, "method": "tiled",

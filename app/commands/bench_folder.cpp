@@ -1,0 +1,49 @@
+// Checks, empties and fills the folder.
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/bench_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "bench/report.h"
+#include "bench/results.h"
+#include "error.h"
+#include "files/read_json.h"
+#include "image/image.h"
+#include "image/write_file.h"
+
+namespace lamp::app {
+
+namespace fs = std::filesystem;
+
+void check_folder(const std::string& out) {
+  const fs::path folder = fs::absolute(followed(out));
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error(fmt::format("--out '{}': the folder cannot be made: {}", out, error.message()));
+  if (access(folder.c_str(), W_OK) != 0) throw Error(fmt::format("--out '{}': the folder is not writable", out));
+}
+
+void check_own_file(const std::string& out, const std::string& suite) {
+  std::error_code none;
+  if (fs::equivalent(suite, fs::path(out) / "results.json", none))
+    throw Error(fmt::format("--out '{}': its results.json is the suite, expected another folder", out));
+}
+
+void remove_pictures(const fs::path& folder) {
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures", none))
+    if (entry.path().extension() == ".png" || entry.path().extension() == ".exr") fs::remove(entry.path(), none);
+}
+
+void write_all(const fs::path& folder, const nlohmann::json& results) {
+  write_text(folder / "results.json", json_text(results, 1) + "\n");
+  write_text(folder / "results.csv", results_csv(results));
+  const ReportRun run{.results = results, .file = folder / "results.json"};
+  write_text(folder / "report.html", report_html({&run, 1}));
+}
+
+}  // namespace lamp::app
