@@ -56,6 +56,14 @@ void check_panel_options(const CLI::App& command) {
                             value_of(command, "a")));
 }
 
+/// A state may say both.
+void check_samples(const CLI::App& command) {
+  const std::string of_depth = value_of(command, "--depth-samples");
+  const std::string samples = value_of(command, "--samples");
+  if (!samples.empty() && !of_depth.empty() && of_depth != "1" && samples != of_depth)
+    throw Error(fmt::format("--samples: got {}, but with --depth-samples {} the picture has those", samples, of_depth));
+}
+
 /// What has no picture of its own to show it in.
 void check_numbers_and_places(const CLI::App& command) {
   const bool numbers = is_given(command, "--json") || is_given(command, "--stats") || is_given(command, "--panels");
@@ -93,6 +101,7 @@ void check_pairs(const CLI::App& command) {
   check_shadow_options(command);
   check_panel_options(command);
   check_numbers_and_places(command);
+  check_samples(command);
 }
 
 }  // namespace lamp::app

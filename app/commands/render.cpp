@@ -148,7 +148,7 @@ void print_frame(const Stats& stats, std::uint32_t frame, const std::string& fil
 /// Samples a pixel. A captured frame has what its depth buffer has, one; and so has depth that was asked for.
 std::uint32_t sample_count(const RenderOptions& o, const Scene& scene) {
   if (const std::uint32_t of_depth = o.state.request.depth_samples; of_depth > 1) {
-    if (o.state.samples != 0 && o.state.samples != of_depth)
+    if (o.state.samples > 1 && o.state.samples != of_depth)
       throw Error(fmt::format("--samples: got {}, but with --depth-samples {} the picture has those", o.state.samples,
                               of_depth));
     return of_depth;
