@@ -26,9 +26,7 @@ struct CaptureOptions {
 
 LightsFormat parse_lights_as(const std::string& text) {
   constexpr std::array<std::string_view, 2> NAMES{"npy", "json"};
-  if (text == NAMES[0]) return LightsFormat::npy;
-  if (text == NAMES[1]) return LightsFormat::json;
-  throw unknown_name("--lights-as", text, NAMES);
+  return parse_name("--lights-as", text, NAMES) == 0 ? LightsFormat::npy : LightsFormat::json;
 }
 
 bool has_glass(const Scene& scene) {

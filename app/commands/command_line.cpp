@@ -93,6 +93,21 @@ Error unknown_name(std::string_view what, std::string_view given, std::span<cons
                            fmt::join(nearest_names(given, names), ", ")));
 }
 
+std::size_t parse_name(std::string_view option, std::string_view text, std::span<const std::string_view> names) {
+  const auto found = std::ranges::find(names, text);
+  if (found == names.end()) throw unknown_name(option, text, names);
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+bool is_given(const CLI::App& command, const char* name) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  return option != nullptr && option->count() != 0;
+}
+
+std::string value_of(const CLI::App& command, const char* name) {
+  return is_given(command, name) ? command.get_option(name)->results().front() : std::string();
+}
+
 const CLI::App* find_command(const CLI::App& app, std::string_view name) {
   const std::vector<const CLI::App*> commands = app.get_subcommands({});
   const auto found = std::ranges::find(commands, name, [](const CLI::App* command) { return command->get_name(); });

@@ -25,6 +25,15 @@ namespace lamp::app {
 [[nodiscard]] Error unknown_name(std::string_view what, std::string_view given,
                                  std::span<const std::string_view> names);
 
+/// Which of the names it is. Throws what unknown_name says.
+[[nodiscard]] std::size_t parse_name(std::string_view option, std::string_view text,
+                                     std::span<const std::string_view> names);
+
+/// Whether the command has the option, and the line gives it.
+[[nodiscard]] bool is_given(const CLI::App& command, const char* name);
+/// Its first value; empty where it is not given.
+[[nodiscard]] std::string value_of(const CLI::App& command, const char* name);
+
 /// The command of that name, or null.
 [[nodiscard]] const CLI::App* find_command(const CLI::App& app, std::string_view name);
 

@@ -143,7 +143,7 @@ struct ListOptions {
 
 Exit list(const ListOptions& o) {
   const auto& [what, name, device, json] = o;
-  if (std::ranges::find(KINDS, what) == std::end(KINDS)) throw unknown_name("list", what, KINDS);
+  static_cast<void>(parse_name("list", what, KINDS));
   if (what == "pipelines") return list_pipelines_of(name, device, json);
   if (!device.empty()) throw Error("option --device: was not expected; pipelines alone are made for a device");
   if (!name.empty() && what != "methods")

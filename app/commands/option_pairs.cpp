@@ -14,16 +14,7 @@
 namespace lamp::app {
 namespace {
 
-bool is_given(const CLI::App& command, const char* name) {
-  const CLI::Option* option = command.get_option_no_throw(name);
-  return option != nullptr && option->count() != 0;
-}
-
 bool is_off(const CLI::Option& option) { return option.results().size() == 1 && option.results().front() == "off"; }
-
-std::string value_of(const CLI::App& command, const char* name) {
-  return is_given(command, name) ? command.get_option(name)->results().front() : std::string();
-}
 
 /// A state that lamp-view saved may have shadows. With `--shadows off` the others may stay where they are, but a method
 /// that cuts by shadows would be another than its name says.

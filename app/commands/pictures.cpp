@@ -47,9 +47,7 @@ auto side_by_side(Renderer& renderer, const OfView& of_view) {
 std::span<const std::string_view> heat_names() { return HEAT_NAMES; }
 
 HeatOf parse_heat(const std::string& name, const Request& request) {
-  const auto found = std::ranges::find(HEAT_NAMES, name);
-  if (found == HEAT_NAMES.end()) throw unknown_name("--heatmap-of", name, HEAT_NAMES);
-  const auto of = static_cast<HeatOf>(found - HEAT_NAMES.begin());
+  const auto of = static_cast<HeatOf>(parse_name("--heatmap-of", name, HEAT_NAMES));
   if (of == HeatOf::lights) return of;
   if (!requested_shadows(request))
     throw Error(fmt::format("--heatmap-of {}: no light casts a shadow; expected --shadows with it", name));

@@ -222,12 +222,12 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
   const std::optional<float> exposure = parse_exposure(o.state.exposure);
   session.renderer().wake(lighting);
   Progress progress;
-  Sampling shown = sampling;
-  shown.progress = [&](std::uint32_t sample) {
+  Sampling with_progress = sampling;
+  with_progress.progress = [&](std::uint32_t sample) {
     progress.show(fmt::format("render: sample {} of {}", sample + 1, sampling.samples),
                   static_cast<double>(sample) / sampling.samples);
   };
-  Rendered rendered = render_views(session.renderer(), lighting, setup.lights, setup.decals, shown);
+  Rendered rendered = render_views(session.renderer(), lighting, setup.lights, setup.decals, with_progress);
   progress.clear();
   const Clock clock_now = clock.read();
   const std::vector<Visit> visits = visit_all(session, lighting);
@@ -367,8 +367,7 @@ Run add_render(CLI::App& app) {
       "  lamp render atrium --frames 0..59 --exposure 1 --out flight.png\n"
       "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
   return [o, command] {
-    const CLI::Option* state = command->get_option("--state");
-    if (state->count() != 0) o->state_file = state->results().front();
+    o->state_file = value_of(*command, "--state");
     return render(*o);
   };
 }

@@ -202,8 +202,7 @@ void check_request(const Request& request, const std::string& method) {
   static_cast<void>(parse_path(request.path));
   static_cast<void>(parse_brdf(request.brdf));
   static_cast<void>(parse_depth(request.depth, request.depth_samples));
-  if (std::ranges::find(projection_names(), request.projection) == projection_names().end())
-    throw unknown_name("--projection", request.projection, projection_names());
+  static_cast<void>(parse_name("--projection", request.projection, projection_names()));
   check_shadow_choice(request);
   check_still(request);
   check_mirror(request);

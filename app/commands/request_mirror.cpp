@@ -37,8 +37,7 @@ void check_mirror(const Request& request) {
                             request.still_lists));
   if (request.moving && std::ranges::find(request.options, "occlusion=ahead") != request.options.end())
     throw Error("--moving: --option occlusion=ahead knows what hides lights only where it stands still, expected off");
-  if (std::ranges::find(mirror_list_names(), request.mirror_lists) == mirror_list_names().end())
-    throw unknown_name("--mirror-lists", request.mirror_lists, mirror_list_names());
+  static_cast<void>(parse_name("--mirror-lists", request.mirror_lists, mirror_list_names()));
   if (request.mirror == 0.0F) return;
   if (request.still_lists != "off")
     throw Error(
@@ -58,10 +57,9 @@ std::optional<MirrorSettings> requested_mirror(const Request& request, const Sce
         fmt::format("--mirror: the capture {} has no triangles that a ray could meet, expected a scene with "
                     "meshes",
                     request.scene));
-  const auto list = std::ranges::find(mirror_list_names(), request.mirror_lists);
-  return MirrorSettings{.roughness = request.mirror,
-                        .lists = static_cast<MirrorLists>(list - mirror_list_names().begin()),
-                        .brdf = parse_brdf(request.brdf)};
+  const std::size_t lists = parse_name("--mirror-lists", request.mirror_lists, mirror_list_names());
+  return MirrorSettings{
+      .roughness = request.mirror, .lists = static_cast<MirrorLists>(lists), .brdf = parse_brdf(request.brdf)};
 }
 
 void move_instances(const Request& request, Setup& setup) {

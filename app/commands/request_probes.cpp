@@ -22,8 +22,7 @@ constexpr std::array<std::string_view, 2> SHOWN{"captures", "flat"};
 std::span<const std::string_view> probes_show_names() { return SHOWN; }
 
 void check_probes_show(const Request& request) {
-  if (std::ranges::find(SHOWN, request.probes_show) == SHOWN.end())
-    throw unknown_name("--probes-show", request.probes_show, SHOWN);
+  static_cast<void>(parse_name("--probes-show", request.probes_show, SHOWN));
 }
 
 CLI::Option* add_probe_option(CLI::App& command, Request& r) {

@@ -34,12 +34,6 @@ Number parse_count(const char* option, const std::string& text, Number all) {
   return number;
 }
 
-std::size_t parse_name(const char* option, const std::string& text, std::span<const std::string_view> names) {
-  const auto found = std::ranges::find(names, text);
-  if (found == names.end()) throw unknown_name(option, text, names);
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 /// Bounds reckon with where taps lie.
 void check_cuts(const Request& request, const ShadowSettings& settings) {
   if (settings.blur != ShadowBlur::listing || !ShadowMoments::has(settings.filter)) return;

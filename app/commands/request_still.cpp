@@ -82,8 +82,7 @@ std::uint32_t still_kind(const std::string& lists) {
 }
 
 void check_still(const Request& request) {
-  if (std::ranges::find(LISTS, request.still_lists) == LISTS.end())
-    throw unknown_name("--still-lists", request.still_lists, LISTS);
+  static_cast<void>(parse_name("--still-lists", request.still_lists, LISTS));
   if (request.still_lists != OFF && request.path == "standard-deferred")
     throw Error(fmt::format("--still-lists {}: path standard-deferred walks no lists, expected another --path",
                             request.still_lists));

@@ -12,9 +12,7 @@
 namespace lamp::app {
 
 ShadingPath parse_path(const std::string& text) {
-  const auto found = std::ranges::find(path_names(), text);
-  if (found == path_names().end()) throw unknown_name("--path", text, path_names());
-  return static_cast<ShadingPath>(found - path_names().begin());
+  return static_cast<ShadingPath>(parse_name("--path", text, path_names()));
 }
 
 std::span<const std::string_view> brdf_names() {
@@ -23,9 +21,7 @@ std::span<const std::string_view> brdf_names() {
 }
 
 Brdf parse_brdf(const std::string& text) {
-  if (text == brdf_names()[0]) return Brdf::ggx;
-  if (text == brdf_names()[1]) return Brdf::blinn_phong;
-  throw unknown_name("--brdf", text, brdf_names());
+  return parse_name("--brdf", text, brdf_names()) == 0 ? Brdf::ggx : Brdf::blinn_phong;
 }
 
 std::span<const std::string_view> verifier_names() {
@@ -39,11 +35,11 @@ std::span<const std::string_view> depth_names() {
 }
 
 HostDepth parse_depth(const std::string& text, std::uint32_t samples) {
-  if (std::ranges::find(depth_names(), text) == depth_names().end()) throw unknown_name("--depth", text, depth_names());
+  const bool reversed = parse_name("--depth", text, depth_names()) == 0;
   constexpr std::array<std::uint32_t, 4> COUNTS{1, 2, 4, 8};
   if (std::ranges::find(COUNTS, samples) == COUNTS.end())
     throw Error(fmt::format("--depth-samples {}: expected 1, 2, 4 or 8", samples));
-  return {.samples = samples, .reversed = text == depth_names()[0]};
+  return {.samples = samples, .reversed = reversed};
 }
 
 VerifierChoice parse_verifier(const std::string& text, const Context& context) {

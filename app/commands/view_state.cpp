@@ -31,17 +31,13 @@ std::string_view key_of(std::string_view setting) { return setting.substr(0, set
 
 /// Who names another camera leaves that of the state; lights stay where they are, unless a frame is named.
 void change_camera(const CLI::App& command, Request& request) {
-  const auto value_of = [&](const char* name) {
-    const CLI::Option* option = command.get_option_no_throw(name);
-    return option == nullptr || option->count() == 0 ? std::string() : option->results().front();
-  };
-  const bool flight = value_of("--frames").find("..") != std::string::npos;
-  if (flight || !value_of("--frame").empty()) {
+  const bool flight = value_of(command, "--frames").find("..") != std::string::npos;
+  if (flight || is_given(command, "--frame")) {
     request.free_camera.reset();
     request.camera.clear();
     request.light_frame = -1;
-    if (flight && value_of("--frame").empty()) request.frame = -1;
-  } else if (!value_of("--camera").empty()) {
+    if (!is_given(command, "--frame")) request.frame = -1;
+  } else if (is_given(command, "--camera")) {
     request.free_camera.reset();
     if (request.light_frame < 0) request.light_frame = request.frame;
     request.frame = -1;
@@ -50,8 +46,7 @@ void change_camera(const CLI::App& command, Request& request) {
 
 /// Options of the state's method stay, but those that are given anew. Another method has none of them.
 void change_options(const CLI::App& command, const Request& read, Request& request) {
-  const CLI::Option* option = command.get_option_no_throw("--option");
-  const bool given = option != nullptr && option->count() != 0;
+  const bool given = is_given(command, "--option");
   if (request.method != read.method) {
     if (given || read.options.empty()) return;
     print_error("--method {}: the state's {} is of {}, and left out\n", request.method, fmt::join(read.options, ", "),

@@ -144,10 +144,14 @@ bool fits(const Rule& rule, const json& value, std::size_t into_size) {
   return false;
 }
 
+bool is_above_zero(const Rule& rule) { return rule.min == static_cast<double>(std::numeric_limits<float>::min()); }
+
+/// Whether a text of the range tells the most there may be.
+bool tells_max(const Rule& rule) { return !is_above_zero(rule) && rule.min >= 0.0 && rule.max < Rule{}.max; }
+
 std::string range_text(const Rule& rule) {
-  const double unbounded = Rule{}.max;
-  if (rule.min == static_cast<double>(std::numeric_limits<float>::min())) return " > 0";
-  if (rule.min >= 0.0 && rule.max < unbounded) return fmt::format(" {} .. {}", rule.min, rule.max);
+  if (is_above_zero(rule)) return " > 0";
+  if (tells_max(rule)) return fmt::format(" {} .. {}", rule.min, rule.max);
   return rule.min >= 0.0 ? fmt::format(" >= {}", rule.min) : std::string();
 }
 
@@ -197,8 +201,7 @@ std::string complaint(const Rule& rule, const json& value, std::size_t into_size
       if (!fits(of_one, index, into_size))
         return fmt::format("{} {} is {}, expected {}", rule.key, name, shown(index), expectation(of_one, into_size));
   }
-  const bool shows_max = range_text(rule).find("..") != std::string::npos;
-  if (rule.want == Want::number && !shows_max && value.is_number() && value.get<double>() > rule.max)
+  if (rule.want == Want::number && !tells_max(rule) && value.is_number() && value.get<double>() > rule.max)
     return fmt::format("{} is {}, expected at most {}", rule.key, shown(value), rule.max);
   return fmt::format("{} is {}, expected {}", rule.key, shown(value), expectation(rule, into_size));
 }

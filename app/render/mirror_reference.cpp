@@ -90,18 +90,19 @@ bool MirrorReference::is_near(const Line& line, const Found& found, const Met& e
   const glm::dvec3 any = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(direction, any));
   const glm::dvec3 y = glm::cross(direction, x);
+  const auto agree = [](const Met& met, double distance, double most) {
+    return std::abs(met.distance - distance) * std::max(met.cosine, LEAST_COSINE) <= most;
+  };
   for (const glm::dvec3& side : {x, -x, y, -y, x + y, x - y, y - x, -x - y, direction, -direction}) {
     const Met met = first({origin + off * side, direction});
-    if (is_same(met.distance, found.distance)) return true;
-    if (std::abs(met.distance - found.distance) * std::max(met.cosine, LEAST_COSINE) <= 2.0 * off) return true;
+    if (is_same(met.distance, found.distance) || agree(met, found.distance, 2.0 * off)) return true;
   }
   if (std::isinf(found.distance)) return false;
   const glm::dvec3 to_hit = found.at - origin;
   const double along = glm::dot(to_hit, direction);
   const glm::dvec3 beside = to_hit - along * direction;
   if (glm::length(beside) > off) return false;
-  const Met met = first({origin + beside, direction});
-  return std::abs(met.distance - along) * std::max(met.cosine, LEAST_COSINE) <= off;
+  return agree(first({origin + beside, direction}), along, off);
 }
 
 MirrorCompared MirrorReference::compare(const gpu::MirrorAsked& ray, const gpu::MirrorHit& hit,
