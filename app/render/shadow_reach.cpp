@@ -22,8 +22,8 @@ struct BoundGroups {
   std::uint32_t texels;  ///< a group's part of a map
 };
 constexpr std::size_t FEW_LIGHTS = 128;
-constexpr BoundGroups FOR_FEW{512, 6144};  ///< lights, which leave most of a device idle
-constexpr BoundGroups FOR_MANY{192, 12288};
+constexpr BoundGroups FOR_FEW{384, 6144};  ///< lights, which leave most of a device idle
+constexpr BoundGroups FOR_MANY{128, 12288};
 
 /// The first lights, as many as a buffer of the device holds: nothing cuts others.
 std::uint32_t lights_of(const vulkan::Device& device, std::uint64_t bytes, std::uint32_t light_capacity) {

@@ -49,6 +49,13 @@ LitLights wide_lit_light(ShadowFilter filter) {
   return lit;
 }
 
+LitLights large_lit_light(ShadowFilter filter) {
+  LitLights lit;
+  const ShadowAtlasInfo info{.size = LIT_ATLAS, .points = PointShadows::octahedron, .filter = filter};
+  add_light(lit, POINT, info, 256, {0, 256});
+  return lit;
+}
+
 std::vector<float> some_wall_depths(Random& random) {
   std::vector<float> depths(std::size_t{LIT_ATLAS} * LIT_ATLAS);
   for (std::uint32_t y = 0; y < LIT_ATLAS; ++y)

@@ -25,6 +25,8 @@ struct LitLights {
 [[nodiscard]] LitLights some_lit_lights(ShadowFilter filter);
 /// A spot that is wider than one square should show, in a small one: what a texel may light is wide, too.
 [[nodiscard]] LitLights wide_lit_light(ShadowFilter filter);
+/// A map with more large blocks than a work group of few threads holds at once.
+[[nodiscard]] LitLights large_lit_light(ShadowFilter filter);
 /// Walls at some metres that are whole over several cells, with holes and what stands before them.
 [[nodiscard]] std::vector<float> some_wall_depths(Random& random);
 /// Around where the walls are.

@@ -60,15 +60,18 @@ TEST_P(ShadowRadialBounds, HoldEverythingThatIsLit) {
   }
 }
 
-/// Of the few lights that a device has to spare for, several groups make one bound.
+void append(LitLights& to, const LitLights& from) {
+  to.lights.insert(to.lights.end(), from.lights.begin(), from.lights.end());
+  to.maps.insert(to.maps.end(), from.maps.begin(), from.maps.end());
+}
+
+/// Of the few lights that a device has to spare for, several groups make one bound, of more threads each.
 TEST_P(ShadowRadialBounds, AreTheSameHoweverManyGroupsMakeThem) {
   Random random(6);
-  const LitLights few = some_lit_lights(GetParam());
+  LitLights few = some_lit_lights(GetParam());
+  append(few, large_lit_light(GetParam()));
   LitLights many;
-  while (many.lights.size() < 200) {
-    many.lights.insert(many.lights.end(), few.lights.begin(), few.lights.end());
-    many.maps.insert(many.maps.end(), few.maps.begin(), few.maps.end());
-  }
+  while (many.lights.size() < 200) append(many, few);
   const GpuImage atlas = depth_image(LIT_ATLAS, LIT_ATLAS, some_wall_depths(random));
   const GpuImage far_atlas = depth_image(LIT_ATLAS, LIT_ATLAS, std::vector(std::size_t{LIT_ATLAS} * LIT_ATLAS, 0.0F));
   const auto bounds_of = [&](const LitLights& lit) {

@@ -13,52 +13,41 @@
 
 layout(local_size_x_id = 1, local_size_x = 256) in;  // many idle with a small map
 #include "shadow/parts/radial_blocks.glsl"
+#include "shadow/parts/radial_raise.glsl"
 
 layout(set = 0, binding = 3, scalar) readonly buffer JobBuffer { RadialJob jobs[]; };
 layout(set = 0, binding = 4, scalar) buffer BoundBuffer { RadialBound bounds[]; };
 layout(push_constant) uniform Push { uint job_count; };
 
-const uint CELLS = RADIAL_SIDE * RADIAL_SIDE / 3u * 4u;  // of all levels and more
-shared uint s_cells[CELLS];
-
-// Most blocks find that others reach farther.
-void reach(RadialArea cells, uint value) {
-  for (int y = cells.low.y; y <= cells.high.y; ++y) {
-    for (int x = cells.low.x; x <= cells.high.x; ++x) {
-      const ivec2 at = octahedron_texel(ivec2(x, y), int(RADIAL_SIDE));  // a spot's lie all inside
-      const uint cell = uint(at.y) * RADIAL_SIDE + uint(at.x);
-      if (LOAD_OF_GROUP(s_cells[cell]) < value) atomicMax(s_cells[cell], value);
-    }
-  }
-}
-
 void reach_of_block(uint light, Cut cut, uint block, float unit_m, float cells_scale) {
-  const float stored = int(cut.size) > DIRECT_SIZE ? uintBitsToFloat(s_nearest_stored[block])
+  const float stored = int(cut.size) > DIRECT_SIZE ? uintBitsToFloat(s_nearest_stored[block % HELD_BLOCKS])
                                               : farthest_of_block(light, cut, block);
   const RadialReach reaches = radial_reach_of(light, square_of(cut, block), vec2(place_of(cut, block)),
                                               float(cut.size), cells_scale);
   const float reach_m = radial_farthest_lit(light, radial_depth_of(light, stored)) * reaches.farthest;
   const uint value = reach_m < unit_m * float(RADIAL_ANY - 1u) ? uint(reach_m / unit_m * 1.00001) + 1u : RADIAL_ANY;
-  reach(reaches.cells, value);
+  raise(reaches.cells, value);
+}
+
+// By all threads of the group together.
+void reach_of_blocks(uint light, Cut cut, uint first, uint end, float unit_m, float cells_scale) {
+  const bool by_columns = int(cut.size) > DIRECT_SIZE;
+  uint held = first;
+  do {
+    const uint held_end = HOLDS_ALL ? end : min(held + HELD_BLOCKS, end);
+    if (by_columns) {
+      farthest_of_blocks(light, cut, held, held_end);
+      barrier();  // all texels before blocks reach
+    }
+    for (uint block = held + gl_LocalInvocationIndex; block < held_end; block += gl_WorkGroupSize.x)
+      reach_of_block(light, cut, block, unit_m, cells_scale);
+    if (!HOLDS_ALL && by_columns) barrier();  // all have reached before the next are held in their place
+    held += HELD_BLOCKS;
+  } while (!HOLDS_ALL && held < end);
 }
 
 float cells_scale_of(uint light) {
   return float(RADIAL_SIDE) * shadow_maps[light].scale / float(max(shadow_maps[light].side, 1u));
-}
-
-// By all threads of the group together: from level to level the largest of 2 x 2 cells.
-void fill_levels() {
-  for (uint level = 1u; level < RADIAL_LEVELS; ++level) {
-    const uint n = radial_side(level);
-    const uint first = radial_first(level);
-    const uint finer = radial_first(level - 1u);
-    for (uint i = gl_LocalInvocationIndex; i < n * n; i += gl_WorkGroupSize.x) {
-      const uint at = finer + 4u * n * (i / n) + 2u * (i % n);
-      const uint below = at + 2u * n;
-      s_cells[first + i] = max(max(s_cells[at], s_cells[at + 1u]), max(s_cells[below], s_cells[below + 1u]));
-    }
-    barrier();  // a level before the next
-  }
 }
 
 uint larger_bytes(uint a, uint b) {
@@ -111,18 +100,12 @@ void main() {
   for (uint i = thread; i < RADIAL_SIDE * RADIAL_SIDE; i += gl_WorkGroupSize.x) s_cells[i] = 0u;
   if (known) {
     const Cut cut = cut_of(light);
-    const bool by_columns = int(cut.size) > DIRECT_SIZE;
     const uint parts = max(job.parts, 1u);
     const uint rows = cut.all_blocks >> cut.block_bits;
     const uint first = rows * job.part / parts << cut.block_bits;
     const uint end = rows * (job.part + 1u) / parts << cut.block_bits;
-    for (uint i = first + thread; by_columns && i < end; i += gl_WorkGroupSize.x)
-      s_nearest_stored[i] = floatBitsToUint(1.0);
-    barrier();  // initial values before texels are nearer, and blocks reach farther
-    if (by_columns) farthest_of_blocks(light, cut, first, end);
-    if (by_columns) barrier();  // all texels before blocks reach
-    for (uint block = first + thread; block < end; block += gl_WorkGroupSize.x)
-      reach_of_block(light, cut, block, unit_m, cells_scale);
+    barrier();  // initial values before blocks reach farther
+    reach_of_blocks(light, cut, first, end, unit_m, cells_scale);
   }
   barrier();  // all blocks before the cells of the next level
   fill_levels();

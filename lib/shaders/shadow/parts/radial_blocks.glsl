@@ -11,7 +11,11 @@ const uint LEAST_BLOCK = 4u;
 const uint LEAST_OCTAHEDRON_BLOCK = 2u;
 const int DIRECT_SIZE = 4;  // texels a side: a thread reads a block as small as this alone
 const uint MOST_BLOCKS = max(OCTAHEDRON_BLOCKS * OCTAHEDRON_BLOCKS, SQUARES_A_LIGHT * BLOCKS * BLOCKS);
-shared uint s_nearest_stored[MOST_BLOCKS];  // bits of near / w of a larger block's farthest texel
+// A group of few threads holds a part of a map's blocks at a time: shared memory bounds how many groups are under way. On an
+// H200 many small maps take 0.49 ms so, 0.73 with all of them. Of few large maps a group has 96 blocks, and the loop is in the way.
+const bool HOLDS_ALL = gl_WorkGroupSize.x > 256u;
+const uint HELD_BLOCKS = HOLDS_ALL ? MOST_BLOCKS : 256u;
+shared uint s_nearest_stored[HELD_BLOCKS];  // bits of near / w of a larger block's farthest texel
 
 // How maps of a kind and side are cut into blocks; all are powers of two.
 struct Cut {
@@ -42,8 +46,11 @@ uvec2 place_of(Cut cut, uint block) {
   return (uvec2(block, block >> cut.block_bits) & (cut.blocks - 1u)) * cut.size;
 }
 
-// Of whole rows of blocks. A thread takes a column of a block; those of a row lie together in memory.
+// Of whole rows of blocks, at most HELD_BLOCKS, by all threads of the group together. A thread takes a column of a block; those of a row lie together in memory.
 void farthest_of_blocks(uint light, Cut cut, uint first, uint end) {
+  for (uint i = first + gl_LocalInvocationIndex; i < end; i += gl_WorkGroupSize.x)
+    s_nearest_stored[i % HELD_BLOCKS] = floatBitsToUint(1.0);
+  barrier();  // initial values before texels are nearer
   const uint side_bits = uint(findMSB(cut.side));
   const uint last = end * cut.size;
   for (uint column = first * cut.size + gl_LocalInvocationIndex; column < last; column += gl_WorkGroupSize.x) {
@@ -52,7 +59,7 @@ void farthest_of_blocks(uint light, Cut cut, uint first, uint end) {
     const ivec2 texel = ivec2(x, (row & (cut.blocks - 1u)) * cut.size);
     const float stored =
         radial_least_of_column(shadow_square(light, row >> cut.block_bits), texel, int(cut.size));
-    atomicMin(s_nearest_stored[(row << cut.block_bits) + x / cut.size], floatBitsToUint(stored));
+    atomicMin(s_nearest_stored[((row << cut.block_bits) + x / cut.size) % HELD_BLOCKS], floatBitsToUint(stored));
   }
 }
 
