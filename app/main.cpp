@@ -5,18 +5,14 @@
 
 #include <cerrno>
 #include <csignal>
-#include <exception>
-#include <filesystem>
-#include <new>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "files/printable.h"
+#include "commands/complain.h"
 #include "lamplight/version.h"
 #include "system/print.h"
 #include "system/signals.h"
@@ -25,7 +21,6 @@ namespace {
 
 using lamp::app::Exit;
 using lamp::app::help_text;
-using lamp::app::print_error;
 using lamp::app::Run;
 using lamp::app::write_out;
 
@@ -85,33 +80,13 @@ Exit run(int argc, char** argv) {
   return Exit::done;
 }
 
-/// Says why on one line, and gives the exit code.
-Exit complain(std::string_view why, Exit exit) {
-  print_error("lamp: {}\n", lamp::app::one_line(why));
-  return exit;
-}
-
-/// Runs the command; whatever goes wrong is one line on stderr.
-Exit run_or_complain(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const lamp::app::Error& error) {
-    return complain(error.what(), error.exit());
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory: try fewer lights or a smaller picture", Exit::bad_input);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return complain(error.path1().string() + ": " + error.code().message(), Exit::bad_input);
-  } catch (const std::exception& error) {
-    return complain(error.what(), Exit::bad_input);
-  }
-}
-
 /// The exit code, once it is known whether everything that was printed has arrived.
 Exit checked(Exit exit) {
   const int problem = lamp::app::output_problem();
   if (problem == EPIPE && lamp::app::dies_of_broken_pipes()) lamp::app::die_of(SIGPIPE);
   if (problem != 0)
-    exit = complain("standard output: cannot be written: " + std::generic_category().message(problem), Exit::bad_input);
+    exit = lamp::app::complain(
+        "lamp", "standard output: cannot be written: " + std::generic_category().message(problem), Exit::bad_input);
   const bool all_was_said = lamp::app::error_output_problem() == 0;
   return exit == Exit::done && !all_was_said ? Exit::bad_input : exit;
 }
@@ -122,7 +97,7 @@ int main(int argc, char** argv) {
   lamp::app::open_standard_streams();
   lamp::app::watch_signals();
   try {
-    return static_cast<int>(checked(run_or_complain(argc, argv)));
+    return static_cast<int>(checked(lamp::app::run_or_complain("lamp", [&] { return run(argc, argv); })));
   } catch (const lamp::app::Interrupted& stopped) {
     static_cast<void>(lamp::app::output_problem());  // flushes
     lamp::app::die_of(stopped.signal);

@@ -14,7 +14,7 @@ function(lamplight_embed target function)
   target_sources(${target} PRIVATE ${out})
 endfunction()
 
-# lamplight_commit(TARGET): adds a source to TARGET that defines `const char* lamp::app::built_from()`: `git describe`
+# lamplight_commit(TARGET): adds a source to TARGET that defines `std::string_view lamp::app::built_from()`: `git describe`
 # at every build; "unknown" without git.
 function(lamplight_commit target)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/built_from.cpp)

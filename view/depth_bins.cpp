@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "lamplight/shared/slices.h"
 #include "render/heatmap_legend.h"
 
 namespace lamp::app {

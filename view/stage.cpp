@@ -17,7 +17,6 @@
 #include "render/verification.h"
 #include "scene/capture.h"
 #include "scene/flight.h"
-#include "scene/place_decals.h"
 #include "view/stage_kept.h"
 
 namespace lamp::app {

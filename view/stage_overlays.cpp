@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "render/cell_masks.h"
 #include "render/judgement.h"

@@ -5,8 +5,6 @@
 #include <algorithm>
 
 #include "commands/pictures.h"
-#include "gpu/check.h"
-#include "scene/flight.h"
 #include "scene/number_triangles.h"
 #include "view/stage_kept.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "lamplight/shared/proxy.h"
 #include "render/light_outlines.h"

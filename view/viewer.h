@@ -55,7 +55,6 @@ class Viewer {
   [[nodiscard]] const std::string& error() const { return error_; }
   /// How often there was one.
   [[nodiscard]] std::uint64_t errors() const { return errors_; }
-  [[nodiscard]] const std::optional<Proof>& proof() const { return proof_; }
   [[nodiscard]] bool device_lost() const { return lost_; }
   /// What is set and what is seen, for scripts to expect.
   [[nodiscard]] nlohmann::json report() const;

@@ -21,7 +21,6 @@
 #include "commands/pictures.h"
 #include "files/content_hash.h"
 #include "files/read_json.h"
-#include "image/write_file.h"
 #include "render/judgement.h"
 #include "scene/builtin.h"
 #include "system/print.h"

@@ -10,7 +10,6 @@
 
 #include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
-#include "error.h"
 #include "system/print.h"
 
 namespace lamp::app {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/request.h"

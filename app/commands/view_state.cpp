@@ -14,7 +14,6 @@
 
 #include "commands/command_line.h"
 #include "commands/pictures.h"
-#include "scene/flight.h"
 #include "system/print.h"
 
 namespace lamp::app {

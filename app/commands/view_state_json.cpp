@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "commands/command_line.h"
 #include "commands/view_state.h"
 #include "files/json_values.h"
 #include "files/read_file.h"

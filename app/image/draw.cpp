@@ -10,22 +10,16 @@ namespace {
 constexpr std::uint32_t GAP_PX = 4;
 constexpr glm::u8vec4 GAP_COLOR{24, 24, 28, 255};
 
-glm::u8vec4 mix(glm::u8vec4 below, glm::u8vec3 color, float alpha) {
-  const glm::vec3 mixed = glm::mix(glm::vec3(below), glm::vec3(color), alpha);
-  return {glm::u8vec3(mixed + 0.5F), below.a};
-}
-
 }  // namespace
 
-void fill_rect(LdrImage& image, glm::ivec2 min, glm::ivec2 size, glm::u8vec3 color, float alpha) {
+void fill_rect(LdrImage& image, glm::ivec2 min, glm::ivec2 size, glm::u8vec3 color) {
   using Wide = glm::i64vec2;  // min + size may leave 32 bits
   const Wide end = glm::min(Wide(min) + Wide(size), Wide(image.width, image.height));
   const Wide begin = glm::max(Wide(min), Wide(0));
-  const float opacity = std::clamp(alpha, 0.0F, 1.0F);
   for (std::int64_t y = begin.y; y < end.y; ++y) {
     for (std::int64_t x = begin.x; x < end.x; ++x) {
       glm::u8vec4& pixel = image.pixels[static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)];
-      pixel = mix(pixel, color, opacity);
+      pixel = {color, pixel.a};
     }
   }
 }

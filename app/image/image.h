@@ -70,7 +70,7 @@ void draw_text(LdrImage& image, std::int32_t x, std::int32_t y, std::string_view
 /// The size in pixels that draw_text takes.
 [[nodiscard]] glm::uvec2 text_size(std::string_view text, std::uint32_t scale = 1);
 
-/// Fills a rectangle (clipped to the picture), mixing by alpha 0 .. 1.
-void fill_rect(LdrImage& image, glm::ivec2 min, glm::ivec2 size, glm::u8vec3 color, float alpha = 1.0F);
+/// Fills a rectangle, clipped to the picture; its alpha stays.
+void fill_rect(LdrImage& image, glm::ivec2 min, glm::ivec2 size, glm::u8vec3 color);
 
 }  // namespace lamp::app

@@ -192,11 +192,6 @@ void Builder::add_upper_level() {
 
 }  // namespace
 
-std::uint64_t Bvh::bytes() const {
-  return nodes.size() * sizeof(gpu::BvhNode) + triangles.size() * sizeof(gpu::BvhTriangle) +
-         instances.size() * sizeof(gpu::BvhInstance);
-}
-
 Bvh make_bvh(const Scene& scene) { return Builder(scene).build(); }
 
 bool refit(Bvh& bvh, const Scene& scene) {

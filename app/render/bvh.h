@@ -23,8 +23,6 @@ struct Bvh {
   std::uint32_t root = gpu::BVH_NOTHING;
   std::uint32_t first_upper = 0;  ///< of the upper level's nodes
   std::uint32_t stack = 0;        ///< as many nodes may wait at once
-
-  [[nodiscard]] std::uint64_t bytes() const;
 };
 
 [[nodiscard]] Bvh make_bvh(const Scene& scene);

@@ -10,7 +10,7 @@
 namespace lamp::app {
 namespace {
 
-/// Of a picture, that a probe may light: none is 0, so that those out of sight are captured too, after all others.
+/// Of a picture, that a probe may light: none is 0, so that those out of sight have their turn too.
 float share_of(const gpu::ProbeData& probe, std::span<const View> views) {
   const shared::LightSphere sphere{.center = probe.volume.center,
                                    .radius = glm::length(glm::vec3(probe.volume.half_extents))};
@@ -29,7 +29,7 @@ ProbeCaptures::ProbeCaptures(Context& context, const ShaderLibrary& shaders, con
     : atlas_(context, shaders, static_cast<std::uint32_t>(probes.size())),
       capture_(context, shaders, scene, info),
       set_(context, atlas_, gpu::PROBES_CAPTURED, std::move(probes)),
-      schedule_(static_cast<std::uint32_t>(set_.probes().size()), atlas_.slots()) {}
+      schedule_(static_cast<std::uint32_t>(set_.probes().size())) {}
 
 void ProbeCaptures::renew(const Frame& frame, std::uint32_t budget, const std::function<void(double)>& progress) {
   const std::span<const gpu::ProbeData> probes = set_.probes();
@@ -41,11 +41,9 @@ void ProbeCaptures::renew(const Frame& frame, std::uint32_t budget, const std::f
   counts_ = scheduled.counts;
   capture_.set(frame.lights, frame.decals);
   std::size_t done = 0;
-  for (const ProbeDraw& draw : scheduled.draws) {
+  for (const std::uint32_t drawn : scheduled.draws) {
     if (progress) progress(static_cast<double>(done++) / static_cast<double>(scheduled.draws.size()));
-    // A slot each: the schedule decides when, not where.
-    const gpu::ProbeData& probe = probes[draw.probe];
-    capture_.capture(probe.capture, atlas_, probe.slot);
+    capture_.capture(probes[drawn].capture, atlas_, probes[drawn].slot);
   }
 }
 

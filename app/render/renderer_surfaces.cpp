@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "render/gbuffer_texels.h"
 #include "render/renderer.h"

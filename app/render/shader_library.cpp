@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t SPIRV_MAGIC = 0x07230203;  // the first word of every module
 
-/// "methods/tiled.comp" becomes TREE/lib/shaders/methods/tiled.comp.
+/// "methods/light_bounds.comp" becomes TREE/lib/shaders/methods/light_bounds.comp.
 fs::path source_in(const fs::path& tree, const ShaderCode& code) {
   for (const char* root : {"lib/shaders", "app/render/shaders"}) {
     fs::path candidate = tree / root / code.source;

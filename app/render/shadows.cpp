@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "gpu/check.h"
-#include "gpu/transfer.h"
 
 namespace lamp::app {
 namespace {

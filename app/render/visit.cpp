@@ -8,7 +8,6 @@
 #include <cstring>
 #include <span>
 
-#include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "render/renderer.h"
 

@@ -60,15 +60,17 @@ void add_vaults(Scene& scene, const Materials& m) {
   }
 }
 
+constexpr float ARCH_RADIUS_X = 1.3F;
+constexpr float ARCH_RADIUS_Z = 1.1F;
+
 /// One storey of the arcade around the court: walls above the columns, with a ring of voussoirs in every arch.
 struct Storey {
   float spring, top, depth;
-  float radius_x, radius_z;  ///< of the arches along x and along z
 };
 
 void add_arcade(Scene& scene, const Materials& m, const Storey& storey) {
   for (const bool along_x : {true, false}) {
-    const float radius = along_x ? storey.radius_x : storey.radius_z;
+    const float radius = along_x ? ARCH_RADIUS_X : ARCH_RADIUS_Z;
     Geometry wall;
     add_arch_wall(wall, {.width = along_x ? BAY_X : BAY_Z,
                          .depth = storey.depth,
@@ -228,10 +230,8 @@ std::vector<Bay> bays_around(int count_x, int count_z, glm::vec2 half) {
 void add_building(Scene& scene, const Materials& materials) {
   add_floors(scene, materials);
   add_vaults(scene, materials);
-  add_arcade(scene, materials,
-             {.spring = SPRING_Y, .top = SLAB_Y + 0.02F, .depth = 0.5F, .radius_x = 1.3F, .radius_z = 1.1F});
-  add_arcade(scene, materials,
-             {.spring = UPPER_SPRING_Y, .top = EAVES_Y, .depth = 0.4F, .radius_x = 1.3F, .radius_z = 1.1F});
+  add_arcade(scene, materials, {.spring = SPRING_Y, .top = SLAB_Y + 0.02F, .depth = 0.5F});
+  add_arcade(scene, materials, {.spring = UPPER_SPRING_Y, .top = EAVES_Y, .depth = 0.4F});
   add_outer_walls(scene, materials);
   add_gallery(scene, materials);
   add_roof(scene, materials);

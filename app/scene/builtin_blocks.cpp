@@ -4,7 +4,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/blocks.h"
 #include "scene/builtin_scenes.h"
-#include "scene/mesh_builder.h"
 #include "scene/procedural_textures.h"
 
 namespace lamp::app::procedural {

@@ -8,7 +8,6 @@
 #include <array>
 #include <filesystem>
 
-#include "error.h"
 #include "files/json_values.h"
 #include "files/read_file.h"
 #include "files/read_json.h"

@@ -1,6 +1,6 @@
 // A glTF file, read and checked: the model as tinygltf gives it, and the bytes of its buffers.
 // Based on: Khronos, glTF 2.0 specification.
-// Promise: indices between elements, buffer views and numbers that the loader reads are in range; see gltf_check.h.
+// Promise: indices between elements, buffer views and numbers that the loader reads are in range; see gltf_rules.h.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_document.h"
 

@@ -144,28 +144,6 @@ float noise(glm::vec2 p) {
   return std::lerp(std::lerp(value(0, 0), value(1, 0), f.x), std::lerp(value(0, 1), value(1, 1), f.x), f.y);
 }
 
-Cells cells(glm::vec2 p, std::uint32_t count, std::uint32_t seed) {
-  const glm::vec2 scaled = glm::fract(p) * static_cast<float>(count);
-  const glm::ivec2 home(scaled);
-  Cells found{.nearest = 8.0F, .second = 8.0F};
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int n = static_cast<int>(count);
-      const auto x = static_cast<std::uint32_t>((home.x + dx + n) % n);
-      const auto y = static_cast<std::uint32_t>((home.y + dy + n) % n);
-      const glm::vec2 point =
-          glm::vec2(home + glm::ivec2(dx, dy)) + glm::vec2(hash_unit(x, y, seed), hash_unit(x, y, seed + 1));
-      const float distance = glm::length(point - scaled);
-      if (distance < found.nearest) {
-        found = {distance, found.nearest, hash_unit(x, y, seed + 2)};
-      } else {
-        found.second = std::min(found.second, distance);
-      }
-    }
-  }
-  return found;
-}
-
 Brick brick_at(glm::vec2 p, glm::uvec2 count, float shift, glm::vec2 tile_m) {
   const glm::vec2 scaled = glm::fract(p) * glm::vec2(count);
   const auto row = std::min(static_cast<std::uint32_t>(scaled.y), count.y - 1);

@@ -52,14 +52,6 @@ std::uint32_t add_material(Scene& scene, Material material);
 /// Noise in [0, 1], mean about 0.5, seamless with period 1 in both directions; scale p by whole numbers only.
 [[nodiscard]] float noise(glm::vec2 p);
 
-/// The nearest two of one jittered point a cell, distances in cells; seamless with period 1.
-struct Cells {
-  float nearest = 0.0F;
-  float second = 0.0F;
-  float id = 0.0F;  ///< [0, 1), of the nearest point
-};
-[[nodiscard]] Cells cells(glm::vec2 p, std::uint32_t count, std::uint32_t seed);
-
 /// A brick of a bond of `count.x` by `count.y` bricks a tile; odd rows are shifted by `shift` bricks.
 struct Brick {
   glm::vec2 local{0.0F};  ///< in the brick, 0 .. 1

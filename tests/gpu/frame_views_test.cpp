@@ -10,7 +10,6 @@
 #include "gpu/lookup_cases.h"
 #include "gpu/made_up_frame.h"
 #include "gpu/test_scenes.h"
-#include "render/pass_uses.h"
 
 namespace lamp::app {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "gpu/check.h"
 #include "gpu/point_asks.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"

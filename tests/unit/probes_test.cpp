@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "error.h"
 #include "oracle/reference.h"
 #include "render/place_probes.h"
 #include "render/probe_set.h"

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
-#include <new>
 #include <string>
 
 #include "commands/command_line.h"
+#include "commands/complain.h"
 #include "commands/view_state.h"
 #include "lamplight/version.h"
 #include "system/print.h"
@@ -112,29 +111,13 @@ Exit run(int argc, char** argv) {
   return Exit::done;
 }
 
-Exit complain(std::string_view why, Exit exit) {
-  print_error("lamp-view: {}\n", one_line(why));
-  return exit;
-}
-
-Exit run_or_complain(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const Error& error) {
-    return complain(error.what(), error.exit());
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory: try fewer lights or a smaller picture", Exit::bad_input);
-  } catch (const std::exception& error) {
-    return complain(error.what(), Exit::bad_input);
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_streams();
   watch_signals();
-  const Exit exit = run_or_complain(argc, argv);
-  if (output_problem() != 0) return static_cast<int>(complain("standard output: cannot be written", Exit::bad_input));
+  const Exit exit = run_or_complain("lamp-view", [&] { return run(argc, argv); });
+  if (output_problem() != 0)
+    return static_cast<int>(complain("lamp-view", "standard output: cannot be written", Exit::bad_input));
   return static_cast<int>(exit);
 }

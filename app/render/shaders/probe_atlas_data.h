@@ -31,7 +31,6 @@ struct ProbeSource {
   vec3 direction;  // unit, of its centre
   float weight;    // its solid angle, up to a factor
   vec3 radiance;   // its mean
-  float inverse_distance;
 };
 
 #ifdef __cplusplus

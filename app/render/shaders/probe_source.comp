@@ -16,5 +16,5 @@ void main() {
   const vec4 mean = folded_faces(texel, PROBE_SOURCE_SIDE, weight);
   const vec2 place = (vec2(texel) + 0.5) * (2.0 / float(PROBE_SOURCE_SIDE)) - 1.0;
   sources[texel.y * PROBE_SOURCE_SIDE + texel.x] =
-      ProbeSource(normalize(octahedron_point(place)), weight, mean.rgb, mean.a);
+      ProbeSource(normalize(octahedron_point(place)), weight, mean.rgb);
 }

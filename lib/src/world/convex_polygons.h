@@ -1,5 +1,5 @@
 // Triangles that share edges and lie in a plane, merged to convex polygons.
-// Promise: seen from a point off its plane (`far_enough`), the directions inside of all edges of a polygon all meet one
+// Promise: seen from a point that is not in its plane, the directions inside of all edges of a polygon all meet one
 // of its triangles, and within `thickness` of its plane. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -18,8 +18,6 @@ class ListGroups {
 
   /// Writes the lists behind `words`, and into its words what names them.
   void store(std::vector<std::uint32_t>& words) const;
-  /// Of all groups that are closed.
-  [[nodiscard]] std::size_t word_count() const { return words_.size(); }
   [[nodiscard]] std::uint64_t groups() const { return groups_; }
   [[nodiscard]] std::uint64_t lists() const { return lists_; }
 

@@ -21,5 +21,5 @@ void main() {
     if (weight > 0.0) add_probe_light(sum, weight, probes[k].flat_radiance);
   }
   answers[i] = ProbeBlendAnswer(sum.specular, sum.weight, probe_direction(probes[0], c.position, c.direction),
-                           probe_volume_weight(probes[0], c.position), probe_seen(c.distance_m, c.nearest_m));
+                                probe_seen(c.distance_m, c.nearest_m));
 }

@@ -20,7 +20,6 @@ struct ProbeBlendAnswer {
   vec3 sum;  // of flat radiances, by their weights
   float weight;
   vec3 direction;  // into the first probe's capture
-  float first_weight;
   float seen;
 };
 

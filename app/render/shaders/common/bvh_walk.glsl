@@ -2,7 +2,7 @@
 // nothing depends on the size of subgroups.
 // Based on: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2:1 (2013), which meets every edge from one
 // side at least.
-// Needs: common/bvh_alpha.glsl; BVH_THREADS.
+// Needs: common/bvh_scene.glsl; BVH_THREADS.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_BVH_WALK
 #define LAMP_BVH_WALK
