@@ -137,7 +137,11 @@ std::vector<ChartPanel> chart_panels(const json& results, const std::string& fil
 
 std::optional<double> value_of(const json& result, const std::string& y) {
   const json& times = result.contains("times") ? result.at("times") : json();
-  if (times.is_object() && times.contains(y)) return times.at(y).at("median").get<double>();
+  if (times.is_object() && times.contains(y)) {
+    const double median = times.at(y).at("median").get<double>();
+    const bool has_none = y == "cull" && median == 0.0;  // brute force
+    return has_none ? std::nullopt : std::optional(median);
+  }
   const json& stats = result.at("stats");
   if (y == "bytes" && stats.contains("bytes")) return stats.at("bytes").at("total").get<double>();
   if (stats.contains(y) && stats.at(y).is_number()) return stats.at(y).get<double>();

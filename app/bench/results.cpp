@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "error.h"
@@ -32,8 +33,16 @@ bool has_result(const json& results, const Group& group, const GroupEntry& entry
   const std::string key = key_of(group, entry);
   const json hashes = hashes_of(group, entry);
   return std::ranges::any_of(results["results"], [&](const json& result) {
-    return result["key"].get_ref<const std::string&>() == key && result.value("hashes", json::object()) == hashes;
+    return result["key"].get_ref<const std::string&>() == key && result.value("hashes", json::object()) == hashes &&
+           !result.value("clock_moved", false);
   });
+}
+
+/// Names that a suite may have changed since.
+void name_anew(json& result, const GroupEntry& entry) {
+  result["label"] = entry.label;
+  json& parameters = result["parameters"];
+  for (const auto& [key, value] : entry.swept) parameters["option:" + key] = value;
 }
 
 std::set<std::string> keys_of(std::span<const Group> groups) {
@@ -73,9 +82,9 @@ std::string csv_cell(const json& value) {
   return quoted + "\"";
 }
 
-constexpr std::array<const char*, 6> ENTRY_COLUMNS{"series", "label", "verdict", "reason", "range", "spots"};
-constexpr std::array<const char*, 9> STATS_COLUMNS{"scene", "width",  "height",           "lights", "method",
-                                                   "path",  "frames", "overflowed_cells", "cells"};
+constexpr std::array<const char*, 4> RESULT_COLUMNS{"series", "label", "verdict", "reason"};
+constexpr std::array<const char*, 7> PARAMETER_COLUMNS{"scene", "size", "lights", "range", "spots", "method", "path"};
+constexpr std::array<const char*, 3> STATS_COLUMNS{"frames", "overflowed_cells", "cells"};
 constexpr std::array<const char*, 4> TIMES{"cull", "shade", "cull+shade", "frame"};
 constexpr std::array<const char*, 5> SPREAD{"median", "p5", "p95", "mean", "deviation"};
 constexpr std::array<const char*, 8> FOUND{"list_mean", "list_max", "missed", "evaluations",
@@ -87,18 +96,17 @@ json value_or_null(const json& object, const char* key) { return object.contains
 
 /// What has no column of its own: "decals=64 shadows=pcf".
 std::string further_parameters(const json& parameters) {
-  constexpr std::array<std::string_view, 7> OWN_COLUMNS{"scene", "size", "lights", "spots", "range", "method", "path"};
   std::vector<std::string> words;
   for (const auto& [key, value] : parameters.items())
-    if (std::ranges::find(OWN_COLUMNS, key) == OWN_COLUMNS.end() && !key.starts_with("option:"))
+    if (std::ranges::find(PARAMETER_COLUMNS, key) == PARAMETER_COLUMNS.end() && !key.starts_with("option:"))
       words.push_back(fmt::format("{}={}", key, value.is_string() ? value.get<std::string>() : value.dump()));
   return fmt::format("{}", fmt::join(words, " "));
 }
 
 std::vector<std::string> csv_row(const json& entry) {
   std::vector<std::string> cells;
-  for (const char* key : ENTRY_COLUMNS)
-    cells.push_back(csv_cell(value_or_null(entry.contains(key) ? entry : entry["parameters"], key)));
+  for (const char* key : RESULT_COLUMNS) cells.push_back(csv_cell(value_or_null(entry, key)));
+  for (const char* key : PARAMETER_COLUMNS) cells.push_back(csv_cell(value_or_null(entry["parameters"], key)));
   const json& stats = entry["stats"];
   for (const char* key : STATS_COLUMNS) cells.push_back(csv_cell(value_or_null(stats, key)));
   std::vector<std::string> options;
@@ -117,7 +125,8 @@ std::vector<std::string> csv_row(const json& entry) {
 }
 
 std::vector<std::string> csv_header() {
-  std::vector<std::string> names(ENTRY_COLUMNS.begin(), ENTRY_COLUMNS.end());
+  std::vector<std::string> names(RESULT_COLUMNS.begin(), RESULT_COLUMNS.end());
+  names.insert(names.end(), PARAMETER_COLUMNS.begin(), PARAMETER_COLUMNS.end());
   names.insert(names.end(), STATS_COLUMNS.begin(), STATS_COLUMNS.end());
   names.emplace_back("options");
   names.emplace_back("parameters");
@@ -176,17 +185,23 @@ void check_earlier(const json& results, const json& earlier, const std::string& 
 }
 
 std::size_t take_over(json& results, const json& earlier, std::span<const Group> groups) {
-  std::set<std::string> kept;
-  for (const Group& group : groups)
-    if (has_group(earlier, group)) kept.merge(keys_of({&group, 1}));
-  std::size_t left = 0;
-  for (const json& result : earlier["results"]) {
-    if (kept.contains(result["key"]))
-      results["results"].push_back(result);
-    else
-      ++left;
+  std::map<std::string, const GroupEntry*> wanted;
+  std::set<std::string> complete;
+  for (const Group& group : groups) {
+    for (const GroupEntry& entry : group.entries)
+      if (has_result(earlier, group, entry)) wanted.emplace(key_of(group, entry), &entry);
+    if (has_group(earlier, group)) complete.merge(keys_of({&group, 1}));
   }
-  return left;
+  std::size_t again = 0;
+  for (const json& result : earlier["results"]) {
+    const std::string key = result["key"];
+    if (!complete.contains(key)) ++again;
+    const auto found = wanted.find(key);
+    if (found == wanted.end()) continue;
+    results["results"].push_back(result);
+    name_anew(results["results"].back(), *found->second);
+  }
+  return again;
 }
 
 json hashes_of(const Group& group, const GroupEntry& entry) {

@@ -44,8 +44,8 @@ struct RunInfo {
 /// this run does not.
 void check_earlier(const nlohmann::json& results, const nlohmann::json& earlier, const std::string& file,
                    std::span<const Group> groups);
-/// Takes over from an earlier run the results that the same groups would give again. Returns how many it left: they are
-/// to be measured again.
+/// Takes over from an earlier run the results that the same groups would give again, by the names that they have now.
+/// Returns how many of them are to be measured again; such as stand beside a method that is new stay until then.
 [[nodiscard]] std::size_t take_over(nlohmann::json& results, const nlohmann::json& earlier,
                                     std::span<const Group> groups);
 

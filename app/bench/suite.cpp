@@ -53,6 +53,8 @@ Chart parse_chart(const json& value, const Series& series, const std::string& wh
   if (std::ranges::find(AXES, chart.x) == AXES.end() && !is_option)
     object.wrong("x", joined(AXES) + " or option:KEY of a KEY in the series' options");
   if (std::ranges::find(VALUES, chart.y) == VALUES.end()) object.wrong("y", joined(VALUES));
+  if (series.flight && chart.x != "lights")
+    object.wrong("x", "lights where there is a flight, as its frames differ in those");
   if (series.flight && std::ranges::find(TIMES, chart.y) == TIMES.end())
     object.wrong("y", joined(TIMES) + ", as each frame of a flight has them alone");
   return chart;
@@ -101,8 +103,22 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
   if (method.label.empty()) {
     method.label = method.name;
     for (const std::string& option : method.options) method.label += " " + option;
+    if (!method.path.empty()) method.label += ", " + method.path;
+    if (method.host != Host::plan)
+      method.label += fmt::format(", {}", host_names()[static_cast<std::size_t>(method.host)]);
+    if (method.still_lists != "off") method.label += ", " + method.still_lists;
+    if (method.still_occlusion != 0) method.label += fmt::format(" {}", method.still_occlusion);
   }
   return method;
+}
+
+/// Of entries with one label charts would make one line.
+void check_labels(std::span<const SuiteMethod> entries, const std::string& where) {
+  std::set<std::string_view> labels;
+  for (const SuiteMethod& entry : entries)
+    if (!labels.insert(entry.label).second)
+      throw Error(
+          fmt::format("{}: methods: two have the label '{}', expected one of its own for each", where, entry.label));
 }
 
 /// Lights of a suite move in every frame: what is made ahead has no part in it, but where it is named.
@@ -119,6 +135,7 @@ std::vector<SuiteMethod> parse_methods(SuiteJson& object) {
   if (!list.is_array() || list.empty()) object.wrong("methods", "\"all\" or a list of methods");
   std::vector<SuiteMethod> entries;
   for (const json& value : list) entries.push_back(parse_method_entry(value, object.where()));
+  check_labels(entries, object.where());
   return entries;
 }
 
@@ -156,6 +173,36 @@ std::optional<LightWave> parse_flight(SuiteJson& object) {
   if (!flight.has("to")) flight.missing("to", "the most lights of the flight");
   if (wave.to < wave.from) flight.wrong("to", fmt::format("{} or more, as from says", wave.from));
   return wave;
+}
+
+/// Keys that nothing would read.
+void check_pairs(SuiteJson& object, const Series& series) {
+  if (series.frame >= 0 && object.has("cameras")) object.wrong("cameras", "none beside a frame, which has its own");
+  if (series.flight)
+    for (const char* key : {"lights", "cameras", "frame"})
+      if (object.has(key)) object.wrong(key, "none where there is a flight, which has its own");
+  if (series.mirror == 0.0 && object.has("mirror_lists")) object.wrong("mirror_lists", "none without mirror");
+  const std::string& filter = series.shadows.filter;
+  if (filter == "off" && object.has("atlas")) object.wrong("atlas", "none without shadows");
+  for (const ShadowWord& word : SHADOW_WORDS)
+    if (filter == "off" && word.value != &ShadowChoice::filter && object.has(word.name))
+      object.wrong(word.name, "none without shadows");
+  if ((filter == "hard" || filter == "pcf") && object.has("shadow_blur"))
+    object.wrong("shadow_blur", fmt::format("none with {}, which is filtered where it is looked up", filter));
+}
+
+/// A Culler is given lights alone here; a frame of another size is of one view with one sample a pixel.
+void check_hosts(SuiteJson& object, const Series& series) {
+  for (const SuiteMethod& method : series.methods) {
+    const std::string who = fmt::format("with host {}", host_names()[static_cast<std::size_t>(method.host)]);
+    if (method.host == Host::changing_size && series.stereo_m > 0.0) object.wrong("stereo", "0 " + who);
+    if (method.host == Host::changing_size && series.depth_samples != 1) object.wrong("depth_samples", "1 " + who);
+    if (!has_culler(method.host)) continue;
+    if (series.decals != std::vector<std::uint32_t>{0}) object.wrong("decals", "none " + who);
+    if (series.probes != std::vector<std::uint32_t>{0}) object.wrong("probes", "none " + who);
+    const std::vector<std::string> paths = method.path.empty() ? series.paths : std::vector{method.path};
+    if (std::ranges::find(paths, "tiled-deferred") != paths.end()) object.wrong("paths", "no tiled-deferred " + who);
+  }
 }
 
 Series parse_series(const json& value, const std::string& source) {
@@ -203,6 +250,8 @@ Series parse_series(const json& value, const std::string& source) {
   if (series.flight && series.still > 0.0) object.wrong("still", "0 where there is a flight");
   if (has_lists && series.still == 0.0) object.wrong("still", "more than 0 where a method has still_lists");
   if (object.has("chart")) series.chart = parse_chart(object.at("chart"), series, where);
+  check_pairs(object, series);
+  check_hosts(object, series);
   series.verify = parse_verify(object);
   if (!series.timed && (series.flight || object.has("verify") || object.has("pictures")))
     object.wrong("timed", "true where there is a flight, something to verify, or pictures");

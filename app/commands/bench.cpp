@@ -15,6 +15,7 @@
 #include "bench/regret.h"
 #include "bench/results.h"
 #include "commands/bench_folder.h"
+#include "commands/bench_input.h"
 #include "commands/bench_measure.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -22,7 +23,6 @@
 #include "files/content_hash.h"
 #include "files/read_json.h"
 #include "render/judgement.h"
-#include "scene/builtin.h"
 #include "system/print.h"
 #include "system/progress.h"
 #include "system/signals.h"
@@ -72,41 +72,43 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   series.seed = r.seed;
   series.frame = r.frame;
   series.still = r.still;
+  series.stereo_m = r.stereo_m;
+  series.mirror = r.mirror;
+  series.mirror_lists = r.mirror_lists;
   series.decals = {r.decals};
   series.probes = {r.probes};
   series.shadows = r.shadows;
   series.pictures = true;
   series.chart.x = "method";
   check_once("--method", o.methods);
+  if (r.still_lists != "off" && r.still == 0.0F)
+    throw Error(fmt::format("--still-lists {}: all generated lights move; expected --still PART too", r.still_lists));
   std::vector<std::string> names = o.methods;
   if (names.empty())
     for (const Method& method : methods()) names.emplace_back(method.name);
   check_one_method(names.size(), r.options);
   for (const std::string& name : names) {
-    series.methods.push_back({.name = name, .options = r.options, .label = name});
+    series.methods.push_back({.name = name,
+                              .options = r.options,
+                              .label = name,
+                              .still_lists = r.still_lists,
+                              .still_occlusion = r.still_occlusion});
     if (!is_auto(name)) static_cast<void>(parse_method(name));
   }
   return scene_suite(std::move(series));
 }
 
-/// Runs a check of a group. Errors begin with the suite and the series; with neither where a scene was named (empty).
-template <class Check>
-void check_in(const std::string& suite, const Group& group, const Check& check) {
-  try {
-    check();
-  } catch (const Error& error) {
-    if (suite.empty()) throw;
-    throw Error(fmt::format("{}: series '{}': {}", suite, group.series, error.what()), error.exit());
-  }
-}
-
-/// Checks what a suite's file cannot know by itself to be wrong, before any work.
-void check_groups(const std::string& suite, std::span<Group> groups) {
-  for (const Group& group : groups)
-    for (const GroupEntry& entry : group.entries)
-      check_in(suite, group, [&] { check_request(request_of(group, entry), entry.method); });
-  SceneCheck scenes;
-  for (Group& group : groups) check_in(suite, group, [&] { scenes.check(group); });
+/// The GPU verifier knows nothing of some frames.
+void tell_verifier(const BenchOptions& o, std::span<const Group> groups) {
+  if (o.verifier != "gpu") return;
+  const auto others = std::ranges::count_if(groups, [](const Group& group) {
+    return group.verify.what != Verify::What::nothing && group.verify.verifier == Verifier::oracle;
+  });
+  if (others != 0)
+    print_out(
+        "--verifier gpu: {} of {} groups are held against the oracle, as they have shadows, decals, probes, "
+        "several samples or two eyes\n",
+        others, groups.size());
 }
 
 /// What `auto` chooses depends on its calibration, which may be measured now.
@@ -183,30 +185,6 @@ void print_faults(const json& results) {
   }
 }
 
-/// Throws Error for what is meant neither as a suite nor as a scene.
-void check_name(const std::string& name) {
-  const bool is_builtin = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name) != builtin_scenes().end();
-  if (is_suite(name) || is_builtin || fs::path(name).has_extension() || fs::exists(name)) return;
-  const std::vector<std::string> suites = suite_names();
-  std::vector<std::string_view> names(suites.begin(), suites.end());
-  for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
-  throw Error(fmt::format("'{}': is neither a suite, a suite's .json file, nor a scene; the nearest are {}", name,
-                          fmt::join(nearest_names(name, names), ", ")));
-}
-
-/// Throws Error for a name that no series of the suite has.
-void check_series(const BenchOptions& o, const Suite& suite) {
-  if (!o.series.empty() && !is_suite(o.request.scene))
-    throw Error(fmt::format("--series: belongs to a suite, and {} is a scene", o.request.scene));
-  check_once("--series", o.series);
-  std::vector<std::string_view> names;
-  for (const Series& series : suite.series) names.push_back(series.name);
-  for (const std::string& name : o.series)
-    if (std::ranges::find(names, name) == names.end())
-      throw Error(fmt::format("--series '{}': the suite {} has none of this name; expected one of {}", name, suite.name,
-                              fmt::join(names, ", ")));
-}
-
 /// What a run came to.
 Exit conclude(const json& results, std::size_t left_out, const std::string& report) {
   const auto count = [&](std::string_view verdict) {
@@ -237,10 +215,10 @@ json results_of(const BenchOptions& o, const DeviceRow& row, const Suite& suite)
 }
 
 Exit bench(const BenchOptions& o) {
-  check_name(o.request.scene);
+  check_bench_name(o.request.scene);
   const bool from_suite = is_suite(o.request.scene);
   const Suite suite = from_suite ? load_suite(o.request.scene) : suite_of_scene(o, load_scene(o.request.scene));
-  check_series(o, suite);
+  check_series(o.series, o.request.scene, suite);
   BenchDevice device(o.request);
   Expansion expansion = expand(suite, {.frames = o.frames,
                                        .warm_up = o.warm_up,
@@ -258,25 +236,37 @@ Exit bench(const BenchOptions& o) {
     throw Error(fmt::format("{}: --max-lights and --max-size leave out all of its {} configurations", o.request.scene,
                             expansion.left_out));
   check_groups(from_suite ? o.request.scene : "", groups);
+  tell_verifier(o, groups);
   json results = results_of(o, device.context().row(), suite);
   const fs::path folder = o.out;
   const std::string file = (folder / "results.json").string();
   check_own_file(o.out, o.request.scene);
-  std::optional<json> earlier;
-  if (std::error_code none; !o.overwrite && fs::exists(file, none)) {
-    earlier = load_results(file);
-    check_earlier(results, *earlier, file, groups);
-  }
+  const auto earlier_results = [&]() -> std::optional<json> {
+    if (std::error_code none; o.overwrite || !fs::exists(file, none)) return std::nullopt;
+    json earlier = load_results(file);
+    check_earlier(results, earlier, file, groups);
+    return earlier;
+  };
+  static_cast<void>(earlier_results());  // refused before the calibration is measured
   name_calibration(device, groups);
-  check_folder(o.out);
-  if (o.overwrite) remove_pictures(folder);
+  const BenchFolder own(o.out);
+  const std::optional<json> earlier = earlier_results();
   if (earlier) go_on(results, *earlier, file, groups);
+  const auto all_there = [&] {
+    return std::ranges::all_of(groups, [&](const Group& g) { return has_group(results, g); });
+  };
+  if (earlier && all_there()) results["run"] = (*earlier)["run"];  // nothing is measured now
   const int signal = measure_all(device, folder, groups, results, o.request.explain);
-  const bool complete = std::ranges::all_of(groups, [&](const Group& g) { return has_group(results, g); });
+  if (signal != 0 && results["results"].empty()) {
+    print_out("stopped before anything was measured: {} stays as it is\n", o.out);
+    throw Interrupted{signal};
+  }
+  const bool complete = all_there();
   results["run"]["complete"] = complete;
   results["run"]["left_out"] = expansion.left_out;
   add_regret(results);
   write_all(folder, results);
+  if (o.overwrite && complete) remove_pictures(folder, results);
   const Exit exit = conclude(results, expansion.left_out, (folder / "report.html").string());
   if (!complete)
     print_out("stopped before its end; the same command{} goes on\n", o.overwrite ? " without --overwrite" : "");
@@ -321,6 +311,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add_common_options(*command, o->request);
   add_statistics_flag(*command, o->request);
   add_depth_options(*command, o->request);
+  add_stereo_option(*command, o->request);
   command->get_option("scene")->description("a suite (lamp list suites), a suite's .json file, or a scene");
   add_method_option(*command, o->methods, "method to measure on a scene");
   add_option_option(*command, o->request);
@@ -329,6 +320,8 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add_shadow_options(*command, o->request);
   add_decal_option(*command, o->request);
   add_probe_option(*command, o->request);
+  add_still_options(*command, o->request);
+  add_mirror_options(*command, o->request);
   add_out_option(*command, o->out, "write to this folder; what it has results of is not measured again")
       .type_name("FOLDER");
   command->add_flag("--overwrite", o->overwrite, "measure anew, in place of all results that the folder has")

@@ -58,6 +58,7 @@ LightingInfo lighting_info(const BenchScene& scene, const Group& group, const Gr
           .captured = scene.scene.captured.has_value(),
           .decals = !scene.decals.empty(),
           .probes = scene.probes.empty() ? gpu::PROBES_OFF : gpu::PROBES_FLAT,
+          .mirror = static_cast<float>(group.mirror),
           .shadows = filter_of(shadows_of(group, scene.scene)),
           .still = still_kind(entry.still_lists)};
 }

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/bench_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <system_error>
 
 #include "bench/report.h"
@@ -19,12 +24,20 @@ namespace lamp::app {
 
 namespace fs = std::filesystem;
 
-void check_folder(const std::string& out) {
+BenchFolder::BenchFolder(const std::string& out) {
   const fs::path folder = fs::absolute(followed(out));
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(fmt::format("--out '{}': the folder cannot be made: {}", out, error.message()));
   if (access(folder.c_str(), W_OK) != 0) throw Error(fmt::format("--out '{}': the folder is not writable", out));
+  file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some disks know no locks
+  close(file_);
+  throw Error(fmt::format("--out '{}': another lamp bench writes to it, expected another folder", out));
+}
+
+BenchFolder::~BenchFolder() {
+  if (file_ >= 0) close(file_);
 }
 
 void check_own_file(const std::string& out, const std::string& suite) {
@@ -33,10 +46,15 @@ void check_own_file(const std::string& out, const std::string& suite) {
     throw Error(fmt::format("--out '{}': its results.json is the suite, expected another folder", out));
 }
 
-void remove_pictures(const fs::path& folder) {
+void remove_pictures(const fs::path& folder, const nlohmann::json& results) {
+  std::set<std::string> named;
+  for (const nlohmann::json& result : results.at("results"))
+    if (const auto pictures = result.find("pictures"); pictures != result.end())
+      for (const nlohmann::json& picture : *pictures) named.insert(picture.get<std::string>());
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures", none))
-    if (entry.path().extension() == ".png" || entry.path().extension() == ".exr") fs::remove(entry.path(), none);
+    if (entry.path().extension() == ".png" && !named.contains("pictures/" + entry.path().filename().string()))
+      fs::remove(entry.path(), none);
 }
 
 void write_all(const fs::path& folder, const nlohmann::json& results) {

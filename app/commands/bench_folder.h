@@ -8,14 +8,24 @@
 
 namespace lamp::app {
 
-/// Makes it. Throws Error where it cannot be made or written to.
-void check_folder(const std::string& out);
+/// Made where it is not there, and one run's alone as long as this lives.
+class BenchFolder {
+ public:
+  /// Throws Error where it cannot be made or written to, and while another run has it.
+  explicit BenchFolder(const std::string& out);
+  ~BenchFolder();
+  BenchFolder(const BenchFolder&) = delete;
+  BenchFolder& operator=(const BenchFolder&) = delete;
+
+ private:
+  int file_ = -1;
+};
 
 /// Throws Error for a suite's file that the results would replace.
 void check_own_file(const std::string& out, const std::string& suite);
 
-/// For results that are measured anew: no picture stays that none of the new ones names.
-void remove_pictures(const std::filesystem::path& folder);
+/// Those that no result names.
+void remove_pictures(const std::filesystem::path& folder, const nlohmann::json& results);
 
 void write_all(const std::filesystem::path& folder, const nlohmann::json& results);
 

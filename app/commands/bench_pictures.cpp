@@ -10,6 +10,7 @@
 #include <cctype>
 
 #include "commands/pictures.h"
+#include "files/content_hash.h"
 #include "render/heatmap.h"
 
 namespace lamp::app {
@@ -17,16 +18,19 @@ namespace {
 
 constexpr std::uint32_t MAX_WIDTH = 640;
 
-/// Letters and digits stay, everything else becomes one hyphen.
-std::string file_name(std::string_view text) {
+/// Letters and digits stay, everything else becomes one hyphen; a hash of the key tells names apart that this makes
+/// alike.
+std::string file_name(const Group& group, const BenchPicture& picture) {
+  constexpr std::size_t MOST = 100;  // bytes
+  const std::string scene = std::filesystem::path(group.scene).filename().string();
   std::string name;
-  for (const char c : text) {
+  for (const char c : fmt::format("{} {} {}", group.series, scene, picture.label).substr(0, MOST)) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0)
       name += c;
     else if (!name.empty() && name.back() != '-')
       name += '-';
   }
-  return name;
+  return name + (name.empty() || name.back() == '-' ? "" : "-") + hash_text(hash_of(picture.key)).substr(0, 8);
 }
 
 /// Each pixel is the mean of `factor` x `factor` of the picture's.
@@ -78,28 +82,30 @@ std::uint32_t longest(std::span<const Shown> all) {
 
 }  // namespace
 
-nlohmann::json write_pictures(const std::filesystem::path& folder, const Group& group, Renderer& renderer,
-                              std::span<const LabelledLighting> shown) {
+std::vector<nlohmann::json> write_pictures(const std::filesystem::path& folder, const Group& group, Renderer& renderer,
+                                           std::span<const BenchPicture> pictures) {
   const std::uint32_t factor = (renderer.targets().width + MAX_WIDTH - 1) / MAX_WIDTH;
   std::vector<Shown> all;
-  for (const LabelledLighting& one : shown) all.push_back(show(renderer, *one.lighting, factor));
+  for (const BenchPicture& picture : pictures) {
+    picture.show();
+    all.push_back(show(renderer, *picture.lighting, factor));
+  }
   const std::uint32_t scale = std::bit_ceil(longest(all));
-  nlohmann::json files = nlohmann::json::object();
+  std::vector<nlohmann::json> files;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::string base =
-        "pictures/" + file_name(fmt::format("{} {} {}", group.series, group.scene, shown[i].label));
+    const std::string base = "pictures/" + file_name(group, pictures[i]);
     const auto write = [&](const std::string& name, const LdrImage& picture) {
       write_output(folder / name, [&](const auto& file) { write_png(file, picture); });
     };
     write(base + ".png", all[i].picture);
-    files[shown[i].label] = {{"picture", base + ".png"}};
+    files.push_back({{"picture", base + ".png"}});
     if (all[i].counts.empty()) continue;
     write(base + "-heat.png", draw_heatmap({.width = all[i].picture.width,
                                             .height = all[i].picture.height,
                                             .counts = all[i].counts,
                                             .scale_max = scale,
-                                            .title = shown[i].label}));
-    files[shown[i].label]["heatmap"] = base + "-heat.png";
+                                            .title = pictures[i].label}));
+    files.back()["heatmap"] = base + "-heat.png";
   }
   return files;
 }

@@ -3,23 +3,27 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bench/groups.h"
 #include "render/renderer.h"
 
 namespace lamp::app {
 
-struct LabelledLighting {
+struct BenchPicture {
   std::string label;
+  std::string key;  ///< of its result, which no other has
   Lighting* lighting = nullptr;
+  std::function<void()> show;  ///< makes the renderer's frame the lighting's
 };
 
-/// Writes a picture and a heat map for each into `folder`/pictures, the maps on one scale. Returns, by label,
+/// Writes a picture and a heat map for each into `folder`/pictures, the maps on one scale. Returns for each
 /// {"picture": file, "heatmap": file}, relative to the folder.
-[[nodiscard]] nlohmann::json write_pictures(const std::filesystem::path& folder, const Group& group, Renderer& renderer,
-                                            std::span<const LabelledLighting> shown);
+[[nodiscard]] std::vector<nlohmann::json> write_pictures(const std::filesystem::path& folder, const Group& group,
+                                                         Renderer& renderer, std::span<const BenchPicture> pictures);
 
 }  // namespace lamp::app

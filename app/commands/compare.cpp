@@ -162,6 +162,7 @@ Run add_compare(CLI::App& app) {
   add_probe_options(*command, o->request);
   add_shadow_options(*command, o->request);
   add_mirror_options(*command, o->request);
+  add_moving_flag(*command, o->request);
   add_path_option(*command, o->request);
   add_out_option(*command, o->out, "write picture, heat maps and their difference to this file, .png");
   add_json_flag(*command, o->json, "print the numbers as JSON");

@@ -97,8 +97,10 @@ void add_auto_options(CLI::App& command, Request& request);
 void add_shadow_options(CLI::App& command, Request& request);
 /// Adds `--mirror` and `--mirror-lists`.
 void add_mirror_options(CLI::App& command, Request& request);
+void add_moving_flag(CLI::App& command, Request& request);
 /// Adds `--still-lists` and what goes with it.
 void add_still_options(CLI::App& command, Request& request);
+void add_still_bytes_option(CLI::App& command, Request& request);
 /// Adds `--decals`, for commands whose numbers and pictures may have them.
 void add_decal_option(CLI::App& command, Request& request);
 /// Adds `--probes`, likewise; with add_probe_options also what they show, and how many captures a frame renews.

@@ -27,6 +27,9 @@ void add_mirror_options(CLI::App& command, Request& r) {
       ->type_name("NAME")
       ->group("Lights")
       ->capture_default_str();
+}
+
+void add_moving_flag(CLI::App& command, Request& r) {
   command.add_flag("--moving", r.moving, "small things of the scene move with the frames of the flight, as lights do")
       ->group("Lights");
 }

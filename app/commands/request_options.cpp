@@ -133,8 +133,10 @@ void add_picture_options(CLI::App& command, Request& r) {
   add_decal_option(command, r);
   add_probe_options(command, r);
   add_still_options(command, r);
+  add_still_bytes_option(command, r);
   add_shadow_options(command, r);
   add_mirror_options(command, r);
+  add_moving_flag(command, r);
 }
 
 void add_option_option(CLI::App& command, Request& r) {

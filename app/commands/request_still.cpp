@@ -157,6 +157,9 @@ void add_still_options(CLI::App& command, Request& r) {
       ->type_name("TEXELS")
       ->group("Lights")
       ->capture_default_str();
+}
+
+void add_still_bytes_option(CLI::App& command, Request& r) {
   command
       .add_option(
           "--still-bytes", r.still_bytes,

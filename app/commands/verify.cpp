@@ -339,8 +339,10 @@ Run add_verify(CLI::App& app) {
   add_decal_option(*command, o->request);
   add_probe_options(*command, o->request);
   add_still_options(*command, o->request);
+  add_still_bytes_option(*command, o->request);
   add_shadow_options(*command, o->request);
   add_mirror_options(*command, o->request);
+  add_moving_flag(*command, o->request);
   add_method_option(*command, o->methods, "method to check");
   add_option_option(*command, o->request);
   add_grow_option(*command, o->request);

@@ -28,7 +28,10 @@ double median_of(const std::vector<FrameTime>& frames, double FrameTime::* membe
 double percentile(std::vector<double> samples, double share) {
   if (samples.empty()) return 0.0;
   std::ranges::sort(samples);
-  return samples[static_cast<std::size_t>(std::lround(share * static_cast<double>(samples.size() - 1)))];
+  const double place = share * static_cast<double>(samples.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, samples.size() - 1);
+  return std::lerp(samples[below], samples[above], place - std::floor(place));
 }
 
 double span_ms(std::span<const vulkan::Timestamps::Time> times, const std::function<bool(std::string_view)>& counts) {

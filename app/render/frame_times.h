@@ -17,7 +17,7 @@ namespace lamp::app {
 class Lighting;
 struct Rendered;
 
-/// The sample at a share 0 .. 1 of the sorted samples (nearest rank); 0 when there are none.
+/// At a share 0 .. 1 of the way through the sorted samples, between two of them in proportion; 0 when there are none.
 [[nodiscard]] double percentile(std::vector<double> samples, double share);
 
 /// From the beginning of the first to the end of the last pass that counts, milliseconds; without the time of passes in

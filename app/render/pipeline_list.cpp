@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -21,14 +22,17 @@ namespace {
 
 constexpr std::uint32_t LIGHTS = 1U << 15;  // llvmpipe's loops end after twice as many
 constexpr std::uint32_t MANY_LIGHTS = 1U << 20;
-constexpr std::uint32_t BVH_STACK = 40;  // of a large scene
+constexpr std::uint64_t LEAST_BUFFER_BYTES = 1U << 30;  // of a device that has enough
+constexpr std::uint32_t BVH_STACK = 40;                 // of a large scene
 
 class PipelineLister {
  public:
   PipelineLister(const vulkan::Device& device, const ShaderLibrary& shaders) : device_(device), shaders_(shaders) {
     device_.pipelines = &store_;
-    // A driver without hardware has no memory. Its plans are those of a device that has enough.
+    // A driver without hardware has no memory, and some buffers are small. Nothing is put into any here, so plans are
+    // those of a device that has enough.
     if (device_.traits.memory_bytes == 0) device_.traits.memory_bytes = DeviceTraits().memory_bytes;
+    device_.traits.max_storage_buffer_bytes = std::max(device_.traits.max_storage_buffer_bytes, LEAST_BUFFER_BYTES);
     Geometry geometry(device_, shaders);
     geometry.need_triangles(device_, shaders);
     for (const vulkan::Pipeline& pipeline : geometry.pipelines()) add("", pipeline);

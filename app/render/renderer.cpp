@@ -66,9 +66,9 @@ Renderer::Renderer(Context& context, const ShaderLibrary& shaders, const GpuScen
 void Renderer::cast_shadows(const ShadowSettings& settings) {
   assert(!shadows_ && "once");
   check_shadow_raster(context_, settings.raster);
-  // Where lights stand still, a box's number is between those of two lights.
+  // Where some lights stand still, a box's number is between those of two lights.
   const auto boxes = static_cast<std::uint32_t>(decal_capacity_ + probes().probes().size());
-  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + (still_ == nullptr ? 0 : boxes));
+  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + boxes);
 }
 
 void Renderer::light_probes(const ProbeSet* set) {
@@ -316,9 +316,9 @@ void Renderer::wake(Lighting& lighting) {
 }
 
 std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {
-  const std::optional<Shadows::Pending> pending = shadows_ ? std::optional(shadows_->pending()) : std::nullopt;
+  const Shadows::Pending pending = pending_shadows();
   wake(lighting);
-  if (pending) shadows_->set_pending(*pending);
+  set_pending_shadows(pending);
   return time_frame(lighting, timing);
 }
 

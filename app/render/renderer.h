@@ -79,6 +79,12 @@ class Renderer {
   void restart_shadows() {
     if (shadows_) shadows_->restart();
   }
+  /// What the next frame draws of the last `set_frame`; given back after it, it is drawn once more: by frames of
+  /// several lightings that are timed alike. Nothing where no light casts a shadow.
+  [[nodiscard]] Shadows::Pending pending_shadows() const { return shadows_ ? shadows_->pending() : Shadows::Pending{}; }
+  void set_pending_shadows(const Shadows::Pending& pending) {
+    if (shadows_) shadows_->set_pending(pending);
+  }
   /// Null: no light casts a shadow.
   [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
   /// Surfaces below a roughness mirror what is around them, in all frames. Once, behind `cast_shadows`. Where there are

@@ -97,7 +97,12 @@ std::vector<std::uint32_t> ShaderLibrary::compiled(const ShaderCode& code) const
     compiled_->of = last;
     if (const auto found = compiled_->words.find(code.name); found != compiled_->words.end()) return found->second;
   }
-  std::vector<std::uint32_t> words = compile(code);
+  std::vector<std::uint32_t> words;
+  try {
+    words = compile(code);
+  } catch (const Error& error) {
+    throw ShaderError(error.what());
+  }
   const std::scoped_lock lock(compiled_->mutex);
   if (compiled_->of == last) compiled_->words.emplace(code.name, words);
   return words;

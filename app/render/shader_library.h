@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "error.h"
 #include "lamplight/shader_code.h"
 #include "lamplight/vulkan.h"
 
@@ -25,13 +26,19 @@ namespace lamp::app {
 /// Of all files that shaders of a checkout may include, and their names.
 [[nodiscard]] std::string hash_of_shaders(const std::filesystem::path& source_tree);
 
+/// A shader of a source tree that does not compile: no fault of a device.
+class ShaderError : public Error {
+ public:
+  using Error::Error;
+};
+
 class ShaderLibrary {
  public:
   /// `source_tree`: empty, or a checkout of Lamplight whose shaders are compiled with `glslc`, each again when a file
   /// of the checkout's shaders has changed since.
   explicit ShaderLibrary(std::filesystem::path source_tree = {}) : source_tree_(std::move(source_tree)) {}
 
-  /// Throws Error with the compiler's first line when a shader of the source tree does not compile.
+  /// Throws ShaderError with the compiler's first line when a shader of the source tree does not compile.
   [[nodiscard]] std::vector<std::uint32_t> spirv(std::string_view name) const;
 
   /// The same as the library's plans want it.

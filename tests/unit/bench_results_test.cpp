@@ -169,7 +169,26 @@ TEST_F(BenchResults, ARunGoesOnWhereItStopped) {
   EXPECT_EQ(take_over(results, earlier, groups), 1U);
   EXPECT_TRUE(has_group(results, groups[0]));
   EXPECT_FALSE(has_group(results, groups[1])) << "entries of a group were timed in the same rounds, or not at all";
-  EXPECT_EQ(results["results"].size(), 2U);
+  EXPECT_EQ(results["results"].size(), 3U) << "what is to be measured again stays until then";
+}
+
+TEST_F(BenchResults, ThatAreTakenOverHaveTheNamesOfNow) {
+  std::vector<Group> groups = expand(SWEEP, {}).groups;
+  for (Group& group : groups)
+    for (GroupEntry& entry : group.entries) entry.label += ", renamed";
+  json results = new_results(RUN, SWEEP);
+  EXPECT_EQ(take_over(results, run_of(SWEEP), groups), 0U);
+  ASSERT_EQ(results["results"].size(), 4U);
+  for (const json& result : results["results"]) EXPECT_TRUE(result["label"].get<std::string>().ends_with(", renamed"));
+}
+
+TEST_F(BenchResults, OfAClockThatMovedAreMeasuredAgain) {
+  const std::vector<Group> groups = expand(SWEEP, {}).groups;
+  json earlier = run_of(SWEEP);
+  earlier["results"][0]["clock_moved"] = true;
+  json results = new_results(RUN, SWEEP);
+  EXPECT_EQ(take_over(results, earlier, groups), 2U);
+  EXPECT_FALSE(has_group(results, groups[0]));
 }
 
 TEST_F(BenchResults, OfFilesThatHaveChangedAreNotTakenOver) {
@@ -261,6 +280,10 @@ TEST_F(BenchResults, TheTableHasARowAResult) {
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4);
   EXPECT_NE(csv.find("\"a \"\"label\"\", quoted\""), std::string::npos);
   EXPECT_NE(csv.substr(0, csv.find('\n')).find("cull_ms_median"), std::string::npos);
+  results["results"][1]["verdict"] = "impossible";
+  results["results"][1]["stats"] = json::object();
+  results["results"][1]["times"] = nullptr;
+  EXPECT_NE(results_csv(results).find(",impossible,,atrium,1280x720,"), std::string::npos) << results_csv(results);
 }
 
 TEST_F(BenchResults, WordsComeFromTheNumbers) {
@@ -274,6 +297,9 @@ TEST_F(BenchResults, WordsComeFromTheNumbers) {
   EXPECT_EQ(words[0], "cull and shade, with 64 lights: tiled is ahead with 6 ms; next is tight (1.67×).");
   EXPECT_EQ(words[1], "The lead changes: tight up to 16 lights, then tiled.");
   EXPECT_NE(run_summary(results).at(0).find("4 missed no light"), std::string::npos);
+  json alone = results;
+  alone["results"][0]["verified"] = "picture, lists alone, by gpu";
+  EXPECT_NE(run_summary(alone).at(0).find("1 missed no light (too many for brute force"), std::string::npos);
 }
 
 TEST_F(BenchResults, NumbersInWords) {

@@ -29,6 +29,10 @@ TEST(BenchStatistics, FewSamples) {
   EXPECT_EQ(one.p5, 7.0);
   EXPECT_EQ(one.p95, 7.0);
   EXPECT_EQ(one.deviation, 0.0);
+  const Spread two = spread_of({4.0, 2.0});
+  EXPECT_EQ(two.median, 3.0);
+  EXPECT_LT(two.median, two.p95);
+  EXPECT_EQ(spread_of({5.0, 1.0, 2.0, 9.0}).median, 3.5);
 }
 
 // A GPU that sleeps at first and wakes in the course of the frames is slow in most, whatever it runs.

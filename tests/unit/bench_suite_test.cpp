@@ -58,6 +58,42 @@ TEST(BenchSuite, EveryBuiltInSuiteIsOneAndNamesItself) {
   }
 }
 
+TEST(BenchSuite, KeysThatNothingWouldRead) {
+  expect_error(suite_with(R"("frame": 3, "cameras": ["room"])"), {"cameras", "none beside a frame"});
+  for (const char* key : {R"("lights": [4])", R"("frame": 3)", R"("cameras": ["room"])"})
+    expect_error(suite_with(std::string(key) + R"(, "flight": {"to": 9})"), {"none where there is a flight"});
+  expect_error(suite_with(R"("flight": {"to": 9}, "chart": {"x": "method"})"), {"x", "lights where there is a flight"});
+  expect_error(suite_with(R"("atlas": 1024)"), {"atlas", "none without shadows"});
+  expect_error(suite_with(R"("shadow_budget": "9")"), {"shadow_budget", "none without shadows"});
+  expect_error(suite_with(R"("shadows": "pcf", "shadow_blur": "lines")"), {"shadow_blur", "none with pcf"});
+  expect_error(suite_with(R"("mirror_lists": "brute-force")"), {"mirror_lists", "none without mirror"});
+}
+
+TEST(BenchSuite, HostsThatCannotHaveIt) {
+  const auto hosted = [](const std::string& host, const std::string& members) {
+    return suite_with(R"("methods": [{"name": "tiled", "host": ")" + host + R"("}], )" + members);
+  };
+  expect_error(hosted("changing-size", R"("stereo": 0.06)"), {"stereo", "0 with host changing-size"});
+  expect_error(hosted("changing-size", R"("depth_samples": 4)"), {"depth_samples", "1 with host changing-size"});
+  expect_error(hosted("culler", R"("decals": [3])"), {"decals", "none with host culler"});
+  expect_error(hosted("host-barriers", R"("probes": [3])"), {"probes", "none with host host-barriers"});
+  expect_error(hosted("culler", R"("paths": ["tiled-deferred"])"), {"paths", "no tiled-deferred with host culler"});
+}
+
+TEST(BenchSuite, LabelsTellEntriesApart) {
+  const Suite suite = parse_suite(
+      suite_with(
+          R"("still": 1, "methods": ["tiled", {"name": "tiled", "path": "forward"}, {"name": "tiled", "host": "culler"},
+      {"name": "tiled", "still_lists": "world-tree", "still_occlusion": 32}])"),
+      "mine.json");
+  std::vector<std::string> labels;
+  for (const SuiteMethod& method : suite.series[0].methods) labels.push_back(method.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"tiled", "tiled, forward", "tiled, culler", "tiled, world-tree 32"}));
+  expect_error(suite_with(R"("methods": ["tiled", {"name": "tight", "label": "tiled"}])"),
+               {"two have the label 'tiled'"});
+  expect_error(suite_with(R"("methods": ["tiled", "tiled"])"), {"two have the label 'tiled'"});
+}
+
 TEST(BenchSuite, KeysThatAreUnknown) {
   expect_error(suite_with("", R"("titel": "x", )"), {"key 'titel'", "nearest are title"});
   expect_error(suite_with(R"("lihgts": [1])"), {"series 'one'", "key 'lihgts'", "lights"});
