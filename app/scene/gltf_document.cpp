@@ -64,6 +64,23 @@ const json& elements(const json& document, const char* array) {
   return found == document.end() ? NONE : *found;
 }
 
+/// What the format forbids, and a reader would have to guess about.
+void check_pairs(const json& document, const std::string& file) {
+  std::size_t number = 0;
+  for (const json& node : elements(document, "nodes")) {
+    const std::string element = fmt::format("node {}", number++);
+    for (const char* part : {"translation", "rotation", "scale"})
+      if (node.contains("matrix") && node.contains(part))
+        gltf_fail(file, element, fmt::format("has a matrix and a {}, expected one of them", part));
+  }
+  number = 0;
+  for (const json& mesh : elements(document, "meshes")) {
+    if (mesh["primitives"].empty())
+      gltf_fail(file, fmt::format("mesh {}", number), "has no primitives, expected one or more");
+    ++number;
+  }
+}
+
 /// Says which parts of the file have no effect here.
 void note_left_out(const json& document, std::vector<std::string>& notes) {
   if (const std::size_t count = elements(document, "animations").size(); count > 0)
@@ -232,6 +249,7 @@ GltfDocument read_document(std::span<const std::byte> bytes, GltfOrigin origin) 
   const GltfContainer container = split_container(bytes, file);
   json parsed = parse_json(container.json, file, MOST_VALUES);
   check_gltf(parsed, file);
+  check_pairs(parsed, file);
   check_version(parsed, file);
   check_extensions(parsed, file, document.notes);
   note_left_out(parsed, document.notes);
