@@ -345,7 +345,11 @@ void Viewer::open(const std::string& file) {
     opened.request.free_camera.reset();
     opened.request.frame = -1;
     if (is_capture(file) || std::filesystem::is_directory(file)) {  // has its own, and its decals in its surfaces
+      const Request plain;
       opened.request.lights_given = false;
+      opened.request.spots = plain.spots;  // of lights that are not generated then
+      opened.request.range = plain.range;
+      opened.request.still = plain.still;
       opened.request.decals = 0;
     }
     opened.edits.clear();

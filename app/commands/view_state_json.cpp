@@ -26,7 +26,7 @@ void for_each_field(Fields&& at, State& s) {
   auto& r = s.request;
   at.text("scene", r.scene);
   at.text_if("size", r.size, r.size_given);
-  at.whole_if("lights", r.lights, MAX_LIGHTS, r.lights_given);
+  at.lights("lights", "lights_given", r.lights, r.lights_given);
   at.real("spots", r.spots, 0.0F, 1.0F);
   at.text("range", r.range);
   at.whole("decals", r.decals, 0, MAX_BOXES);
@@ -87,7 +87,9 @@ struct Keys {
   void text(std::string_view key, const auto&) { keys.push_back(key); }
   void text_if(std::string_view key, const auto&, const auto&) { keys.push_back(key); }
   void whole(std::string_view key, const auto&, std::uint32_t, std::uint32_t) { keys.push_back(key); }
-  void whole_if(std::string_view key, const auto&, std::uint32_t, const auto&) { keys.push_back(key); }
+  void lights(std::string_view key, std::string_view given_key, const auto&, const auto&) {
+    keys.insert(keys.end(), {key, given_key});
+  }
   void real(std::string_view key, const auto&, float, float) { keys.push_back(key); }
   void word(std::string_view key, const auto&, const auto&) { keys.push_back(key); }
   void seed(std::string_view key, const auto& v) { text(key, v); }
@@ -134,8 +136,11 @@ struct Writer {
     if (given) json[key] = value;
   }
   void whole(std::string_view key, const auto& value, std::uint32_t, std::uint32_t) { json[key] = value; }
-  void whole_if(std::string_view key, const auto& value, std::uint32_t, bool given) {
-    if (given || value != Request().lights) json[key] = value;
+  /// A number that nobody gave is kept for the scene after a capture, which has its own lights alone.
+  void lights(std::string_view key, std::string_view given_key, std::uint32_t value, bool given) {
+    if (!given && value == Request().lights) return;
+    json[key] = value;
+    if (!given) json[given_key] = false;
   }
   void real(std::string_view key, float value, float, float) { json[key] = value; }
   void word(std::string_view key, const auto& value, std::span<const std::string_view> names) {
@@ -188,10 +193,10 @@ class Reader {
   void whole(std::string_view key, std::uint32_t& value, std::uint32_t min, std::uint32_t max) {
     if (o_.has(key)) value = o_.whole(key, min, max);
   }
-  void whole_if(std::string_view key, std::uint32_t& value, std::uint32_t max, bool& given) {
-    if (!o_.has(key)) return;
-    whole(key, value, 0, max);
-    given = true;
+  void lights(std::string_view key, std::string_view given_key, std::uint32_t& value, bool& given) {
+    whole(key, value, 0, MAX_LIGHTS);
+    given = given || o_.has(key);
+    flag(given_key, given);
   }
   void real(std::string_view key, float& value, float min, float max) {
     if (!o_.has(key)) return;

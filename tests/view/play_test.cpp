@@ -133,6 +133,26 @@ TEST_F(Play, SavesFlightAndCaptureOfLamp) {
   EXPECT_EQ(bytes_of_file("capture.exr"), bytes_of_file("scene.exr"));
 }
 
+/// A capture that is dropped, and its state.
+TEST_F(Play, SavesThePictureOfACapture) {
+  play_script(parse_script(R"({"set": {"range": "1:3", "spots": 0.25}}
+{"wait": "idle"}
+{"click": "save capture"}
+{"wait": "idle"}
+{"drop": "lamp-view-capture"}
+{"wait": "idle"}
+{"expect": {"/shown/scene": "lamp-view-capture", "/shown/lights": 33, "/lights": 32, "/error": ""}}
+{"save_state": "state.json"}
+{"save_picture": "view.exr"}
+{"set": {"scene": "plane"}}
+{"wait": "idle"}
+{"expect": {"/shown/lights": 33}})",
+                           "capture"));
+  const ProgramResult run = run_program({LAMP_EXECUTABLE, "render", "--state", "state.json", "-o", "lamp.exr"});
+  ASSERT_TRUE(run.succeeded) << run.err;
+  EXPECT_EQ(bytes_of_file("view.exr"), bytes_of_file("lamp.exr"));
+}
+
 /// What stands in the window is what `lamp` prints, but for times and the clock, of which it is said alike if it is
 /// told.
 TEST_F(Play, ReportsTheNumbersOfLamp) {

@@ -90,6 +90,18 @@ TEST(ViewStateJson, ComesBackAsItWas) {
   }
 }
 
+/// A capture was opened after a scene with so many lights: none are generated beside its own.
+TEST(ViewStateJson, AddsNoLightsToACapture) {
+  ViewState state;
+  state.request.lights = 77;
+  ViewState read;
+  read_state(read, to_json(state), "state");
+  EXPECT_EQ(read.request.lights, 77U);
+  EXPECT_FALSE(read.request.lights_given);
+  read_state(read, {{"lights", 5U}}, "line");
+  EXPECT_TRUE(read.request.lights_given);
+}
+
 TEST(ViewStateJson, HasEveryMember) {
   const nlohmann::json plain = to_json(ViewState());
   const nlohmann::json full = to_json(full_state());
