@@ -18,8 +18,15 @@ constexpr double FRAMES_A_SECOND = 30.0;  // of a flight
 constexpr double REST_S = 0.5;            // without a change, before what is shown is drawn larger
 constexpr std::size_t MOST_UNDONE = 100;
 
-/// What a drawing depends on: a state without what lies beside or over the picture.
+/// Without what is the window's, not the user's.
+void forget_window(ViewState& state) {
+  state.drawn.reset();
+  if (!state.request.size_given) state.request.size.clear();
+}
+
+/// What a drawing depends on, beside its size: a state without what lies beside or over the picture.
 std::string drawing_key(ViewState state) {
+  forget_window(state);
   state.panels = false;
   state.help = false;
   state.samples = 1;
@@ -57,6 +64,7 @@ int light_frame_of(const ViewState& state) { return std::max(0, state.request.li
 
 /// What undo goes back over: a state without what moves by itself.
 std::string change_key(ViewState state) {
+  forget_window(state);
   state.request.light_frame = -1;
   if (state.request.frame >= 0) state.request.frame = 0;
   state.help = false;
@@ -66,9 +74,6 @@ std::string change_key(ViewState state) {
 glm::uvec2 part_of(glm::uvec2 size, double part) {
   return glm::max(glm::uvec2(1), glm::uvec2(glm::dvec2(size) * part + 0.5));
 }
-
-bool is_state(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
-bool is_capture(const std::string& file) { return std::filesystem::path(file).filename() == "frame.json"; }
 
 }  // namespace
 
@@ -92,6 +97,7 @@ bool Viewer::holds_size() const {
 }
 
 glm::uvec2 Viewer::next_size() const {
+  if (state_.drawn) return *state_.drawn;
   if (holds_size()) return {shown_.view.width(), shown_.view.height()};
   // What rests is drawn once more, as large as its time allows, unless somebody has said how large.
   const bool rests = rests_s_ > REST_S && state_.resolution == 0.0F;
@@ -203,6 +209,7 @@ void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float p
   pass_time(seconds);
   if (paced_ && state_.resolution == 0.0F && !busy_) rests_s_ += seconds;
   try_state(before);
+  keep_drawn_size();
   note_change();
   if (!others_.empty() && (state_.picked != asked_for_.picked || place_of(state_) != asked_for_.place)) {
     others_.clear();
@@ -234,7 +241,7 @@ void Viewer::note_change() {
 void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
   if (from.empty()) return;
   to.push_back(state_);
-  state_ = std::move(from.back());
+  open_state(std::move(from.back()));
   from.pop_back();
   settled_ = state_;
   proof_.reset();
@@ -291,74 +298,10 @@ std::string Viewer::why_outdated() const {
   return same ? "" : "Outdated: lights or the picture's size changed since. Ask again.";
 }
 
-void Viewer::save_picture(const std::string& file) {
-  queued_.push_back({.kind = Job::Kind::picture, .state = state_, .size = asked_, .file = file});
-  idle_ = false;
-}
-
-void Viewer::save_json(const char* what, const std::string& file,
-                       const std::function<void(const std::filesystem::path&)>& write) {
-  try {
-    constexpr std::string_view KINDS[] = {".json"};
-    check_output(what, file, KINDS);
-    write_output(file, write);
-    say_saved(file);
-  } catch (const Error& error) {
-    complain(error.what());
-  }
-}
-
-ViewState Viewer::saved_state() const {
-  ViewState saved = state_;
-  if (shown_.number == 0 || shown_.captured) return saved;
-  saved.request.size = shown_.state.request.size;
-  saved.request.size_given = true;
-  return saved;
-}
-
-void Viewer::save_state(const std::string& file) {
-  save_json("save state", file, [&](const std::filesystem::path& path) { app::save_state(path, saved_state()); });
-}
-
-void Viewer::save_numbers(const std::string& file) {
-  save_json("save numbers", file, [&](const std::filesystem::path& path) {
-    if (shown_.number == 0) throw Error("save numbers: nothing is shown yet, expected a picture");
-    write_text(path, json_text(app::to_json(shown_.first.stats), 2) + "\n");
-  });
-}
-
-void Viewer::open(const std::string& file) {
-  try {
-    if (is_state(file) && !is_capture(file)) {
-      if (holds_bookmarks(file)) {
-        bookmarks_ = load_bookmarks(file);
-        files_.bookmarks = file;
-        said_ = fmt::format("opened {} bookmarks", bookmarks_.size());
-      } else {
-        state_ = load_state(file);
-      }
-      return;
-    }
-    ViewState opened = state_;
-    opened.request.scene = file;
-    opened.request.camera.clear();
-    opened.request.free_camera.reset();
-    opened.request.frame = -1;
-    if (is_capture(file) || std::filesystem::is_directory(file)) {  // has its own, and its decals in its surfaces
-      const Request plain;
-      opened.request.lights_given = false;
-      opened.request.spots = plain.spots;  // of lights that are not generated then
-      opened.request.range = plain.range;
-      opened.request.still = plain.still;
-      opened.request.decals = 0;
-    }
-    opened.edits.clear();
-    opened.picked.reset();
-    opened.light.reset();
-    state_ = std::move(opened);
-  } catch (const Error& error) {
-    complain(error.what());
-  }
+void Viewer::keep_drawn_size() {
+  if (!state_.drawn) return;
+  if (opened_place_.empty()) opened_place_ = place_of(state_);
+  if (opened_place_ != place_of(state_)) state_.drawn.reset();
 }
 
 }  // namespace lamp::app

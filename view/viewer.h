@@ -83,6 +83,8 @@ class Viewer {
   [[nodiscard]] glm::uvec2 next_size() const;
   void take_picture(Done& done);
   void lay_out(glm::uvec2 screen);
+  /// Where nobody gave a size, it is that of the area which panels leave free.
+  void fit_to_area(ViewState& state) const;
   void use_mouse(const Input& input, float seconds, bool focus);
   void draw_panels(glm::uvec2 screen, float progress);
   [[nodiscard]] std::string status() const;
@@ -96,8 +98,11 @@ class Viewer {
   void copy_light();
   /// Why what others list is not of the picture that is shown; or empty.
   [[nodiscard]] std::string why_outdated() const;
-  /// What is set, in the size that is shown.
+  /// What is set, with the size that is shown.
   [[nodiscard]] ViewState saved_state() const;
+  /// One that was saved: its picture keeps the size in which it was shown, until it is one from another place.
+  void open_state(ViewState state);
+  void keep_drawn_size();
   void add_bookmark();
   void take_bookmark_wishes(const Wishes& wishes);
   /// Pictures that are still to be saved.
@@ -125,6 +130,7 @@ class Viewer {
   Shown shown_;
   std::string drawn_content_, drawn_key_;  ///< of the last drawing that was asked for; with its size
   std::string drawn_place_;                ///< from where
+  std::string opened_place_;               ///< from where a state is seen whose size is kept
   std::vector<Job> queued_;                ///< pictures and proofs
   bool busy_ = false;
   bool idle_ = false;
@@ -163,5 +169,8 @@ class Viewer {
   bool dragging_ = false;
   bool drags_divider_ = false;
 };
+
+/// Whether a scene is a capture's folder or its frame.json: it has its own size.
+[[nodiscard]] bool is_captured(const std::string& scene);
 
 }  // namespace lamp::app

@@ -111,11 +111,19 @@ void Viewer::lay_out(glm::uvec2 screen) {
   const auto left = static_cast<int>(beside ? PANEL_WIDTH * scale_ : 0.0F);
   const auto bottom = static_cast<int>(STATUS_HEIGHT * scale_);
   area_ = {.min = {left, 0}, .max = {static_cast<int>(screen.x), std::max(1, static_cast<int>(screen.y) - bottom)}};
-  Request& r = state_.request;
-  if (!r.size_given) r.size = fmt::format("{}x{}", area_.size().x, area_.size().y);
-  asked_ = parse_size(r.size);
+  fit_to_area(state_);
+  fit_to_area(settled_);
+  asked_ = parse_size(state_.request.size);
   const glm::uvec2 size = shown_.captured ? glm::uvec2(shown_.view.width(), shown_.view.height()) : asked_;
   picture_ = fitted(area_, size);
+}
+
+void Viewer::fit_to_area(ViewState& state) const {
+  Request& r = state.request;
+  std::string size = fmt::format("{}x{}", area_.size().x, area_.size().y);
+  if (r.size_given || r.size == size) return;
+  const glm::uvec2 from = parse_size(std::exchange(r.size, std::move(size)));
+  if (!shown_.captured && !is_captured(r.scene)) fit_to_size(state, from);
 }
 
 void Viewer::use_mouse(const Input& input, float seconds, bool focus) {

@@ -84,6 +84,7 @@ void add_state_option(CLI::App& command, ViewState& state) {
     if (!*read) return;
     change_camera(command, state.request);
     change_options(command, **read, state.request);
+    if (is_given(command, "--size")) fit_to_size(state, parse_size((*read)->size));
   });
 }
 
@@ -102,6 +103,17 @@ void check_state(const ViewState& state) {
   Request other = state.request;
   other.options = state.against->options;
   check_request(other, state.against->method);
+}
+
+void fit_to_size(ViewState& state, glm::uvec2 from) {
+  const glm::uvec2 to = parse_size(state.request.size);
+  if (to == from) return;
+  state.drawn.reset();
+  if (!state.picked) return;
+  const double scale = static_cast<double>(to.y) / from.y;
+  const glm::dvec2 place = 0.5 * glm::dvec2(to) + scale * (glm::dvec2(*state.picked) + 0.5 - 0.5 * glm::dvec2(from));
+  const bool seen = place.x >= 0.0 && place.y >= 0.0 && place.x < to.x && place.y < to.y;
+  state.picked = seen ? std::optional(glm::uvec2(place)) : std::nullopt;
 }
 
 void apply_edits(const ViewState& state, std::span<shared::Light> lights) {

@@ -90,6 +90,7 @@ struct ViewState {
   bool world_cells = false;                      ///< of a method of the world, those around the picked point
   bool decal_boxes = false;                      ///< outlines of all decals
   bool list_lengths = false;                     ///< how long lists are is counted with every picture
+  std::optional<glm::uvec2> drawn;               ///< size in which it was shown, where that is not the one asked for
   std::optional<glm::uvec2> picked;              ///< pixel that is looked into, of the size asked for
   std::optional<std::uint32_t> light;            ///< that is looked at: its marks stand out
   std::string other;  ///< method whose answer is held against the pixel's list, once others were asked; or none
@@ -105,6 +106,10 @@ void add_exposure_option(CLI::App& command, std::string& exposure);
 
 /// Throws Error for whatever is wrong without a look at the scene: as `check_request`, and the rest.
 void check_state(const ViewState& state);
+
+/// After another size was asked for than `from`: what is picked stays where it is seen, since the field of view is that
+/// of the height. What is not in the picture any more is not picked.
+void fit_to_size(ViewState& state, glm::uvec2 from);
 
 [[nodiscard]] nlohmann::json to_json(const ViewState& state);
 /// Sets what the object has; the rest stays as it was. Throws Error: `name` (of the file), the element, what was

@@ -25,7 +25,7 @@ template <class Fields, class State>
 void for_each_field(Fields&& at, State& s) {
   auto& r = s.request;
   at.text("scene", r.scene);
-  at.text_if("size", r.size, r.size_given);
+  at.size("size", "window", r.size, r.size_given);
   at.lights("lights", "lights_given", r.lights, r.lights_given);
   at.real("spots", r.spots, 0.0F, 1.0F);
   at.text("range", r.range);
@@ -72,6 +72,7 @@ void for_each_field(Fields&& at, State& s) {
   at.flag("world_cells", s.world_cells);
   at.flag("decal_boxes", s.decal_boxes);
   at.flag("list_lengths", s.list_lengths);
+  at.pixel("drawn", s.drawn);
   at.pixel("picked", s.picked);
   at.maybe("light", s.light, MAX_LIGHTS - 1);
   at.text("other", s.other);
@@ -85,7 +86,9 @@ struct Keys {
   std::vector<std::string_view> keys{"version"};
 
   void text(std::string_view key, const auto&) { keys.push_back(key); }
-  void text_if(std::string_view key, const auto&, const auto&) { keys.push_back(key); }
+  void size(std::string_view key, std::string_view window_key, const auto&, const auto&) {
+    keys.insert(keys.end(), {key, window_key});
+  }
   void whole(std::string_view key, const auto&, std::uint32_t, std::uint32_t) { keys.push_back(key); }
   void lights(std::string_view key, std::string_view given_key, const auto&, const auto&) {
     keys.insert(keys.end(), {key, given_key});
@@ -132,8 +135,9 @@ struct Writer {
   nlohmann::json json{{"version", VERSION}};
 
   void text(std::string_view key, const auto& value) { json[key] = value; }
-  void text_if(std::string_view key, const auto& value, bool given) {
-    if (given) json[key] = value;
+  /// Which nobody gave is the window's: another window gives another.
+  void size(std::string_view key, std::string_view window_key, const auto& value, bool given) {
+    json[given ? key : window_key] = value;
   }
   void whole(std::string_view key, const auto& value, std::uint32_t, std::uint32_t) { json[key] = value; }
   /// A number that nobody gave is kept for the scene after a capture, which has its own lights alone.
@@ -185,10 +189,10 @@ class Reader {
   void text(std::string_view key, std::string& value) {
     if (o_.has(key)) value = o_.text(key, "a text");
   }
-  void text_if(std::string_view key, std::string& value, bool& given) {
-    if (!o_.has(key)) return;
-    text(key, value);
-    given = true;
+  void size(std::string_view key, std::string_view window_key, std::string& value, bool& given) {
+    if (!o_.has(key) && !o_.has(window_key)) return;
+    given = o_.has(key);
+    text(given ? key : window_key, value);
   }
   void whole(std::string_view key, std::uint32_t& value, std::uint32_t min, std::uint32_t max) {
     if (o_.has(key)) value = o_.whole(key, min, max);

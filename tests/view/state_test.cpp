@@ -72,6 +72,7 @@ ViewState full_state() {
   state.probe_boxes = true;
   state.world_cells = true;
   state.list_lengths = true;
+  state.drawn = glm::uvec2(160, 100);
   state.picked = glm::uvec2(7, 9);
   state.light = 3;
   state.other = "clustered";
@@ -88,6 +89,29 @@ TEST(ViewStateJson, ComesBackAsItWas) {
     read_state(read, nlohmann::json::parse(written.dump()), "state");
     EXPECT_EQ(to_json(read), written);
   }
+}
+
+TEST(ViewStateJson, SizeOfTheWindowIsNotGiven) {
+  ViewState state;
+  state.request.size = "320x200";
+  ViewState read;
+  read_state(read, to_json(state), "state");
+  EXPECT_EQ(read.request.size, "320x200");
+  EXPECT_FALSE(read.request.size_given);
+}
+
+TEST(ViewStateTest, PickedPixelStaysWhereItIsSeen) {
+  const auto fitted = [](glm::uvec2 picked, const std::string& size) {
+    ViewState state;
+    state.request.size = size;
+    state.picked = picked;
+    fit_to_size(state, {100, 50});
+    return state.picked;
+  };
+  EXPECT_EQ(fitted({60, 30}, "200x50"), glm::uvec2(110, 30));
+  EXPECT_EQ(fitted({60, 30}, "200x100"), glm::uvec2(121, 61));
+  EXPECT_EQ(fitted({60, 30}, "100x50"), glm::uvec2(60, 30));
+  EXPECT_FALSE(fitted({95, 30}, "50x50").has_value());
 }
 
 /// A capture was opened after a scene with so many lights: none are generated beside its own.
