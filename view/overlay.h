@@ -22,7 +22,7 @@ struct Walked {
   std::span<const Visit> visits;
   std::span<const float> depth;  ///< device depth, for Overlay::depth_range
   std::span<const Visit> other;  ///< of the second method, for Overlay::difference
-  std::uint32_t lights = 0;      ///< of the frame
+  std::uint32_t lights = 0;      ///< that the lists could have: of the frame, without those of lists of still lights
   bool overflowed = false;       ///< some cells did not fit
   double scale_max = 0.0;        ///< the top of the scale; 0: from what is walked
 };

@@ -123,8 +123,8 @@ Overlaid draw_all(Palette palette, const AtlasSeen& seen) {
 }  // namespace
 
 Overlaid make_shadow_overlay(Palette palette, const AtlasSeen& seen) {
-  const bool one = seen.light && *seen.light < seen.maps.size() && squares_of(seen.maps[*seen.light]) != 0;
-  Overlaid made = one ? draw_light(palette, seen, seen.maps[*seen.light]) : draw_all(palette, seen);
+  const bool one = seen.record && *seen.record < seen.maps.size() && squares_of(seen.maps[*seen.record]) != 0;
+  Overlaid made = one ? draw_light(palette, seen, seen.maps[*seen.record]) : draw_all(palette, seen);
   made.legend.overlay = Overlay::shadow_atlas;
   made.legend.cells = static_cast<std::uint64_t>(
       std::ranges::count_if(seen.maps, [](const ShadowMap& map) { return squares_of(map) != 0; }));

@@ -16,8 +16,8 @@ namespace lamp::app {
 struct AtlasSeen {
   std::span<const float> texels;  ///< side * side, as the atlas holds them
   std::uint32_t side = 0;
-  std::span<const shared::ShadowMap> maps;  ///< of each light
-  std::optional<std::uint32_t> light;       ///< whose squares alone are shown, if it has any
+  std::span<const shared::ShadowMap> maps;  ///< by records
+  std::optional<std::uint32_t> record;      ///< of the light whose squares alone are shown, if it has any
   glm::uvec2 picture{0};
 };
 

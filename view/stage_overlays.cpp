@@ -45,10 +45,12 @@ Overlaid Stage::shadow_overlay(const Overlaying& o) {
   });
   renderer_->forget(buffer);
   const std::vector<float> texels = first_values<float>(buffer, count);
+  std::optional<std::uint32_t> record;
+  if (state.light) record = record_of(*state.light, listed_count(), renderer_->entities().boxes.count());
   return make_shadow_overlay(state.palette, {.texels = texels,
                                              .side = side,
                                              .maps = shadows.maps(),
-                                             .light = state.light,
+                                             .record = record,
                                              .picture = {renderer_->view().width(), renderer_->view().height()}});
 }
 
@@ -118,7 +120,7 @@ Overlaid Stage::walk_overlay(const Overlaying& o) {
                                                             : visits_,
                        .depth = depth_,
                        .other = o.second ? visits_ : other,
-                       .lights = static_cast<std::uint32_t>(lights_->lights->size()),
+                       .lights = static_cast<std::uint32_t>(listed_count()),
                        .overflowed = o.overflowed,
                        .scale_max = o.scale_max});
 }

@@ -104,12 +104,12 @@ TEST(Overlays, ShadowAtlasShowsWhoseSquareIsWhere) {
   const glm::u8vec3 half = palette_color(Palette::grey, 0.5);
   EXPECT_EQ(at(all, 8 + 24, 8), half);
   EXPECT_NE(at(all, 8 + 40, 8), half);
-  seen.light = 1;
+  seen.record = 1;
   const Overlaid one = make_shadow_overlay(Palette::grey, seen);
   EXPECT_EQ(one.legend.max, 16.0);
   EXPECT_EQ(at(one, 40, 32), half);
   EXPECT_EQ(at(one, 70, 60), half);
-  seen.light = 0;  // has none: all are shown
+  seen.record = 0;  // has none: all are shown
   EXPECT_EQ(make_shadow_overlay(Palette::grey, seen).legend.max, 64.0);
 }
 
