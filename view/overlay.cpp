@@ -29,15 +29,11 @@ glm::u8vec3 between(std::span<const glm::u8vec3> ramp, double position) {
   return glm::u8vec3(glm::mix(glm::vec3(ramp[left]), glm::vec3(ramp[left + 1]), weight) + 0.5F);
 }
 
-/// A colour that neighbours are unlikely to share: the golden ratio's steps around the hues, which spread any run of
-/// numbers evenly.
-glm::u8vec3 cell_color(std::uint32_t cell) {
-  const double hue = std::fmod(cell * 0.6180339887498949, 1.0) * 6.0;
-  const auto channel = [&](double shift) {
-    const double k = std::fmod(hue + shift, 6.0);
-    return 255.0 * (1.0 - 0.75 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
-  };
-  return {channel(5.0), channel(3.0), channel(1.0)};
+/// Every bit of the number in every bit of the outcome: Appleby's finaliser of MurmurHash3.
+std::uint32_t scattered(std::uint32_t number) {
+  number = (number ^ number >> 16U) * 0x85EBCA6BU;
+  number = (number ^ number >> 13U) * 0xC2B2AE35U;
+  return number ^ number >> 16U;
 }
 
 std::uint64_t cells_seen(const Walked& walked) {
@@ -151,6 +147,19 @@ Overlaid difference(const Walked& walked) {
 }
 
 }  // namespace
+
+glm::u8vec3 cell_color(std::uint32_t cell) {
+  constexpr std::uint32_t HUES = 1U << 16U;
+  constexpr std::array<double, 4> LIGHTNESS{0.45, 0.65, 0.85, 1.0};
+  const std::uint32_t random = scattered(cell);
+  const double hue = 6.0 * (random % HUES) / HUES;
+  const double lightness = LIGHTNESS[random >> 30U];
+  const auto channel = [&](double shift) {
+    const double k = std::fmod(hue + shift, 6.0);
+    return 255.0 * lightness * (1.0 - 0.75 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
+  };
+  return {channel(5.0), channel(3.0), channel(1.0)};
+}
 
 Overlaid refused_overlay(Overlay overlay, std::size_t pixels, std::string why) {
   return {.pixels = std::vector<std::uint32_t>(pixels), .legend = {.overlay = overlay, .refused = std::move(why)}};

@@ -79,6 +79,10 @@ inline constexpr glm::u8vec3 SECOND_WALKS_MORE{50, 130, 255};
 [[nodiscard]] Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_max,
                                  const std::function<std::optional<glm::u8vec3>(std::uint32_t)>& special);
 
+/// A colour of Overlay::cells: hue and lightness are at random, so that neighbours are unlikely to share them, however
+/// many cells a row has.
+[[nodiscard]] glm::u8vec3 cell_color(std::uint32_t cell);
+
 /// A colour of the scale, at 0 .. 1.
 [[nodiscard]] glm::u8vec3 palette_color(Palette palette, double position);
 

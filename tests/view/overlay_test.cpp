@@ -45,6 +45,18 @@ TEST(Overlays, CellsDiffer) {
   EXPECT_EQ(made.legend.cells, 2);
 }
 
+/// Neighbours in a row and in a column, whatever the number of cells in a row: golden steps made stripes of 55.
+TEST(Overlays, NeighbouringCellsDiffer) {
+  for (std::uint32_t across = 1; across < 100; ++across) {
+    int alike = 0;
+    for (std::uint32_t cell = 0; cell < 1000; ++cell) {
+      const glm::vec3 step = glm::vec3(cell_color(cell)) - glm::vec3(cell_color(cell + across));
+      alike += glm::dot(step, step) < 30.0F * 30.0F ? 1 : 0;
+    }
+    EXPECT_LT(alike, 60) << across << " cells a row";
+  }
+}
+
 TEST(Overlays, DepthRangeIsFromNearestToFarthest) {
   const View view = small_view();
   const Overlaid made =
