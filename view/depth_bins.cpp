@@ -154,8 +154,8 @@ void draw_depth_bins(const Shown& shown, const ScreenRect& picture, float scale)
     if (shown.bins)
       draw_strip(shown, picture);
     else
-      ImGui::TextWrapped("%s",
-                         fmt::format("{} has no bins of depth; drobot-zbin has", shown.first.stats.method).c_str());
+      ImGui::TextWrapped(
+          "%s", fmt::format("{} has no bins of depth; drobot-zbin has", shown.inspected_side().stats.method).c_str());
   }
   ImGui::End();
 }

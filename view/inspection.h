@@ -72,6 +72,7 @@ struct ListedProbe {
 
 struct Inspection {
   glm::uvec2 pixel{0};  ///< of what was rendered
+  bool second = false;  ///< right of the divider: of the second method
   bool sky = true;      ///< then the rest is empty
   std::uint32_t cell = 0;
   glm::vec3 position{0.0F};  ///< m, world space

@@ -56,7 +56,7 @@ double empty_m(const gpu::CellMask& cell) {
 }
 
 Overlaid make_mask_overlay(Palette palette, std::span<const std::uint32_t> of_pixels,
-                           std::span<const gpu::CellMask> masks, double scale_max) {
+                           std::span<const gpu::CellMask> masks, double scale_least) {
   Overlaid made{.pixels = std::vector<std::uint32_t>(of_pixels.size(), sky_dimmed()),
                 .legend = {.overlay = Overlay::mask, .cells = masks.size()}};
   Legend& legend = made.legend;
@@ -65,7 +65,7 @@ Overlaid make_mask_overlay(Palette palette, std::span<const std::uint32_t> of_pi
     legend.mean += empty_m(cell) / static_cast<double>(masks.size());
     legend.low += std::popcount(cell.mask) / static_cast<double>(masks.size());
   }
-  legend.high = scale_max > 0.0 ? scale_max : std::max(legend.max, 1e-3);
+  legend.high = std::max({scale_least, legend.max, 1e-3});
   for (std::size_t i = 0; i < of_pixels.size(); ++i)
     if (of_pixels[i] != gpu::NO_CELL)
       made.pixels[i] = rgba(palette_color(palette, empty_m(masks[of_pixels[i]]) / legend.high), MAP_ALPHA);

@@ -27,7 +27,7 @@ struct NumberedCells {
 /// Metres that each pixel's cell has empty: bright where a mask wins. The legend's `mean` and `max` are of the cells,
 /// `low` is how many parts of 32 hold a surface, on average.
 [[nodiscard]] Overlaid make_mask_overlay(Palette palette, std::span<const std::uint32_t> of_pixels,
-                                         std::span<const gpu::CellMask> masks, double scale_max);
+                                         std::span<const gpu::CellMask> masks, double scale_least);
 /// `keeps_masks`: the method does, and `method` names it.
 [[nodiscard]] std::string words_of_masks(const Legend& legend, bool keeps_masks, const std::string& method);
 

@@ -57,7 +57,7 @@ Overlaid heat(Palette palette, const Walked& walked) {
   std::vector<std::uint32_t> counts;
   counts.reserve(walked.visits.size());
   for (const Visit& visit : walked.visits) counts.push_back(visit.cell == SKY_CELL ? SKY_CELL : visit.visited);
-  Overlaid made = heat_over(palette, counts, walked.scale_max, [](std::uint32_t) { return std::nullopt; });
+  Overlaid made = heat_over(palette, counts, walked.scale_least, [](std::uint32_t) { return std::nullopt; });
   made.legend.overlay = Overlay::heat;
   made.legend.cells = cells_seen(walked);
   return made;
@@ -87,7 +87,7 @@ Overlaid depth_range(Palette palette, const Walked& walked) {
     legend.max = std::max(legend.max, range.far_m - range.near_m);
     legend.mean += (range.far_m - range.near_m) / static_cast<double>(ranges.size());
   }
-  legend.high = walked.scale_max > 0.0 ? walked.scale_max : std::max(legend.max, 1e-3);
+  legend.high = std::max({walked.scale_least, legend.max, 1e-3});
   return {.pixels = for_pixels(walked,
                                [&](std::size_t i) {
                                  const Range& range = ranges[walked.visits[i].cell];
@@ -198,7 +198,7 @@ glm::u8vec3 palette_color(Palette palette, double position) {
   return between(GREY, position);
 }
 
-Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_max,
+Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_least,
                    const std::function<std::optional<glm::u8vec3>(std::uint32_t)>& special) {
   Legend legend{.low = 1.0};
   std::vector<std::uint32_t> pixels(counts.size(), sky_dimmed());
@@ -217,7 +217,7 @@ Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, doubl
   }
   if (seen != 0) legend.mean /= static_cast<double>(seen);
   const std::uint32_t own = most > 1U << 31 ? most : std::bit_ceil(std::max(most, 2U));  // as `lamp render --heatmap`
-  const std::uint32_t top = scale_max > 0.0 ? static_cast<std::uint32_t>(scale_max) : own;
+  const std::uint32_t top = std::max(own, static_cast<std::uint32_t>(scale_least));
   legend.high = top;
   legend.max = most;
   for (std::size_t i = 0; i < counts.size(); ++i) {

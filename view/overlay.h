@@ -24,7 +24,7 @@ struct Walked {
   std::span<const Visit> other;  ///< of the second method, for Overlay::difference
   std::uint32_t lights = 0;      ///< that the lists could have: of the frame, without those of lists of still lights
   bool overflowed = false;       ///< some cells did not fit
-  double scale_max = 0.0;        ///< the top of the scale; 0: from what is walked
+  double scale_least = 0.0;      ///< the top of the scale, unless more is walked
 };
 
 /// How the colours of an overlay are to be read.
@@ -76,7 +76,7 @@ inline constexpr glm::u8vec3 SECOND_WALKS_MORE{50, 130, 255};
 
 /// The numbers of pixels on a logarithmic scale, as `lamp render --heatmap` has it; SKY_CELL is sky. `special` may
 /// give a colour to what is no number; such pixels count for the legend's `cells`.
-[[nodiscard]] Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_max,
+[[nodiscard]] Overlaid heat_over(Palette palette, std::span<const std::uint32_t> counts, double scale_least,
                                  const std::function<std::optional<glm::u8vec3>(std::uint32_t)>& special);
 
 /// A colour of Overlay::cells: hue and lightness are at random, so that neighbours are unlikely to share them, however

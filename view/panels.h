@@ -117,6 +117,8 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
                                                    const std::string& value);
 /// Those of the options that another method has too.
 [[nodiscard]] std::vector<std::string> kept_options(const std::vector<std::string>& options, const Method& method);
+/// The method and those of its options that are not its own.
+[[nodiscard]] std::string words_of_method(const Stats& stats);
 /// All methods' names, with "auto" before them.
 [[nodiscard]] std::vector<std::string_view> method_choices();
 

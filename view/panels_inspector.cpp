@@ -19,7 +19,8 @@ namespace {
 void draw_inspection(InspectorFrame& p) {
   const Shown& shown = p.shown;
   const Inspection& found = *shown.inspection;
-  const Stats& stats = shown.first.stats;
+  const Stats& stats = shown.inspected_side().stats;
+  if (shown.second) Widgets::row("side", fmt::format("{}: {}", found.second ? "B" : "A", words_of_method(stats)));
   if (found.sky) {
     Widgets::text(fmt::format("Pixel ({}, {}) shows the sky, which no light reaches.", found.pixel.x, found.pixel.y));
     return;

@@ -50,97 +50,78 @@ void draw_scale(const Legend& legend, Palette palette) {
   }
 }
 
-void shadow_heat_text(const char* what, const Legend& legend) {
-  ImGui::TextUnformatted(fmt::format("{}: mean {:.1f}, max {:.0f}", what, legend.mean, legend.max).c_str());
+std::string words_of_shadow_heat(const char* what, const Legend& legend) {
+  std::string words = fmt::format("{}: mean {:.1f}, max {:.0f}", what, legend.mean, legend.max);
   if (legend.cells != 0)
-    ImGui::TextUnformatted(
-        fmt::format("{} pixels are reached by a light without a shadow (magenta), or one whose shadow "
-                    "waits to be drawn anew (red)",
-                    legend.cells)
-            .c_str());
+    words += fmt::format(
+        "\n{} pixels are reached by a light without a shadow (magenta), or one whose shadow waits to be drawn anew "
+        "(red)",
+        legend.cells);
+  return words;
 }
 
-void shadow_leaks_text(const LeakSums& sums) {
+std::string words_of_leaks(const LeakSums& sums) {
+  std::string all;
   for (const std::string& words : {leak_words(sums), lost_words(sums), left_out_words(sums)})
-    if (!words.empty()) ImGui::TextUnformatted(words.c_str());
+    if (!words.empty()) all += (all.empty() ? "" : "\n") + words;
+  return all;
 }
 
-/// What the overlays say that know of the whole frame.
-std::string words_of_light_cells(const Shown& shown) {
-  const std::uint32_t light = shown.state.light.value_or(0);
-  std::string first = words_of_light_cells(shown.first.legend, light);
-  if (!shown.second) return first;
-  return fmt::format("A: {}\nB: {}", first, words_of_light_cells(shown.second->legend, light));
-}
-
-std::string words_of_masks(const Shown& shown) {
-  const Stats& stats = shown.first.stats;
-  return words_of_masks(shown.first.legend, shown.first.keeps_masks, stats.method);
-}
-
-void legend_text(const Shown& shown) {
-  const Legend& legend = shown.first.legend;
-  if (!legend.refused.empty()) {
-    ImGui::TextUnformatted(legend.refused.c_str());
-    return;
-  }
+/// What an overlay says of one side.
+std::string words_of_side(const ShownSide& side, const ViewState& state) {
+  const Legend& legend = side.legend;
+  if (!legend.refused.empty()) return legend.refused;
   switch (legend.overlay) {
     case Overlay::heat:
-      ImGui::TextUnformatted(
-          fmt::format("lights that a pixel walks: mean {:.1f}, max {:.0f}", legend.mean, legend.max).c_str());
-      break;
+      return fmt::format("lights that a pixel walks: mean {:.1f}, max {:.0f}", legend.mean, legend.max);
     case Overlay::cells:
-      ImGui::TextUnformatted(fmt::format("{} cells hold pixels; each has a colour and a number", legend.cells).c_str());
-      break;
+      return fmt::format("{} cells hold pixels; each has a colour and a number", legend.cells);
     case Overlay::depth_range:
-      ImGui::TextUnformatted(
-          fmt::format("from the nearest to the farthest surface of a cell: mean {:.2f} m, max {:.1f} m", legend.mean,
-                      legend.max)
-              .c_str());
-      break;
+      return fmt::format("from the nearest to the farthest surface of a cell: mean {:.2f} m, max {:.1f} m", legend.mean,
+                         legend.max);
     case Overlay::overflow:
-      ImGui::TextUnformatted(
-          fmt::format("{} pixels walk every light, because their cell did not fit", legend.cells).c_str());
-      break;
+      return fmt::format("{} pixels walk every light, because their cell did not fit", legend.cells);
     case Overlay::missed:
-      ImGui::TextUnformatted(fmt::format("{} pixels miss a light that reaches them, {:.0f} pairs, says the oracle",
-                                         legend.cells, legend.max)
-                                 .c_str());
-      break;
+      return fmt::format("{} pixels miss a light that reaches them, {:.0f} pairs, says the oracle", legend.cells,
+                         legend.max);
     case Overlay::difference:
-      ImGui::TextUnformatted(fmt::format("{} pixels walk other numbers of lights: A {:+.1f} on average, {:.0f} at most",
-                                         legend.cells, legend.mean, legend.max)
-                                 .c_str());
-      break;
+      return fmt::format("{} pixels walk other numbers of lights: A {:+.1f} on average, {:.0f} at most", legend.cells,
+                         legend.mean, legend.max);
     case Overlay::shadow_atlas:
-      ImGui::TextUnformatted(fmt::format("{} lights have a shadow map; {:.0f} texels a side are shown, near is bright",
-                                         legend.cells, legend.max)
-                                 .c_str());
-      break;
+      return fmt::format("{} lights have a shadow map; {:.0f} texels a side are shown, near is bright", legend.cells,
+                         legend.max);
     case Overlay::shadow_age:
-      shadow_heat_text("frames since the oldest map that a pixel looks up was drawn", legend);
-      break;
+      return words_of_shadow_heat("frames since the oldest map that a pixel looks up was drawn", legend);
     case Overlay::shadow_size:
-      shadow_heat_text("texels a side of the smallest map that a pixel looks up", legend);
-      break;
+      return words_of_shadow_heat("texels a side of the smallest map that a pixel looks up", legend);
     case Overlay::shadow_leaks:
-      shadow_leaks_text(legend.leaks.value());
-      break;
+      return words_of_leaks(legend.leaks.value());
     case Overlay::slice:
-      ImGui::TextUnformatted(fmt::format("lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} "
-                                         "cells; fainter behind surfaces",
-                                         legend.mean, legend.max, legend.cells)
-                                 .c_str());
-      break;
+      return fmt::format(
+          "lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} cells; fainter behind surfaces",
+          legend.mean, legend.max, legend.cells);
     case Overlay::light_cells:
-      ImGui::TextUnformatted(words_of_light_cells(shown).c_str());
-      break;
+      return words_of_light_cells(legend, state.light.value_or(0));
     case Overlay::mask:
-      ImGui::TextUnformatted(words_of_masks(shown).c_str());
-      break;
+      return words_of_masks(legend, side.keeps_masks, side.stats.method);
     case Overlay::none:
       break;
   }
+  return "";
+}
+
+/// What is the same for both sides is said once.
+std::string words_of_legend(const Shown& shown) {
+  std::string first = words_of_side(shown.first, shown.state);
+  if (!shown.second) return first;
+  const std::string second = words_of_side(*shown.second, shown.state);
+  return first == second ? first : fmt::format("A: {}\nB: {}", first, second);
+}
+
+/// The scale is that of both.
+const Legend& scaled_legend(const Shown& shown) {
+  const bool second = shown.second && !shown.first.legend.refused.empty();
+  return second ? shown.second->legend : shown.first.legend;
 }
 
 /// What colours stand for.
@@ -208,9 +189,9 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs |
                                      ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("legend", nullptr, FIXED)) {
-    const Legend& legend = shown.first.legend;
+    const Legend& legend = scaled_legend(shown);
     ImGui::PushTextWrapPos(std::max(100.0F, static_cast<float>(picture.size().x) - 32.0F));
-    legend_text(shown);
+    ImGui::TextUnformatted(words_of_legend(shown).c_str());
     const std::uint64_t cells = shown.first.cells.cells + (shown.second ? shown.second->cells.cells : 0);
     if (const std::string words = words_of_numbers(cells, numbers); !words.empty())
       ImGui::TextUnformatted(words.c_str());

@@ -106,6 +106,16 @@ std::vector<std::string> kept_options(const std::vector<std::string>& options, c
   return kept;
 }
 
+std::string words_of_method(const Stats& stats) {
+  std::string words = stats.method;
+  const auto method = find_method(stats.method);
+  if (!method.ok()) return words;
+  for (const OptionSpec& spec : method.value()->options)
+    if (stats.options.word(spec.key) != spec.fallback)
+      words += fmt::format(" {}={}", spec.key, stats.options.word(spec.key));
+  return words;
+}
+
 void method_panel(PanelFrame& p) {
   if (!p.widgets.header("Method", true)) return;
   choose_method(p, "", p.state.request.method, p.state.request.options);

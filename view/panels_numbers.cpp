@@ -86,7 +86,8 @@ void times_panel(PanelFrame& p) {
   if (p.state.list_lengths && !p.shown.first.lengths.empty()) draw_lengths(p.shown.first.lengths);
   Widgets::row("overflowed", fmt::format("{} cells", overflowed_cells(stats)));
   const std::string reason = overflowed_cells(stats) == 0 ? "every list fits"
-                             : p.state.request.grow       ? "lists are as long as options and device allow"
+                             : p.shown.first.full         ? "lists are as long as options and device allow"
+                             : p.state.request.grow       ? "they are being enlarged"
                                                           : "";
   if (p.widgets.button("make room for them", "Enlarges lists until every light fits.", reason))
     p.state.request.grow = true;

@@ -143,8 +143,8 @@ std::vector<std::uint32_t> picture_of_square(Palette palette, const ShadowMap& m
   return picture;
 }
 
-Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst, double scale_max) {
-  Overlaid made = heat_over(palette, worst, scale_max, [](std::uint32_t word) -> std::optional<glm::u8vec3> {
+Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst, double scale_least) {
+  Overlaid made = heat_over(palette, worst, scale_least, [](std::uint32_t word) -> std::optional<glm::u8vec3> {
     if (word == gpu::WITHOUT_SHADOW) return WITHOUT_COLOR;
     if (word == gpu::WAITS_FOR_REDRAWING) return WAITS_COLOR;
     return std::nullopt;

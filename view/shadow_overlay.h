@@ -32,7 +32,7 @@ struct AtlasSeen {
 /// Of Overlay::shadow_age and Overlay::shadow_size, what `shadow_heat` says of each pixel. The legend's `cells` are
 /// pixels with a light that has no shadow, or whose shadow waits.
 [[nodiscard]] Overlaid make_shadow_heat(Overlay overlay, Palette palette, std::span<const std::uint32_t> worst,
-                                        double scale_max);
+                                        double scale_least);
 
 /// Of Overlay::shadow_leaks, in place of the picture: the light of lights in grey, and what is wrong with it in the
 /// palette's colours.

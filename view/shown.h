@@ -28,6 +28,7 @@ struct ShownSide {
   std::vector<ListLengths> lengths;  ///< where lists were walked
   bool keeps_masks = false;          ///< of the occupied parts of each cell's depths
   CellPlaces cells;                  ///< with Overlay::cells
+  bool full = false;                 ///< lists overflow although room was made for them
 };
 
 /// The least and the greatest rank of the lights that reach into a bin, in the order of their depth.
@@ -72,6 +73,9 @@ struct Shown {
   std::optional<ShownShadow> shadow;
   std::optional<ShownWorld> world;
   std::vector<shared::OrientedBox> probe_volumes;  ///< in the frame's order
+
+  /// The side on which the pixel is that was picked.
+  [[nodiscard]] const ShownSide& inspected_side() const { return inspection && inspection->second ? *second : first; }
 };
 
 }  // namespace lamp::app

@@ -6,15 +6,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "commands/pictures.h"
-#include "commands/still_stats.h"
 #include "gpu/check.h"
 #include "render/antialias.h"
 #include "render/box_shapes.h"
 #include "render/pixel_lights.h"
-#include "render/verification.h"
 #include "scene/capture.h"
 #include "scene/flight.h"
 #include "view/stage_kept.h"
@@ -30,12 +27,6 @@ std::string key_of(const LightingInfo& info, bool grow) {
                      static_cast<int>(info.path), static_cast<int>(info.brdf), info.decals, info.depth.samples,
                      info.depth.reversed, info.shadows ? static_cast<int>(*info.shadows) : -1, info.probes, info.mirror,
                      info.still, grow);
-}
-
-bool can_be_laid_over(const ViewState& state) {
-  if (state.overlay == Overlay::difference) return state.against.has_value();
-  if (is_of_shadows(state.overlay)) return requested_shadows(state.request).has_value();
-  return state.overlay != Overlay::none;
 }
 
 }  // namespace
@@ -88,59 +79,14 @@ Stage::Chosen Stage::lighting(const Request& request, const std::string& method,
   if (found != lightings_.end()) {
     lightings_.splice(lightings_.begin(), lightings_, found);
   } else {
-    if (request.grow) bring_lights();
-    lightings_.push_front({std::move(key), make_lighting(*renderer_, shaders_, std::move(info), request.grow)});
+    lightings_.push_front(
+        {.key = std::move(key), .lighting = Lighting(renderer_->device(), shaders_, info), .asked = info.options});
     made_anew_ = true;
+    if (request.grow) static_cast<void>(grow(lightings_.front()));
     if (lightings_.size() > MOST_LIGHTINGS) lightings_.pop_back();
   }
   if (needs_lights_here(lightings_.front().lighting)) bring_lights();
   return {.lighting = lightings_.front().lighting, .by_auto = chosen.by_auto};
-}
-
-ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered rendered) {
-  ShownSide made{.stats = make_stats({.device = context_.row(),
-                                      .scene = state.request.scene,
-                                      .view = renderer_->view(),
-                                      .lights = lights_->lights->size(),
-                                      .frames = 1,
-                                      .decals = lights_->decals.size(),
-                                      .probes = renderer_->probes().probes().size()},
-                                     chosen.lighting, std::move(rendered)),
-                 .by_auto = chosen.by_auto,
-                 .legend = {}};
-  const OwnTests own = own_tests(chosen.lighting.runner().plan(), chosen.lighting.info().options);
-  made.keeps_masks = (own.passes & gpu::PASSES_MASK) != 0;
-  made.stats.clock = clock_.read();
-  made.stats.shadows = shadow_stats(renderer_->shadows());
-  made.stats.mirror = mirror_stats(renderer_->mirrored());
-  if (probes_ && probes_->captures) made.stats.captures = probes_->captures->counts();
-  if (still_) made.stats.still = still_stats(still_->made);
-  return made;
-}
-
-std::vector<Visit> Stage::checked_visits(Lighting& lighting) {
-  const View& view = renderer_->view();
-  std::vector<Visit> visits;
-  for_each_truth({.view = view, .depth = depth_, .lights = listed_lights(), .rows = view.height()},
-                 [&](const Truth& truth) {
-                   const std::vector<Visit> band = renderer_->visit(lighting, truth);
-                   visits.insert(visits.end(), band.begin(), band.end());
-                 });
-  add_still_misses(visits);
-  return visits;
-}
-
-Legend Stage::lay_over(const Overlaying& o) {
-  const View& view = renderer_->view();
-  const Overlay overlay = o.state.overlay;
-  if (overlay == Overlay::depth_range || overlay == Overlay::missed) depth_ = renderer_->read_depth();
-  visits_ = overlay == Overlay::missed ? checked_visits(o.lighting) : renderer_->visit_all(o.lighting);
-  const Overlaid made = overlaid(o);
-  const std::span<std::uint32_t> to = display_->overlay();
-  for (std::uint32_t y = 0; y < view.height(); ++y)
-    for (std::uint32_t x = o.first_x; x < std::min(o.end_x, view.width()); ++x)
-      to[x + std::size_t{view.width()} * y] = made.pixels[x + std::size_t{view.width()} * y];
-  return made.legend;
 }
 
 Inspected Stage::inspected(Lighting& lighting, std::optional<std::uint32_t> light) {
@@ -166,52 +112,17 @@ Shown Stage::draw(const ViewState& asked, glm::uvec2 size) {
   const Scene& scene = scene_->scene;
   if (!scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
   need_frame(state, state.paused ? Captures::all : Captures::some);
-  const std::uint32_t width = renderer_->view().width();
-  const std::optional<float> exposure = parse_exposure(state.exposure);
-  const float divider = state.against ? state.against->divider : 1.0F;
-  const auto end_x = static_cast<std::uint32_t>(std::lround(divider * static_cast<float>(width)));
-
   Shown shown{.number = ++number_, .view = renderer_->view(), .lights = lights_->lights};
-  /// Draws one side into the columns from `first` on.
-  const auto draw_side = [&](const std::string& method, const std::vector<std::string>& options, std::uint32_t first,
-                             std::uint32_t end, bool sets_exposure) {
-    const Chosen chosen = lighting(state.request, method, options);
-    Rendered rendered = renderer_->draw(chosen.lighting, [&](vulkan::Recorder& recorder) {
-      if (sets_exposure && !exposure) display_->record_sums(recorder, renderer_->targets());
-    });
-    if (sets_exposure) shown.exposure = exposure ? *exposure : display_->exposure();
-    ShownSide made = side(state, chosen, std::move(rendered));
-    const bool overlaid = can_be_laid_over(state);
-    if (overlaid)
-      made.legend = lay_over({.state = state,
-                              .lighting = chosen.lighting,
-                              .second = !sets_exposure,
-                              .overflowed = made.stats.rendered.counters.overflowed_cells != 0,
-                              .scale_max = sets_exposure ? 0.0 : shown.first.legend.high,
-                              .first_x = first,
-                              .end_x = end});
-    else if (state.list_lengths)
-      visits_ = renderer_->visit_all(chosen.lighting);
-    if (overlaid || state.list_lengths) {
-      set_walked(made.stats, visits_);
-      if (made.stats.shadows) made.stats.shadows->leaks = made.legend.leaks;
-      made.lengths = list_lengths(visits_);
-      if (state.overlay == Overlay::cells) made.cells = cell_places(visits_, {width, first, end});
-    }
-    renderer_->also([&](vulkan::Recorder& recorder) {
-      display_->record(recorder, renderer_->targets(),
-                       {.exposure = shown.exposure, .first_x = first, .end_x = end, .overlaid = overlaid});
-    });
-    return std::pair<ShownSide, Lighting*>(std::move(made), &chosen.lighting);
-  };
-  auto [first, first_lighting] = draw_side(state.request.method, state.request.options, 0, end_x, true);
-  shown.first = std::move(first);
+  const auto [first_lit, second_lit] = draw_sides(state, shown);
+  const glm::uvec2 picked = picked_pixel(asked);
+  const bool second = state.picked && state.against && picked.x >= divider_x(state);
+  Lighting& lit = second ? *second_lit : *first_lit;
   if (state.picked) {
-    shown.inspection = inspect(inspected(*first_lighting, state.light), picked_pixel(asked));
-    set_walked(shown.first.stats, visits_);
+    shown.inspection = inspect(inspected(lit, state.light), picked);
+    shown.inspection->second = second;
+    set_walked(second ? shown.second->stats : shown.first.stats, visits_);
   }
-  add_findings(state, *first_lighting, shown);
-  if (state.against) shown.second = draw_side(state.against->method, state.against->options, end_x, width, false).first;
+  add_findings(state, lit, shown);
   if (state.against && state.overlay == Overlay::difference) shown.picture_difference = picture_difference(state);
   shown.made_anew = std::exchange(made_anew_, false);
   shown.image = display_->image();

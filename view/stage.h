@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "commands/auto_method.h"
 #include "render/display.h"
@@ -51,6 +52,8 @@ class Stage {
   struct KeptLighting {
     std::string key;
     Lighting lighting;
+    Options asked;      ///< from which it grew
+    bool full = false;  ///< lists overflow, and cannot be longer
   };
   struct Chosen {
     Lighting& lighting;
@@ -90,14 +93,30 @@ class Stage {
                                     const std::vector<std::string>& options);
   [[nodiscard]] Chosen lighting(const Request& request, const std::string& method,
                                 const std::vector<std::string>& options);
+  /// Longer lists, for the lights of this frame. False: they fit, or options and device allow no longer ones.
+  [[nodiscard]] bool grow(KeptLighting& kept);
   [[nodiscard]] ShownSide side(const ViewState& state, const Chosen& chosen, Rendered rendered);
+  /// Where the second side begins; the width where there is none.
+  [[nodiscard]] std::uint32_t divider_x(const ViewState& state) const;
+  struct SideOf {
+    const std::string& method;
+    const std::vector<std::string>& options;
+    bool second = false;  ///< right of the divider
+    std::uint32_t first_x = 0;
+    std::uint32_t end_x = 0;
+    double scale_least = 0.0;
+  };
+  /// Into its columns; and what lit it.
+  [[nodiscard]] std::pair<ShownSide, Lighting*> draw_side(const ViewState& state, const SideOf& of, Shown& shown);
+  /// Returns what lit both; null: there is no second.
+  std::pair<Lighting*, Lighting*> draw_sides(const ViewState& state, Shown& shown);
   /// An overlay of columns of the picture that `lighting` made last.
   struct Overlaying {
     const ViewState& state;
     Lighting& lighting;
     bool second = false;  ///< right of the divider
     bool overflowed = false;
-    double scale_max = 0.0;
+    double scale_least = 0.0;  ///< the top of the scale, unless more is walked
     std::uint32_t first_x = 0;
     std::uint32_t end_x = 0;
   };

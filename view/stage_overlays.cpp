@@ -33,7 +33,7 @@ Overlaid Stage::shadow_overlay(const Overlaying& o) {
   if (state.overlay == Overlay::shadow_leaks) return leaks_overlay(o);
   if (state.overlay != Overlay::shadow_atlas) {
     const ShadowHeat of = state.overlay == Overlay::shadow_age ? ShadowHeat::age : ShadowHeat::size;
-    return make_shadow_heat(state.overlay, state.palette, shadow_heat(*renderer_, o.lighting, of), o.scale_max);
+    return make_shadow_heat(state.overlay, state.palette, shadow_heat(*renderer_, o.lighting, of), o.scale_least);
   }
   const Shadows& shadows = *renderer_->shadows();
   const std::uint32_t side = shadows.settings().atlas_size;
@@ -70,7 +70,7 @@ Overlaid Stage::slice_overlay(const Overlaying& o) {
   depth_ = renderer_->read_depth();
   const std::vector<Visit> visits = visit_at(*renderer_, o.lighting, o.state.slice_m);
   return make_slice(o.state.palette,
-                    {.view = renderer_->view(), .visits = visits, .depth = depth_, .scale_max = o.scale_max},
+                    {.view = renderer_->view(), .visits = visits, .depth = depth_, .scale_least = o.scale_least},
                     o.state.slice_m);
 }
 
@@ -101,7 +101,7 @@ Overlaid Stage::light_cells_overlay(const Overlaying& o) {
 Overlaid Stage::mask_overlay(const Overlaying& o) {
   const NumberedCells cells = numbered_cells(visits_);
   return make_mask_overlay(o.state.palette, cells.of_pixels, cell_masks(*renderer_, cells.of_pixels, cells.count),
-                           o.scale_max);
+                           o.scale_least);
 }
 
 Overlaid Stage::walk_overlay(const Overlaying& o) {
@@ -122,7 +122,7 @@ Overlaid Stage::walk_overlay(const Overlaying& o) {
                        .other = o.second ? visits_ : other,
                        .lights = static_cast<std::uint32_t>(listed_count()),
                        .overflowed = o.overflowed,
-                       .scale_max = o.scale_max});
+                       .scale_least = o.scale_least});
 }
 
 Overlaid Stage::overlaid(const Overlaying& o) {

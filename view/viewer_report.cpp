@@ -11,7 +11,7 @@ namespace lamp::app {
 namespace {
 
 nlohmann::json report_of(const Legend& legend) {
-  return {{"mean", legend.mean},       {"max", legend.max},         {"cells", legend.cells},
+  return {{"mean", legend.mean},       {"max", legend.max},         {"high", legend.high},      {"cells", legend.cells},
           {"reached", legend.reached}, {"lacking", legend.lacking}, {"refused", legend.refused}};
 }
 
@@ -96,6 +96,7 @@ nlohmann::json Viewer::report() const {
     return why_listed(light, found.tests_of(light)).starts_with("larger cell");
   });
   json["inspection"] = {{"pixel", {found.pixel.x, found.pixel.y}},
+                        {"method", shown_.inspected_side().stats.method},
                         {"sky", found.sky},
                         {"cell", found.cell},
                         {"lights", found.lights.size()},

@@ -41,17 +41,6 @@ float divider_x(const ScreenRect& picture, const Against& against) {
   return static_cast<float>(picture.min.x) + against.divider * static_cast<float>(picture.size().x);
 }
 
-/// The method and those of its options that are not its own.
-std::string words_of_side(const Stats& stats) {
-  std::string words = stats.method;
-  const auto method = find_method(stats.method);
-  if (!method.ok()) return words;
-  for (const OptionSpec& spec : method.value()->options)
-    if (stats.options.word(spec.key) != spec.fallback)
-      words += fmt::format(" {}={}", spec.key, stats.options.word(spec.key));
-  return words;
-}
-
 void draw_divider(const ScreenRect& picture, const Shown& shown) {
   if (!shown.state.against || !shown.second) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
@@ -64,9 +53,9 @@ void draw_divider(const ScreenRect& picture, const Shown& shown) {
     draw.AddRectFilled({left - 4.0F, y - 2.0F}, {left + size.x + 4.0F, y + size.y + 2.0F}, IM_COL32(0, 0, 0, 160));
     draw.AddText({left, y}, IM_COL32_WHITE, words.c_str());
   };
-  const std::string a = words_of_side(shown.first.stats);
+  const std::string a = words_of_method(shown.first.stats);
   label(x - 10.0F - ImGui::CalcTextSize(a.c_str()).x, a);
-  label(x + 10.0F, words_of_side(shown.second->stats));
+  label(x + 10.0F, words_of_method(shown.second->stats));
 }
 
 void draw_frame(const glm::vec2& min, const glm::vec2& max) {
