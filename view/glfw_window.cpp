@@ -238,11 +238,13 @@ void GlfwWindow::set_minimised(bool minimised) {
     glfwRestoreWindow(window_);
 }
 
-float GlfwWindow::scale() const {
+float GlfwWindow::content_scale() const {
   glm::vec2 scale(1.0F);
   glfwGetWindowContentScale(window_, &scale.x, &scale.y);
-  return std::clamp(scale.x, 1.0F, 4.0F);
+  return scale.x;
 }
+
+float GlfwWindow::scale() const { return std::clamp(content_scale(), 1.0F, 4.0F); }
 
 void wake_window() { glfwPostEmptyEvent(); }
 

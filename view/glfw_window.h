@@ -43,6 +43,8 @@ class GlfwWindow {
   [[nodiscard]] glm::uvec2 size() const;
   void resize(glm::uvec2 size);
   void set_minimised(bool minimised);
+  /// What the size that was asked for is multiplied by, as the desktop says.
+  [[nodiscard]] float content_scale() const;
   /// How large letters are to be, as the desktop says.
   [[nodiscard]] float scale() const;
   [[nodiscard]] Input& input() { return input_; }

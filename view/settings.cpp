@@ -31,6 +31,11 @@ std::filesystem::path settings_file() {
   return base.empty() ? base : base / "lamplight" / "lamp-view.json";
 }
 
+glm::uvec2 unscaled(glm::uvec2 pixels, float scale) {
+  if (!(scale > 0.0F)) return pixels;
+  return glm::max(glm::uvec2(glm::vec2(pixels) / scale + 0.5F), glm::uvec2(glm::greaterThan(pixels, glm::uvec2(0))));
+}
+
 Settings settings_of(const ViewState& state, glm::uvec2 screen) {
   return {.palette = state.palette,
           .light_marks = state.light_marks,

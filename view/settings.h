@@ -23,6 +23,9 @@ struct Settings {
 /// $XDG_CONFIG_HOME/lamplight/lamp-view.json, or that below ~/.config; empty where there is no home.
 [[nodiscard]] std::filesystem::path settings_file();
 
+/// The size that a window of so many pixels is asked for with: the desktop multiplies it by its scale.
+[[nodiscard]] glm::uvec2 unscaled(glm::uvec2 pixels, float scale);
+
 [[nodiscard]] Settings settings_of(const ViewState& state, glm::uvec2 screen);
 void apply(const Settings& settings, ViewState& state);
 

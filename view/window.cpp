@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "view/glfw_window.h"
+#include "view/settings.h"
 #include "view/swapchain.h"
 #include "view/worker.h"
 
@@ -160,7 +161,7 @@ void run_window(const WindowInfo& info) {
           window.take_events(TICK_S);
           view.tick(window.input(), std::nullopt);
         }
-        if (info.closed) info.closed(view.viewer().state(), window.size());
+        if (info.closed) info.closed(view.viewer().state(), unscaled(window.size(), window.content_scale()));
       }
     });
   }

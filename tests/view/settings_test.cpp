@@ -33,6 +33,16 @@ TEST(SettingsTest, AreTheDefaultsWithoutAFile) {
   EXPECT_EQ(load_settings("/nonexistent/lamp-view.json").screen, Settings().screen);
 }
 
+/// A desktop that scales opens the next window as large as the last.
+TEST(SettingsTest, WindowDoesNotGrow) {
+  for (const float scale : {1.0F, 1.25F, 1.5F, 2.0F}) {
+    const glm::uvec2 asked(1280, 720);
+    EXPECT_EQ(unscaled(glm::uvec2(glm::vec2(asked) * scale), scale), asked) << scale;
+  }
+  EXPECT_EQ(unscaled({0, 0}, 2.0F), glm::uvec2(0, 0));
+  EXPECT_EQ(unscaled({1, 1}, 4.0F), glm::uvec2(1, 1));
+}
+
 TEST(SettingsTest, SayWhatIsWrong) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "lamp-view.json";
