@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 
+#include "view/depth_samples.h"
 #include "view/offscreen.h"
 
 namespace lamp::app {
@@ -61,6 +62,7 @@ void run_headless(Context& context, const HeadlessInfo& info, const std::functio
     Stage stage(context, shaders, request.calibration);
     Viewer viewer({.state = info.state,
                    .traits = context.device().traits,
+                   .depth_samples = depth_sample_counts(context),
                    .target_ms = info.target_ms,
                    .rest_ms = info.rest_ms,
                    .bookmarks = info.bookmarks});

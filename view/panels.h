@@ -40,7 +40,9 @@ struct Wishes {
   bool paste_light = false;
   bool undo = false;
   bool redo = false;
-  bool step = false;  ///< one frame of time
+  bool step = false;    ///< one frame of time
+  std::string say;      ///< in the line below the picture; or empty
+  std::string refused;  ///< why what was entered cannot be; or empty
 };
 
 /// What panels see.
@@ -50,6 +52,7 @@ struct PanelFrame {
   Widgets& widgets;
   const Times& times;
   const DeviceTraits& traits;
+  std::span<const std::uint32_t> depth_samples;  ///< that the device's depth images may have
   Wishes& wishes;
   SaveFiles& files;
   std::size_t waiting = 0;  ///< pictures that are still to be saved
@@ -107,6 +110,10 @@ void help_window(const ScreenRect& picture, float scale);
 /// `lift`: pixels above the bottom. `numbers`: of cells, that are drawn.
 void legend_window(const Shown& shown, const ScreenRect& picture, float lift, std::size_t numbers);
 
+/// An error with the labels of widgets in place of options of the command line: "still lists", not "--still-lists".
+[[nodiscard]] std::string named_by_widgets(std::string_view error);
+/// Why an overlay cannot be laid over what is shown; empty: it can.
+[[nodiscard]] std::string why_no_overlay(Overlay overlay, const ViewState& state, const Shown& shown);
 /// Why the request, were it so, is refused whatever the scene; empty: it is not.
 [[nodiscard]] std::string why_refused(const Request& request);
 /// Why a method with these options cannot light this frame; empty: it can.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/gltf_light_text.h"
 #include "view/panels.h"
@@ -12,11 +13,18 @@
 namespace lamp::app {
 namespace {
 
+constexpr float NEW_RANGE_M = 10.0F;  // of a light that had none
+
 /// True where something was changed.
 bool change(Light& light, Widgets& widgets) {
   const float step = 0.01F * std::clamp(light.range, 0.1F, 100.0F);
   bool changed = widgets.move("position", light.position, step, "Where it is, metres. Drag a number.");
-  if (std::isfinite(light.range))
+  bool ends = std::isfinite(light.range);
+  if (widgets.check("has a range", ends, "Without one it reaches everything.")) {
+    light.range = ends ? NEW_RANGE_M : std::numeric_limits<float>::infinity();
+    changed = true;
+  }
+  if (ends)
     changed = widgets.slide("its range", light.range, {.min = 0.01, .max = 1000.0, .logarithmic = true},
                             "How far it reaches, metres.") ||
               changed;
@@ -31,7 +39,9 @@ bool change(Light& light, Widgets& widgets) {
     light.inner_angle = std::min(light.inner_angle, light.outer_angle);
     changed = true;
   }
-  return changed;
+  return widgets.slide("inner angle", light.inner_angle, {.min = 0.0, .max = light.outer_angle},
+                       "The same of the part that is fully bright.") ||
+         changed;
 }
 
 void draw_gltf(const Light& light, std::uint32_t number, InspectorFrame& p) {
@@ -65,7 +75,11 @@ void light_editor(InspectorFrame& p) {
   Widgets::text(fmt::format("light {}, a {} light", number, light->type == LightType::spot ? "spot" : "point"));
   const bool changed = change(*light, p.widgets);
   if (light->type == LightType::spot && light->direction == glm::vec3(0.0F)) return;  // while it is dragged through it
-  if (changed) edit_light(p.state, number, *light);
+  const auto error = changed ? check_shown_lights({&*light, 1}) : std::nullopt;
+  if (error)
+    p.wishes.refused = fmt::format("light {}: {}", number, error->message);
+  else if (changed)
+    edit_light(p.state, number, *light);
   draw_gltf(*light, number, p);
 }
 

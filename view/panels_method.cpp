@@ -169,9 +169,13 @@ void shadow_panel(PanelFrame& p) {
                    [&](std::string_view) { return p.shown.captured ? "a capture has its own" : std::string(); });
   constexpr std::array<std::string_view, 4> SAMPLES{"1", "2", "4", "8"};
   std::string samples = fmt::format("{}", r.depth_samples);
-  if (p.widgets.choose(
-          "depth samples", samples, SAMPLES, "Samples of a pixel that lights are culled with.",
-          [&](std::string_view name) { return p.shown.captured && name != "1" ? "a capture has one" : std::string(); }))
+  if (p.widgets.choose("depth samples", samples, SAMPLES, "Samples of a pixel that lights are culled with.",
+                       [&](std::string_view name) -> std::string {
+                         if (p.shown.captured && name != "1") return "a capture has one";
+                         if (std::ranges::find(p.depth_samples, number_of(std::string(name))) != p.depth_samples.end())
+                           return "";
+                         return fmt::format("the device has depth images of {}", fmt::join(p.depth_samples, ", "));
+                       }))
     r.depth_samples = number_of(samples);
 }
 

@@ -71,6 +71,19 @@ std::string change_key(ViewState state) {
   return to_json(state).dump();
 }
 
+/// Which picture is asked for, whenever.
+std::string picture_key(ViewState state) {
+  state.request.light_frame = -1;
+  if (state.request.frame >= 0) state.request.frame = 0;
+  return drawing_key(std::move(state));
+}
+
+/// A key that flies or repeats; others do nothing while they are held.
+bool holds_a_key(const Input& input) {
+  return std::ranges::any_of(input.held,
+                             [](const std::string& key) { return key != "shift" && key != "ctrl" && key != "alt"; });
+}
+
 glm::uvec2 part_of(glm::uvec2 size, double part) {
   return glm::max(glm::uvec2(1), glm::uvec2(glm::dvec2(size) * part + 0.5));
 }
@@ -81,6 +94,7 @@ Viewer::Viewer(ViewerInfo info)
     : state_(std::move(info.state)),
       settled_(state_),
       traits_(info.traits),
+      depth_samples_(std::move(info.depth_samples)),
       pace_(info.target_ms, info.rest_ms),
       paced_(info.target_ms > 0.0),
       scale_(info.scale),
@@ -133,9 +147,10 @@ void Viewer::finish(Done done) {
   if (!done.error.empty()) {
     if (done.job.kind == Job::Kind::picture) stop_saving();
     complain(done.error);
-    keep_scene(done.job.state);
+    if (done.job.kind == Job::Kind::draw) take_back(done.job.state);
     return;
   }
+  if (done.job.kind == Job::Kind::draw) drawable_ = done.job.state;
   if (done.job.kind == Job::Kind::draw && !error_stays_) error_.clear();
   if (done.job.kind == Job::Kind::picture || done.job.kind == Job::Kind::capture) say_saved(done.job.file);
   if (done.proof) {
@@ -171,7 +186,7 @@ void Viewer::take_picture(Done& done) {
 }
 
 void Viewer::complain(const std::string& error) {
-  error_ = error;
+  error_ = named_by_widgets(error);
   error_stays_ = true;
   ++errors_;
 }
@@ -182,15 +197,13 @@ void Viewer::say_saved(const std::string& file) {
   error_stays_ = false;
 }
 
-void Viewer::keep_scene(const ViewState& failed) {
-  Request& r = state_.request;
-  if (shown_.number == 0 || failed.request.scene == shown_.state.request.scene || r.scene != failed.request.scene)
-    return;
-  const Request& was = shown_.state.request;
-  r.scene = was.scene;
-  r.camera = was.camera;
-  r.free_camera = was.free_camera;
-  r.frame = was.frame;
+void Viewer::take_back(const ViewState& failed) {
+  if (shown_.number == 0 || picture_key(state_) != picture_key(failed)) return;
+  const ViewState was = std::exchange(state_, drawable_);
+  opened_place_.clear();
+  state_.panels = was.panels;
+  state_.help = was.help;
+  if (!undone_.empty() && picture_key(undone_.back()) == picture_key(state_)) undone_.pop_back();
   settled_ = state_;
 }
 
@@ -210,7 +223,7 @@ void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float p
   if (paced_ && state_.resolution == 0.0F && !busy_) rests_s_ += seconds;
   try_state(before);
   keep_drawn_size();
-  note_change();
+  note_change(input);
   if (!others_.empty() && (state_.picked != asked_for_.picked || place_of(state_) != asked_for_.place)) {
     others_.clear();
     outdated_.clear();
@@ -228,8 +241,15 @@ void Viewer::try_state(const ViewState& before) {
   }
 }
 
-void Viewer::note_change() {
-  if (interface_is_used() || dragging_ || change_key(state_) == change_key(settled_)) return;
+void Viewer::note_change(const Input& input) {
+  const bool typed = interface_takes_text();
+  if (interface_is_used() || dragging_ || (!typed && holds_a_key(input))) return;
+  keep_change();
+}
+
+void Viewer::keep_change() {
+  if (change_key(state_) == change_key(settled_)) return;
+  error_.clear();
   error_stays_ = false;
   undone_.push_back(settled_);
   if (undone_.size() > MOST_UNDONE) undone_.erase(undone_.begin());
@@ -267,8 +287,11 @@ void Viewer::take_wishes() {
   if (wishes.stop_saving) stop_saving();
   if (wishes.save_capture) save_capture(files_.capture);
   take_bookmark_wishes(wishes);
+  if (wishes.undo || wishes.redo) keep_change();
   if (wishes.undo) undo(undone_, redone_);
   if (wishes.redo) undo(redone_, undone_);
+  if (!wishes.refused.empty()) complain(wishes.refused);
+  if (!wishes.say.empty()) said_ = wishes.say;
   if (wishes.step) apply_keys({.pressed = {"period"}}, state_, shown_, wishes_, false);
   if (wishes.save_numbers) save_numbers(files_.numbers);
   if (wishes.copy_light) copy_light();

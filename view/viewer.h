@@ -20,9 +20,10 @@ namespace lamp::app {
 struct ViewerInfo {
   ViewState state;
   DeviceTraits traits;
-  double target_ms = 0.0;               ///< how long a picture may take; 0: resolution is never lowered by itself
-  double rest_ms = Pace::MOST_REST_MS;  ///< the same of a picture that is drawn once and stays
-  float scale = 1.0F;                   ///< of letters and panels
+  std::vector<std::uint32_t> depth_samples;  ///< of a pixel, that the device's depth images may have
+  double target_ms = 0.0;                    ///< how long a picture may take; 0: resolution is never lowered by itself
+  double rest_ms = Pace::MOST_REST_MS;       ///< the same of a picture that is drawn once and stays
+  float scale = 1.0F;                        ///< of letters and panels
   std::vector<Bookmark> bookmarks;
 };
 
@@ -91,7 +92,9 @@ class Viewer {
   void draw_status(glm::uvec2 screen) const;
   void take_wishes();
   void pass_time(float seconds);
-  void note_change();
+  /// What has changed is a step of undo, once nobody is at it any more: a drag, a flight, a key that repeats.
+  void note_change(const Input& input);
+  void keep_change();
   void queue(Job::Kind kind);
   /// The lights of the clipboard's text, which must be one, in place of the picked one; and the other way round.
   void paste_light();
@@ -116,13 +119,15 @@ class Viewer {
   void complain(const std::string& error);
   /// In place of an error that was shown.
   void say_saved(const std::string& file);
-  /// After a scene could not be opened: the one that is shown stays.
-  void keep_scene(const ViewState& failed);
+  /// What could not be drawn: the last state that could comes back, unless something else was set since.
+  void take_back(const ViewState& failed);
 
   ViewState state_;
-  ViewState settled_;  ///< the state when nobody was changing it
+  ViewState settled_;   ///< the state when nobody was changing it
+  ViewState drawable_;  ///< the last that was drawn
   std::vector<ViewState> undone_, redone_;
   DeviceTraits traits_;
+  std::vector<std::uint32_t> depth_samples_;
   Pace pace_;
   bool paced_;
   float scale_;

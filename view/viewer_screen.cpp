@@ -178,6 +178,7 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                  .widgets = widgets,
                  .times = times_,
                  .traits = traits_,
+                 .depth_samples = depth_samples_,
                  .wishes = wishes_,
                  .files = files_,
                  .waiting = waiting(),

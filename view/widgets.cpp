@@ -199,8 +199,16 @@ bool Widgets::fold(const std::string& label) {
 bool Widgets::write(const std::string& label, std::string& value, const std::string& tip, const char* empty) {
   before(label);
   ImGui::SetNextItemWidth(-LABEL_PART * ImGui::GetWindowWidth());
-  ImGui::InputTextWithHint(unique(label).c_str(), empty, &value);
+  const std::string name = unique(label);
+  const auto typed = places_.typed().find(name);
+  std::string text = typed == places_.typed().end() ? value : typed->second;
+  ImGui::InputTextWithHint(name.c_str(), empty, &text);
   const bool left = ImGui::IsItemDeactivatedAfterEdit();
+  if (ImGui::IsItemActive())
+    places_.typed()[name] = text;
+  else
+    places_.typed().erase(name);
+  if (left) value = text;
   done(label, tip);
   return left;
 }

@@ -28,6 +28,8 @@ class Places {
   /// From the next frame on, the panel is scrolled to it, once.
   void scroll_to(const std::string& label) { wanted_ = label; }
   [[nodiscard]] bool takes_scroll(const std::string& label);
+  /// What is being typed into a field; nothing before it is.
+  std::map<std::string, std::string, std::less<>>& typed() { return typed_; }
 
  private:
   struct Place {
@@ -35,6 +37,7 @@ class Places {
     bool visible = false;
   };
   std::map<std::string, Place, std::less<>> places_, drawn_;
+  std::map<std::string, std::string, std::less<>> typed_;
   std::string wanted_;
 };
 
@@ -78,7 +81,7 @@ class Widgets {
   bool pick(const std::string& label, bool picked, const std::string& words = "");
   /// A part of a panel that is closed at first. True while it is open.
   [[nodiscard]] bool fold(const std::string& label);
-  /// True when the text was changed and the widget left.
+  /// Takes the text when the widget is left, and is true then: what is half typed may be nothing that can be.
   bool write(const std::string& label, std::string& value, const std::string& tip, const char* empty = "");
 
   /// Text beside the window of the widget that was drawn last, wrapped: what the pointer is at can be read on.

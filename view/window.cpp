@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "view/depth_samples.h"
 #include "view/glfw_window.h"
 #include "view/settings.h"
 #include "view/swapchain.h"
@@ -46,6 +47,7 @@ class ViewWindow {
         stage_(context, shaders_, info.state.request.calibration),
         viewer_({.state = info.state,
                  .traits = context.device().traits,
+                 .depth_samples = depth_sample_counts(context),
                  .target_ms = context.software() ? SOFTWARE_PICTURE_MS : DEVICE_PICTURE_MS,
                  .scale = window.scale(),
                  .bookmarks = info.bookmarks}),
