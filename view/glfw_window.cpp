@@ -93,7 +93,7 @@ void on_key(GLFWwindow* window, int key, int scancode, int action, int /*modifie
     return;
   }
   input.held.insert(name);
-  input.pressed.push_back(name);
+  (action == GLFW_REPEAT ? input.repeated : input.pressed).push_back(name);
 }
 
 void on_character(GLFWwindow* window, unsigned int code) {

@@ -30,6 +30,7 @@ std::optional<std::size_t> key_number(std::string_view name) {
 void Input::next_frame() {
   wheel = glm::vec2(0.0F);
   pressed.clear();
+  repeated.clear();
   text.clear();
   dropped.clear();
 }

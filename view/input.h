@@ -23,7 +23,8 @@ struct Input {
   std::array<bool, 3> buttons{};            ///< held: left, right, middle
   glm::vec2 wheel{0.0F};                    ///< steps, in this frame
   std::set<std::string, std::less<>> held;  ///< keys
-  std::vector<std::string> pressed;         ///< keys that went down, or repeated, in this frame
+  std::vector<std::string> pressed;         ///< keys that went down in this frame
+  std::vector<std::string> repeated;        ///< keys that are held, and that the desktop repeats in this frame
   std::string text;                         ///< typed, UTF-8
   std::vector<std::string> dropped;         ///< files
 

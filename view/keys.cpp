@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "commands/pictures.h"
+#include "view/light_cells.h"
 
 namespace lamp::app {
 namespace {
@@ -71,6 +72,27 @@ void expose(ViewState& state, const Shown& shown, float factor) {
   state.exposure = fmt::format("{}", std::clamp(now * factor, 1e-6F, 1e6F));
 }
 
+/// Overlays that cannot be shown are passed over.
+void next_overlay(ViewState& state, const Shown& shown, int by) {
+  do next_word(state.overlay, overlay_names().size(), by);
+  while (!why_no_overlay(state.overlay, state, shown).empty());
+}
+
+/// Why there is nothing to be seen of what a key switched on; or empty.
+std::string why_nothing(std::string_view key, const ViewState& state, const Shown& shown) {
+  if (key == "u" && state.probe_boxes && shown.probe_volumes.empty()) return "there are no reflection probes";
+  if (key == "y" && state.world_cells && !state.picked) return "click a pixel: world cells are those around it";
+  if (key == "c" && state.shadow_shape != ShadowShape::none) {
+    if (!shown.first.stats.shadows) return "no light casts a shadow";
+    if (!state.light) return NO_LIGHT;
+  }
+  if (key == "x" && state.proxies == LightMarks::cell && !shown.first.rasterises)
+    return fmt::format("{} rasterises no lights; drobot-raster-tile and drobot-raster-cluster do",
+                       shown.first.stats.method);
+  if (key == "k" && state.overlay == Overlay::light_cells && !state.light) return NO_LIGHT;
+  return "";
+}
+
 void move_slice(ViewState& state, float factor) {
   state.overlay = Overlay::slice;
   state.slice_m = std::clamp(state.slice_m * factor, 0.01F, 1e6F);
@@ -85,10 +107,11 @@ void step_time(ViewState& state, const Shown& shown, int by) {
   frame = (std::max(frame, 0) + frames + by) % frames;
 }
 
-void apply_letter(std::string_view key, int by, ViewState& state, const Shown& shown, Wishes& wishes) {
-  if (key == "h") state.help = !state.help;
+/// Switches, which a key that is held turns once.
+void switch_by_key(std::string_view key, int by, ViewState& state, const Shown& shown, Wishes& wishes) {
+  if (key == "h" || key == "f1") state.help = !state.help;
   if (key == "r") state.request.free_camera.reset();
-  if (key == "o") next_word(state.overlay, overlay_names().size(), by);
+  if (key == "o") next_overlay(state, shown, by);
   if (key == "p") next_word(state.palette, palette_names().size(), by);
   if (key == "l") next_word(state.light_marks, light_mark_names().size(), by);
   if (key == "m") next_method(state, by);
@@ -101,11 +124,16 @@ void apply_letter(std::string_view key, int by, ViewState& state, const Shown& s
   if (key == "y") state.world_cells = !state.world_cells;
   if (key == "u") state.probe_boxes = !state.probe_boxes;
   if (key == "z") state.depth_bins = !state.depth_bins;
+  if (key == "0") state.exposure = "auto";
+  if (std::string why = why_nothing(key, state, shown); !why.empty()) wishes.say = std::move(why);
+}
+
+/// Steps, which a key that is held repeats.
+void step_by_key(std::string_view key, ViewState& state, const Shown& shown) {
   if (key == "3") move_slice(state, 1.0F / 1.1F);
   if (key == "4") move_slice(state, 1.1F);
   if (key == "1") expose(state, shown, 1.0F / 1.25F);
   if (key == "2") expose(state, shown, 1.25F);
-  if (key == "0") state.exposure = "auto";
   if (key == "period") step_time(state, shown, 1);
   if (key == "comma") step_time(state, shown, -1);
 }
@@ -116,14 +144,18 @@ std::span<const KeyHelp> key_help() { return HELP; }
 
 void apply_keys(const Input& input, ViewState& state, const Shown& shown, Wishes& wishes, bool focus) {
   const bool shift = input.holds("shift");
+  for (const std::string& key : input.repeated) {
+    if (!input.holds("ctrl")) step_by_key(key, state, shown);
+    if (input.holds("ctrl") && key == "z") (shift ? wishes.redo : wishes.undo) = true;
+  }
   for (const std::string& key : input.pressed) {
     if (input.holds("ctrl")) {
       if (key == "s") (shift ? wishes.save_state : wishes.save_picture) = true;
       if (key == "z") (shift ? wishes.redo : wishes.undo) = true;
       continue;
     }
-    apply_letter(key, shift ? -1 : 1, state, shown, wishes);
-    if (key == "f1") state.help = !state.help;
+    switch_by_key(key, shift ? -1 : 1, state, shown, wishes);
+    step_by_key(key, state, shown);
     if (focus) continue;
     if (key == "tab") state.panels = !state.panels;
     if (key == "space") state.paused = !state.paused;

@@ -140,6 +140,15 @@ void draw_colors(std::initializer_list<std::pair<glm::u8vec3, const char*>> colo
 
 }  // namespace
 
+std::string why_no_overlay(Overlay overlay, const ViewState& state, const Shown& shown) {
+  if (is_of_shadows(overlay) && !shown.first.stats.shadows) return "no light casts a shadow";
+  if (overlay == Overlay::light_cells && !state.light) return NO_LIGHT;
+  if (overlay == Overlay::difference && !state.against) return "needs a second method: see A against B, or press B";
+  if (overlay == Overlay::slice && shown.number != 0 && !shown.first.any_depth)
+    return fmt::format("{} lists lights for the depths of surfaces alone", shown.first.stats.method);
+  return "";
+}
+
 void look_panel(PanelFrame& p) {
   if (!p.widgets.header("Picture and overlays", true)) return;
   bool automatic = p.state.exposure == "auto";
@@ -159,11 +168,7 @@ void look_panel(PanelFrame& p) {
       "clusters.",
       [&](std::string_view name) {
         const auto overlay = static_cast<Overlay>(std::ranges::find(overlay_names(), name) - overlay_names().begin());
-        if (is_of_shadows(overlay) && !p.shown.first.stats.shadows) return std::string("no light casts a shadow");
-        if (overlay == Overlay::light_cells && !p.state.light) return std::string(NO_LIGHT);
-        return overlay == Overlay::difference && !p.state.against
-                   ? std::string("needs a second method: see A against B, or press B")
-                   : "";
+        return why_no_overlay(overlay, p.state, p.shown);
       });
   if (p.state.overlay == Overlay::slice)
     p.widgets.slide("slice distance", p.state.slice_m, {.min = 0.1, .max = 1000.0, .logarithmic = true},

@@ -28,6 +28,8 @@ struct ShownSide {
   std::vector<ListLengths> lengths;  ///< where lists were walked
   bool keeps_masks = false;          ///< of the occupied parts of each cell's depths
   CellPlaces cells;                  ///< with Overlay::cells
+  bool any_depth = false;            ///< its lists are right at any depth
+  bool rasterises = false;           ///< meshes in place of lights
   bool full = false;                 ///< lists overflow although room was made for them
 };
 

@@ -31,7 +31,10 @@ ShownSide Stage::side(const ViewState& state, const Chosen& chosen, Rendered ren
                                      chosen.lighting, std::move(rendered)),
                  .by_auto = chosen.by_auto,
                  .legend = {}};
-  const OwnTests own = own_tests(chosen.lighting.runner().plan(), chosen.lighting.info().options);
+  const Plan& plan = chosen.lighting.runner().plan();
+  const OwnTests own = own_tests(plan, chosen.lighting.info().options);
+  made.any_depth = plan.any_depth;
+  made.rasterises = std::ranges::find(plan.buffers, "light proxies", &BufferDesc::name) != plan.buffers.end();
   made.keeps_masks = (own.passes & gpu::PASSES_MASK) != 0;
   made.stats.clock = clock_.read();
   made.stats.shadows = shadow_stats(renderer_->shadows());

@@ -126,6 +126,8 @@ void play_in(ViewWindow& view, GlfwWindow& window, const WindowInfo& info) {
       .frame =
           [&] {
             window.take_events(TICK_S);
+            if (window.wants_to_close())
+              throw Error("the window was closed before the script's end", Exit::check_failed);
             window.input() = {};  // of a user who may be there
             view.tick(input, SCRIPT_STEP_S);
           },
