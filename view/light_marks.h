@@ -15,10 +15,10 @@ namespace lamp::app {
 void draw_light_marks(LightMarks which, const Shown& shown, const ScreenRect& picture);
 inline constexpr std::size_t MOST_MARKS = 20000;
 
-/// The edges of the decals' boxes, where both ends are ahead of the eye.
+/// The edges of the decals' boxes.
 void draw_decal_boxes(const Shown& shown, const ScreenRect& picture);
 
-/// Where in the picture a point of the world is seen, 0 .. 1 from its top left; nothing behind the eye.
-[[nodiscard]] std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& position);
+/// From a box's centre to the middle of three faces.
+[[nodiscard]] glm::mat3 axes_of(const shared::OrientedBox& box);
 
 }  // namespace lamp::app

@@ -7,7 +7,7 @@
 
 #include <tuple>
 
-#include "view/light_marks.h"
+#include "view/picture_lines.h"
 
 namespace lamp::app {
 namespace {
@@ -20,22 +20,12 @@ constexpr ImU32 OF_SHADOW = IM_COL32(120, 200, 255, 160);
 /// Of two triangles that share an edge one draws it: each has it the other way round.
 bool is_first(const glm::vec3& a, const glm::vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-void draw_shape(const View& view, const ScreenRect& picture, const LightShape& shape, ImU32 color, bool closed) {
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const auto at = [&](const glm::vec3& position) -> std::optional<ImVec2> {
-    const auto place = place_in_picture(view, position);
-    if (!place) return std::nullopt;
-    const glm::vec2 px = glm::vec2(picture.min) + *place * glm::vec2(picture.size());
-    return ImVec2(px.x, px.y);
-  };
+void draw_shape(const PictureLines& lines, const LightShape& shape, ImU32 color, bool closed) {
   for (std::size_t i = 0; i + 2 < shape.corners.size(); i += 3)
     for (std::size_t edge = 0; edge < 3; ++edge) {
       const glm::vec3& a = shape.corners[i + edge];
       const glm::vec3& b = shape.corners[i + (edge + 1) % 3];
-      if (closed && !is_first(a, b)) continue;
-      const auto from = at(a);
-      const auto to = at(b);
-      if (from && to) draw.AddLine(*from, *to, color);
+      if (!closed || is_first(a, b)) lines.line(a, b, {.color = color});
     }
 }
 
@@ -54,15 +44,11 @@ void draw_square(std::span<const std::uint32_t> texels, std::uint32_t side, floa
 }  // namespace
 
 void draw_light_shapes(const Shown& shown, const ScreenRect& picture) {
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.PushClipRect({static_cast<float>(picture.min.x), static_cast<float>(picture.min.y)},
-                    {static_cast<float>(picture.max.x), static_cast<float>(picture.max.y)});
+  const PictureLines lines(shown.view, picture);
   if (shown.proxies)
     for (const LightShape& shape : shown.proxies->shapes)
-      draw_shape(shown.view, picture, shape, shape.cut ? CUT : shape.inside ? INSIDE : OUTSIDE, true);
-  if (shown.shadow)
-    draw_shape(shown.view, picture, shown.shadow->shape, OF_SHADOW, shown.state.shadow_shape == ShadowShape::mesh);
-  draw.PopClipRect();
+      draw_shape(lines, shape, shape.cut ? CUT : shape.inside ? INSIDE : OUTSIDE, true);
+  if (shown.shadow) draw_shape(lines, shown.shadow->shape, OF_SHADOW, shown.state.shadow_shape == ShadowShape::mesh);
 }
 
 void shadow_of_light(const Shown& shown, ViewState& state, Widgets& widgets) {

@@ -9,38 +9,11 @@
 
 #include "render/heatmap_legend.h"
 #include "view/light_marks.h"
+#include "view/picture_lines.h"
 #include "view/widgets.h"
 
 namespace lamp::app {
 namespace {
-
-void begin(const ScreenRect& picture) {
-  ImGui::GetBackgroundDrawList()->PushClipRect({static_cast<float>(picture.min.x), static_cast<float>(picture.min.y)},
-                                               {static_cast<float>(picture.max.x), static_cast<float>(picture.max.y)});
-}
-
-void end() { ImGui::GetBackgroundDrawList()->PopClipRect(); }
-
-/// `axes`: from the centre to the middle of three faces.
-void draw_box(const Shown& shown, const ScreenRect& picture, const glm::vec3& center, const glm::mat3& axes,
-              ImU32 color) {
-  const auto corner = [&](std::uint32_t number) -> std::optional<ImVec2> {
-    glm::vec3 at = center;
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-      at += (number >> axis & 1U) != 0 ? axes[static_cast<int>(axis)] : -axes[static_cast<int>(axis)];
-    const auto place = place_in_picture(shown.view, at);
-    if (!place) return std::nullopt;
-    const glm::vec2 px = glm::vec2(picture.min) + *place * glm::vec2(picture.size());
-    return ImVec2(px.x, px.y);
-  };
-  for (std::uint32_t from = 0; from < 8; ++from)
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      if ((from >> axis & 1U) != 0) continue;
-      const auto a = corner(from);
-      const auto b = corner(from | 1U << axis);
-      if (a && b) ImGui::GetBackgroundDrawList()->AddLine(*a, *b, color);
-    }
-}
 
 bool holds(const WorldCell& cell, const glm::vec3& point) {
   return glm::all(glm::greaterThanEqual(point, cell.low)) && glm::all(glm::lessThan(point, cell.low + cell.side));
@@ -50,7 +23,7 @@ bool holds(const WorldCell& cell, const glm::vec3& point) {
 
 void draw_world_cells(const Shown& shown, const ScreenRect& picture) {
   if (!shown.world || shown.world->cells.empty()) return;
-  begin(picture);
+  const PictureLines lines(shown.view, picture);
   const glm::vec3 point = shown.world->points.front().position;
   for (const WorldCell& cell : shown.world->cells) {
     if (cell.lights == 0) continue;
@@ -58,23 +31,19 @@ void draw_world_cells(const Shown& shown, const ScreenRect& picture) {
         palette_color(shown.state.palette, heat_position(cell.lights, std::max(2U, shown.world->longest)));
     // Slightly smaller, so that neighbours' edges do not hide each other; the point's own stands out.
     const ImU32 ink = holds(cell, point) ? IM_COL32_WHITE : IM_COL32(color.r, color.g, color.b, 150);
-    draw_box(shown, picture, cell.low + 0.5F * cell.side, glm::mat3(0.48F * cell.side), ink);
+    lines.box(cell.low + 0.5F * cell.side, glm::mat3(0.48F * cell.side), {.color = ink});
   }
-  end();
 }
 
 void draw_probe_boxes(const Shown& shown, const ScreenRect& picture) {
   if (!shown.state.probe_boxes) return;
-  begin(picture);
+  const PictureLines lines(shown.view, picture);
   for (std::uint32_t i = 0; i < shown.probe_volumes.size(); ++i) {
     const shared::OrientedBox& box = shown.probe_volumes[i];
-    const glm::mat3 axes(box.half_extents.x * glm::vec3(box.axis_x), box.half_extents.y * glm::vec3(box.axis_y),
-                         box.half_extents.z * glm::vec3(box.axis_z));
     const auto listed = [&](const ListedProbe& probe) { return probe.probe == i && probe.share > 0.0F; };
     const bool weighs = shown.inspection && std::ranges::any_of(shown.inspection->probes, listed);
-    draw_box(shown, picture, box.center, axes, weighs ? IM_COL32(255, 220, 60, 255) : IM_COL32(150, 150, 255, 140));
+    lines.box(box.center, axes_of(box), {.color = weighs ? IM_COL32(255, 220, 60, 255) : IM_COL32(150, 150, 255, 140)});
   }
-  end();
 }
 
 void world_of_point(const Shown& shown) {
