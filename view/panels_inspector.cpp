@@ -50,16 +50,17 @@ void draw_inspection(InspectorFrame& p) {
 
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   if (!p.shown.inspection) return;
-  const float width = std::min(640.0F * scale, static_cast<float>(area.size().x));
+  const glm::vec2 room(area.size());
+  const float width = std::min(640.0F * scale, room.x);
+  const float most_height = std::max(100.0F * scale, 0.5F * room.x * room.y / width);  // over half of the picture
   // Where the pixel is not.
   const bool is_left = p.shown.inspection->pixel.x >= p.shown.view.width() / 2;
   ImGui::SetNextWindowPos({static_cast<float>(is_left ? area.min.x : area.max.x), static_cast<float>(area.min.y)},
                           ImGuiCond_Appearing, {is_left ? 0.0F : 1.0F, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(area.size().y)});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, std::min(most_height, room.y)});
   ImGui::SetNextWindowSize({width, 0.0F});  // as high as it needs
   ImGui::SetNextWindowBgAlpha(0.9F);
-  constexpr ImGuiWindowFlags FLAGS = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("Inspector", nullptr, FLAGS)) {
+  if (ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoFocusOnAppearing)) {
     draw_inspection(p);
     if (p.widgets.button("look away", "Forgets the pixel. Escape does the same.")) p.state.picked.reset();
     ImGui::SameLine();

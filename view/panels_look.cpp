@@ -21,9 +21,9 @@ ImU32 color_of(glm::u8vec3 color) { return IM_COL32(color.r, color.g, color.b, 2
 bool in_metres(Overlay overlay) { return overlay == Overlay::depth_range || overlay == Overlay::mask; }
 
 /// The scale with numbers below it.
-void draw_scale(const Legend& legend, Palette palette) {
+void draw_scale(const Legend& legend, Palette palette, float room) {
   constexpr int STEPS = 64;
-  const float width = 20.0F * ImGui::GetFontSize();
+  const float width = std::min(20.0F * ImGui::GetFontSize(), room);
   const float height = ImGui::GetFontSize();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -124,18 +124,22 @@ const Legend& scaled_legend(const Shown& shown) {
   return second ? shown.second->legend : shown.first.legend;
 }
 
-/// What colours stand for.
-void draw_colors(std::initializer_list<std::pair<glm::u8vec3, const char*>> colors) {
+/// What colours stand for, side by side as far as there is room.
+void draw_colors(float room, std::initializer_list<std::pair<glm::u8vec3, const char*>> colors) {
+  const float side = ImGui::GetFontSize();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  float right = 0.0F;
   for (const auto& [color, words] : colors) {
+    const float width = side + gap + ImGui::CalcTextSize(words).x;
+    const bool beside = right > 0.0F && right + gap + width <= room;
+    if (beside) ImGui::SameLine();
+    right = beside ? right + gap + width : width;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = ImGui::GetFontSize();
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, color_of(color));
     ImGui::Dummy({side, side});
     ImGui::SameLine();
     ImGui::TextUnformatted(words);
-    ImGui::SameLine();
   }
-  ImGui::NewLine();
 }
 
 }  // namespace
@@ -195,7 +199,8 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
                                      ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("legend", nullptr, FIXED)) {
     const Legend& legend = scaled_legend(shown);
-    ImGui::PushTextWrapPos(std::max(100.0F, static_cast<float>(picture.size().x) - 32.0F));
+    const float room = std::max(100.0F, static_cast<float>(picture.size().x) - 32.0F);
+    ImGui::PushTextWrapPos(room);
     ImGui::TextUnformatted(words_of_legend(shown).c_str());
     const std::uint64_t cells = shown.first.cells.cells + (shown.second ? shown.second->cells.cells : 0);
     if (const std::string words = words_of_numbers(cells, numbers); !words.empty())
@@ -204,14 +209,14 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
     const bool scaled = legend.overlay == Overlay::heat ||
                         (legend.overlay == Overlay::slice && legend.refused.empty()) || in_metres(legend.overlay) ||
                         legend.overlay == Overlay::shadow_age || legend.overlay == Overlay::shadow_size;
-    if (scaled) draw_scale(legend, shown.state.palette);
+    if (scaled) draw_scale(legend, shown.state.palette, room);
     if (legend.overlay == Overlay::difference)
-      draw_colors({{FIRST_WALKS_MORE, "A walks more"}, {SECOND_WALKS_MORE, "B walks more"}});
+      draw_colors(room, {{FIRST_WALKS_MORE, "A walks more"}, {SECOND_WALKS_MORE, "B walks more"}});
     if (legend.overlay == Overlay::light_cells && legend.refused.empty())
-      draw_colors({{REACHES_A_PIXEL, "it reaches a pixel of the cell"}, {LISTED_IN_VAIN, "listed in vain"}});
+      draw_colors(room, {{REACHES_A_PIXEL, "it reaches a pixel of the cell"}, {LISTED_IN_VAIN, "listed in vain"}});
     if (legend.overlay == Overlay::shadow_leaks && legend.refused.empty()) {
       const LeakColors colors = leak_colors(shown.state.palette);
-      draw_colors({{colors.leaked, "leaks"}, {colors.lost, "false shadow; full colour: all light of the pixel"}});
+      draw_colors(room, {{colors.leaked, "leaks"}, {colors.lost, "false shadow; full colour: all light of the pixel"}});
     }
     if (shown.picture_difference)
       ImGui::TextUnformatted(

@@ -15,11 +15,20 @@ void draw_graph(const Times::Row& row, float top) {
                    {ImGui::GetWindowWidth() * 0.22F, ImGui::GetFontSize() * 1.4F});
 }
 
+/// As much of its end as there is room for: passes of one kind differ there.
+std::string end_of(const std::string& text, float room) {
+  std::string end = text;
+  for (std::size_t cut = 1; cut < text.size() && ImGui::CalcTextSize(end.c_str()).x > room; ++cut)
+    end = ".." + text.substr(cut);
+  return end;
+}
+
 void draw_times(const Times& times) {
   constexpr ImGuiTableFlags FLAGS = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoKeepColumnsVisible;
   std::vector<const Times::Row*> rows;
   for (const Times::Row& row : times.rows()) rows.push_back(&row);
   if (!times.interface_row().ms.empty()) rows.push_back(&times.interface_row());
+  const float right = ImGui::GetWindowContentRegionMax().x;
   if (rows.empty() || !ImGui::BeginTable("times", 3, FLAGS)) return;
   for (const Times::Row* const each : rows) {
     const Times::Row& row = *each;
@@ -29,8 +38,9 @@ void draw_times(const Times& times) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(fmt::format("{:.2f} ({:.2f} .. {:.2f})", row.at(0.5), row.at(0.05), p95).c_str());
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.name.c_str());
-    if (ImGui::IsItemHovered()) Widgets::tip(row.name);  // a long one is cut
+    const std::string end = end_of(row.name, right - ImGui::GetCursorPosX());
+    ImGui::TextUnformatted(end.c_str());
+    if (ImGui::IsItemHovered()) Widgets::tip(row.name);
   }
   ImGui::EndTable();
 }

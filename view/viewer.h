@@ -89,6 +89,8 @@ class Viewer {
   void use_mouse(const Input& input, float seconds, bool focus);
   void draw_panels(glm::uvec2 screen, float progress);
   [[nodiscard]] std::string status() const;
+  /// Where its lines begin.
+  [[nodiscard]] float status_top(glm::uvec2 screen) const;
   void draw_status(glm::uvec2 screen) const;
   void take_wishes();
   void pass_time(float seconds);

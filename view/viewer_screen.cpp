@@ -44,18 +44,23 @@ float divider_x(const ScreenRect& picture, const Against& against) {
 void draw_divider(const ScreenRect& picture, const Shown& shown) {
   if (!shown.state.against || !shown.second) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const glm::vec2 min(picture.min);
+  const glm::vec2 max(picture.max);
+  draw.PushClipRect({min.x, min.y}, {max.x, max.y});
   const float x = divider_x(picture, *shown.state.against);
   draw.AddLine({x, static_cast<float>(picture.min.y)}, {x, static_cast<float>(picture.max.y)},
                IM_COL32(255, 255, 255, 200), 2.0F);
   const float y = static_cast<float>(picture.min.y) + 6.0F;
   const auto label = [&](float left, const std::string& words) {
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    left = std::max(min.x + 4.0F, std::min(left, max.x - size.x - 4.0F));
     draw.AddRectFilled({left - 4.0F, y - 2.0F}, {left + size.x + 4.0F, y + size.y + 2.0F}, IM_COL32(0, 0, 0, 160));
     draw.AddText({left, y}, IM_COL32_WHITE, words.c_str());
   };
   const std::string a = words_of_method(shown.first.stats);
   label(x - 10.0F - ImGui::CalcTextSize(a.c_str()).x, a);
   label(x + 10.0F, words_of_method(shown.second->stats));
+  draw.PopClipRect();
 }
 
 void draw_frame(const glm::vec2& min, const glm::vec2& max) {
@@ -154,7 +159,8 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   draw_divider(picture_, shown_);
   draw_picked(picture_, shown_);
   if (state_.panels && shown_.number != 0 && !state_.picked && !state_.against) draw_hint(picture_, scale_);
-  legend_window(shown_, picture_, shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_), numbers_);
+  const float bins = shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_);
+  legend_window(shown_, picture_, std::max(bins, static_cast<float>(picture_.max.y) - status_top(screen)), numbers_);
   if (shown_.number != 0) draw_depth_bins(shown_, picture_, scale_);
   if (state_.help) help_window(area_, scale_);
   Widgets widgets(places_);
@@ -168,8 +174,11 @@ void Viewer::draw_panels(glm::uvec2 screen, float progress) {
                            .asking = asking_};
   inspector_window(inspector, area_, scale_);
   if (!state_.panels) return;
+  const glm::vec2 room(screen);
+  const bool beside = area_.min.x != 0;
   ImGui::SetNextWindowPos({0.0F, 0.0F});
-  ImGui::SetNextWindowSize({PANEL_WIDTH * scale_, static_cast<float>(screen.y)});
+  ImGui::SetNextWindowSize(
+      {std::min(PANEL_WIDTH * scale_, room.x), beside ? room.y : std::max(1.0F, room.y - STATUS_HEIGHT * scale_)});
   constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("panels", nullptr, FIXED)) {
@@ -213,29 +222,23 @@ std::string Viewer::status() const {
   return words;
 }
 
-/// As many lines as it takes: over the picture, where that is more than one.
+float Viewer::status_top(glm::uvec2 screen) const {
+  const float wrap = std::max(1.0F, static_cast<float>(screen.x) - static_cast<float>(area_.min.x) - 16.0F * scale_);
+  const float text = ImGui::CalcTextSize(status().c_str(), nullptr, false, wrap).y;
+  return static_cast<float>(screen.y) - std::max(STATUS_HEIGHT * scale_, text + 8.0F * scale_);
+}
+
+/// As many lines as it takes: over the picture, and over panels that lie there, where that is more than one.
 void Viewer::draw_status(glm::uvec2 screen) const {
-  const std::string words = status();
-  const ImVec2 padding(8.0F * scale_, 4.0F * scale_);
-  const float width = static_cast<float>(screen.x) - static_cast<float>(area_.min.x);
-  const float text = ImGui::CalcTextSize(words.c_str(), nullptr, false, std::max(1.0F, width - 2.0F * padding.x)).y;
-  const float height = std::max(STATUS_HEIGHT * scale_, text + 2.0F * padding.y);
-  ImGui::SetNextWindowPos({static_cast<float>(area_.min.x), static_cast<float>(screen.y) - height});
-  ImGui::SetNextWindowSize({width, height});
-  constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoNav |
-                                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoFocusOnAppearing;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-  if (ImGui::Begin("status", nullptr, FIXED)) {
-    const bool alarms = lost_ || !error_.empty();
-    if (alarms) ImGui::PushStyleColor(ImGuiCol_Text, ALARM);
-    ImGui::PushTextWrapPos(0.0F);
-    ImGui::TextUnformatted(words.c_str());
-    ImGui::PopTextWrapPos();
-    if (alarms) ImGui::PopStyleColor();
-  }
-  ImGui::End();
-  ImGui::PopStyleVar();
+  const glm::vec2 end(screen);
+  const glm::vec2 min(static_cast<float>(area_.min.x), status_top(screen));
+  const glm::vec2 padding = scale_ * glm::vec2(8.0F, 4.0F);
+  const bool alarms = lost_ || !error_.empty();
+  const ImU32 ink = alarms ? ImGui::ColorConvertFloat4ToU32(ALARM) : ImGui::GetColorU32(ImGuiCol_Text);
+  ImDrawList& draw = *ImGui::GetForegroundDrawList();
+  draw.AddRectFilled({min.x, min.y}, {end.x, end.y}, ImGui::GetColorU32(ImGuiCol_WindowBg));
+  draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {min.x + padding.x, min.y + padding.y}, ink, status().c_str(),
+               nullptr, std::max(1.0F, end.x - min.x - 2.0F * padding.x));
 }
 
 }  // namespace lamp::app
