@@ -21,8 +21,6 @@ Box empty_box() {
   return {glm::vec3(FAR), glm::vec3(-FAR)};
 }
 
-Box joined(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
-
 glm::vec3 middle(const Box& box) { return box.min * 0.5F + box.max * 0.5F; }
 
 /// Half the surface; 0 of an empty box.

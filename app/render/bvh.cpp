@@ -34,8 +34,6 @@ Box box_of(const gpu::BvhTriangle& t) {
           glm::max(corners[0], glm::max(corners[1], corners[2]))};
 }
 
-Box joined(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
-
 /// One mesh's, in the arrays of all.
 struct MeshTree {
   std::uint32_t root = gpu::BVH_NOTHING;

@@ -11,6 +11,7 @@
 #include "gpu/check.h"
 #include "scene/normal_matrix.h"
 #include "scene/still_surfaces.h"
+#include "scene/triangles.h"
 
 namespace lamp::app {
 namespace {
@@ -60,16 +61,6 @@ bool filters_anisotropically(const vulkan::Device& device) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(device.physical, &properties);
   return features.samplerAnisotropy == VK_TRUE && properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
-}
-
-Box mesh_box(const Scene& scene, const Mesh& mesh) {
-  Box box{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
-  for (std::uint32_t i = 0; i < mesh.index_count; ++i) {
-    const glm::vec3 p = scene.vertices[scene.indices[mesh.first_index + i] + mesh.vertex_offset].position;
-    box.min = glm::min(box.min, p);
-    box.max = glm::max(box.max, p);
-  }
-  return box;
 }
 
 glm::vec3 mesh_center(const Scene& scene, const Instance& instance) {

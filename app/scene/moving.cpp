@@ -3,7 +3,6 @@
 #include "scene/moving.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "scene/procedural_random.h"
@@ -16,16 +15,6 @@ constexpr float LARGEST_M = 1.5F;  // across, of what moves
 constexpr float DRIFT_M = 0.3F;
 constexpr float RISE_M = 0.2F;
 constexpr float TURN = 6.2831853F;
-
-Box box_of(const Scene& scene, const Mesh& mesh) {
-  Box box{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
-  for (std::uint32_t t = 0; t < triangle_count(mesh); ++t)
-    for (const Vertex* corner : corners_of(scene, mesh, t)) {
-      box.min = glm::min(box.min, corner->position);
-      box.max = glm::max(box.max, corner->position);
-    }
-  return box;
-}
 
 /// About the vertical through `middle`, then away from there.
 glm::mat4 moved(const glm::mat4& from, const glm::vec3& middle, float angle, const glm::vec3& away) {
@@ -51,7 +40,7 @@ std::vector<Instance> moved_instances(const Scene& at_rest, std::uint32_t frame,
     const Mesh& mesh = at_rest.meshes[instances[i].mesh];
     if (!moves || triangle_count(mesh) == 0) continue;
     std::optional<Box>& box = boxes[instances[i].mesh];
-    if (!box) box = box_of(at_rest, mesh);
+    if (!box) box = mesh_box(at_rest, mesh);
     const glm::mat4& m = instances[i].world_from_object;
     const glm::vec3 size = box->max - box->min;
     const glm::vec3 across(glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2])));

@@ -126,6 +126,7 @@ struct Box {
   glm::vec3 min{0.0F};
   glm::vec3 max{0.0F};
 };
+[[nodiscard]] inline Box joined(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
 
 /// How a scene wants generated lights to be, where it is not as everywhere: in open air (open_air.h), ranges close to
 /// each other, spots of ordinary angles.

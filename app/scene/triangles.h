@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "scene/scene.h"
 
@@ -22,7 +23,18 @@ namespace lamp::app {
   return corners;
 }
 
-/// Their positions in the world, m, in the arithmetic of T.
+/// Around all of a mesh's; of no triangles, nothing: its ends are the wrong way round.
+[[nodiscard]] inline Box mesh_box(const Scene& scene, const Mesh& mesh) {
+  Box box{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+  for (std::uint32_t t = 0; t < triangle_count(mesh); ++t)
+    for (const Vertex* corner : corners_of(scene, mesh, t)) {
+      box.min = glm::min(box.min, corner->position);
+      box.max = glm::max(box.max, corner->position);
+    }
+  return box;
+}
+
+/// Positions of a triangle's corners in the world, m, in the arithmetic of T.
 template <class T>
 [[nodiscard]] std::array<glm::vec<3, T>, 3> world_triangle(const Scene& scene, const Instance& instance,
                                                            std::uint32_t number) {

@@ -5,7 +5,6 @@
 // Promise: right for any depth of a pixel; count, scan, fill, so lists are compact and ascend.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cassert>
 #include <initializer_list>
 
 #include "methods.h"
@@ -156,11 +155,7 @@ std::vector<OptionSpec> clustered_options(
        .fallback = "512",
        .min = 1,
        .max = MAX_LIGHTS}};
-  for (const auto& [key, value] : fallbacks) {
-    const auto spec = std::ranges::find(specs, key, &OptionSpec::key);
-    assert(spec != specs.end() && "presets set options that exist");
-    spec->fallback = value;
-  }
+  parts::set_fallbacks(specs, fallbacks);
   return specs;
 }
 

@@ -3,7 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "lamplight/method.h"
 #include "lamplight/shared/counters.h"
@@ -26,6 +31,16 @@ namespace lamp::parts {
 
 /// The light buffer's capacity, at least 1 so that no buffer is empty.
 [[nodiscard]] inline std::uint32_t capacity(const Problem& problem) { return std::max(1U, problem.light_capacity); }
+
+/// Options of a preset: other values by default.
+inline void set_fallbacks(std::vector<OptionSpec>& specs,
+                          std::initializer_list<std::pair<std::string_view, std::string_view>> fallbacks) {
+  for (const auto& [key, value] : fallbacks) {
+    const auto spec = std::ranges::find(specs, key, &OptionSpec::key);
+    assert(spec != specs.end() && "presets set options that exist");
+    spec->fallback = value;
+  }
+}
 
 /// A buffer of `cell_bytes` for each cell of the picture, zeroed every frame as far as that frame's picture reaches.
 [[nodiscard]] BufferDesc zeroed_cells(std::string name, const Problem& problem, const CellGrid& cells,

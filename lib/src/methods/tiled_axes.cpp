@@ -101,11 +101,7 @@ std::vector<OptionSpec> tiled_options(std::initializer_list<std::pair<std::strin
        .fallback = "128",
        .min = 1,
        .max = 2048}};
-  for (const auto& [key, value] : fallbacks) {
-    const auto spec = std::ranges::find(specs, key, &OptionSpec::key);
-    assert(spec != specs.end() && "presets set options that exist");
-    spec->fallback = value;
-  }
+  parts::set_fallbacks(specs, fallbacks);
   return specs;
 }
 

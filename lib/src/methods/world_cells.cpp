@@ -8,9 +8,9 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 
+#include "../world/mean_bricks.h"
 #include "lamplight/shared/world.h"
 #include "methods.h"
 #include "parts.h"
@@ -44,13 +44,6 @@ constexpr std::uint64_t MEAN_BRICKS = 24;             // default of the option
 constexpr std::uint32_t LEAST_PERCENT = 50;           // of the range: a code tells 6 bricks across apart
 static_assert(THREADS + THREADS / 2 <= WORLD_PIECE);  // a group holds a window's entries, and the last short bucket's
 static_assert(2 * 100 / LEAST_PERCENT + 2 <= shared::MOST_BRICKS_ACROSS);
-
-/// Bricks that a sphere anywhere reaches, on average, whose side is `ratio` of its radius: the volume of points within
-/// a radius of a cube, over the cube's (Steiner's formula).
-double mean_bricks(double ratio) {
-  const double pi = std::numbers::pi;
-  return 1 + 6 / ratio + 3 * pi / (ratio * ratio) + 4 * pi / 3 / (ratio * ratio * ratio);
-}
 
 /// Of one light, wherever it is.
 std::uint64_t most_bricks(double ratio) {

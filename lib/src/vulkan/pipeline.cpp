@@ -154,6 +154,13 @@ struct GraphicsCreate {
   GraphicsCreate& operator=(const GraphicsCreate&) = delete;
 };
 
+/// `objects`: a Pipeline's.
+void finish(const Device& device, const std::string& name, VkPipeline handle, auto& objects) {
+  objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);
+  objects.statistics = read_statistics(device, handle);
+  device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), name);
+}
+
 }  // namespace
 
 std::optional<Error> Pipeline::make_layout(const Device& device, const PipelineInfo& info, Objects& out) {
@@ -210,9 +217,7 @@ Result<Pipeline> Pipeline::make_compute(const Device& device, const PipelineInfo
           device.vk.vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &create, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);
-  objects.statistics = read_statistics(device, handle);
-  device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
+  finish(device, info.name, handle, objects);
   return Pipeline(std::move(objects));
 }
 
@@ -246,9 +251,7 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
           device.vk.vkCreateGraphicsPipelines(device.handle, device.pipeline_cache, 1, &create.info, nullptr, &handle);
       r != VK_SUCCESS)
     return Error{"pipeline " + info.name, result_text(r)};
-  objects.pipeline = OwnedPipeline(device.handle, handle, device.vk.vkDestroyPipeline);
-  objects.statistics = read_statistics(device, handle);
-  device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), info.name);
+  finish(device, info.name, handle, objects);
   return Pipeline(std::move(objects));
 }
 

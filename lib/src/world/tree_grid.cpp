@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "lamplight/shared/world_tree.h"
+#include "mean_bricks.h"
 
 namespace lamp::world {
 namespace {
@@ -53,12 +53,6 @@ double usual_reach(std::span<const shared::Light> lights) {
 }
 
 double power_of_two_below(double value) { return std::ldexp(1.0, static_cast<int>(std::floor(std::log2(value)))); }
-
-/// Bricks whose side is `ratio` of a sphere's radius that it reaches, on average (Steiner's formula).
-double mean_bricks(double ratio) {
-  const double pi = std::numbers::pi;
-  return 1 + 6 / ratio + 3 * pi / (ratio * ratio) + 4 * pi / 3 / (ratio * ratio * ratio);
-}
 
 }  // namespace
 
