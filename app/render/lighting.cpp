@@ -253,8 +253,8 @@ void Lighting::shade_compute(vulkan::Recorder& recorder, const LightingFrame& fr
                                 reads(frame.still, COMPUTE)};
   for (const vulkan::Bound& b : gbuffer_bound(frame.targets)) uses.push_back(reads(b.resource, COMPUTE));
   if (frame.targets.numbered) uses.push_back(reads(frame.targets.triangles.sampled(), COMPUTE));
-  // A look-up that standard deferred does not walk is bound, but nothing reads it; only for boxes it was filled.
-  if (walks()) append(uses, walked.buffer_uses(COMPUTE));
+  // Standard deferred binds a look-up that it does not walk: its shader could.
+  append(uses, walked.buffer_uses(COMPUTE));
   append(bound, walked.resources);
   bound = with_probes(std::move(bound), frame);
   append(uses, extra_uses(frame, COMPUTE));
