@@ -12,6 +12,7 @@
 
 #include "render/heatmap_legend.h"
 #include "render/shaders/sky_cell.h"
+#include "scene/procedural_random.h"
 #include "view/overlay_colors.h"
 
 namespace lamp::app {
@@ -27,13 +28,6 @@ glm::u8vec3 between(std::span<const glm::u8vec3> ramp, double position) {
   const std::size_t left = std::min(static_cast<std::size_t>(place), ramp.size() - 2);
   const auto weight = static_cast<float>(place - static_cast<double>(left));
   return glm::u8vec3(glm::mix(glm::vec3(ramp[left]), glm::vec3(ramp[left + 1]), weight) + 0.5F);
-}
-
-/// Every bit of the number in every bit of the outcome: Appleby's finaliser of MurmurHash3.
-std::uint32_t scattered(std::uint32_t number) {
-  number = (number ^ number >> 16U) * 0x85EBCA6BU;
-  number = (number ^ number >> 13U) * 0xC2B2AE35U;
-  return number ^ number >> 16U;
 }
 
 std::uint64_t cells_seen(const Walked& walked) {
@@ -149,11 +143,9 @@ Overlaid difference(const Walked& walked) {
 }  // namespace
 
 glm::u8vec3 cell_color(std::uint32_t cell) {
-  constexpr std::uint32_t HUES = 1U << 16U;
   constexpr std::array<double, 4> LIGHTNESS{0.45, 0.65, 0.85, 1.0};
-  const std::uint32_t random = scattered(cell);
-  const double hue = 6.0 * (random % HUES) / HUES;
-  const double lightness = LIGHTNESS[random >> 30U];
+  const double hue = 6.0 * procedural::hash_unit(cell, 0, 0);
+  const double lightness = LIGHTNESS[static_cast<std::size_t>(4.0F * procedural::hash_unit(cell, 0, 1))];
   const auto channel = [&](double shift) {
     const double k = std::fmod(hue + shift, 6.0);
     return 255.0 * lightness * (1.0 - 0.75 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));

@@ -71,20 +71,9 @@ Legend Stage::lay_over(const Overlaying& o) {
 
 bool Stage::grow(KeptLighting& kept) {
   bring_lights();
-  bool grew = false;
-  // More than once: where one list is too short, it can hide what the next one needs.
-  while (true) {
-    std::optional<Options> more = kept.lighting.grown(renderer_->cull(kept.lighting).needed);
-    std::optional<Options> any_depth = kept.lighting.any_depth_grown(kept.lighting.any_depth_counts().needed);
-    if (!more && !any_depth) return grew;
-    LightingInfo info = kept.lighting.info();
-    if (more) info.options = std::move(*more);
-    if (any_depth) info.any_depth_options = std::move(any_depth);
-    info.grown = changed_options(kept.asked, info.options);
-    kept.lighting = Lighting(renderer_->device(), shaders_, info);
-    made_anew_ = true;
-    grew = true;
-  }
+  const bool grew = make_room(*renderer_, shaders_, kept.lighting, kept.asked);
+  made_anew_ = made_anew_ || grew;
+  return grew;
 }
 
 std::uint32_t Stage::divider_x(const ViewState& state) const {

@@ -62,19 +62,23 @@ std::string lights_of(const ViewState& state) {
 
 int light_frame_of(const ViewState& state) { return std::max(0, state.request.light_frame); }
 
-/// What undo goes back over: a state without what moves by itself.
-std::string change_key(ViewState state) {
-  forget_window(state);
+/// Without what moves by itself.
+void forget_time(ViewState& state) {
   state.request.light_frame = -1;
   if (state.request.frame >= 0) state.request.frame = 0;
+}
+
+/// What undo goes back over.
+std::string change_key(ViewState state) {
+  forget_window(state);
+  forget_time(state);
   state.help = false;
   return to_json(state).dump();
 }
 
 /// Which picture is asked for, whenever.
 std::string picture_key(ViewState state) {
-  state.request.light_frame = -1;
-  if (state.request.frame >= 0) state.request.frame = 0;
+  forget_time(state);
   return drawing_key(std::move(state));
 }
 

@@ -188,9 +188,13 @@ std::size_t take_over(json& results, const json& earlier, std::span<const Group>
   std::map<std::string, const GroupEntry*> wanted;
   std::set<std::string> complete;
   for (const Group& group : groups) {
-    for (const GroupEntry& entry : group.entries)
-      if (has_result(earlier, group, entry)) wanted.emplace(key_of(group, entry), &entry);
-    if (has_group(earlier, group)) complete.merge(keys_of({&group, 1}));
+    bool is_complete = true;
+    for (const GroupEntry& entry : group.entries) {
+      const bool is_there = has_result(earlier, group, entry);
+      is_complete = is_complete && is_there;
+      if (is_there) wanted.emplace(key_of(group, entry), &entry);
+    }
+    if (is_complete) complete.merge(keys_of({&group, 1}));
   }
   std::size_t again = 0;
   for (const json& result : earlier["results"]) {

@@ -29,19 +29,15 @@ bool has_enough(const MeasureInfo& info, const Candidate& candidate, bool warm) 
   return candidate.spent_ms > LONGEST_MS && (!warm || candidate.frames.size() >= FEWEST_FRAMES);
 }
 
-/// Frames to get warm by are others than the first that is timed: else what is drawn only where something has moved,
-/// shadow maps, would be missing in that one.
-std::uint32_t frame_of_round(const Group& group, std::uint32_t round) {
-  if (round >= group.warm_up) return round - group.warm_up;
-  return group.flight ? group.frames - 1 : group.frames + 1 + round;
+/// Frames to get warm by, of rounds below 0, are others than the first that is timed: else what is drawn only where
+/// something has moved, shadow maps, would be missing in that one.
+std::uint32_t frame_of_round(const Group& group, int round) {
+  if (round >= 0) return static_cast<std::uint32_t>(round);
+  return group.flight ? group.frames - 1 : group.frames - static_cast<std::uint32_t>(round);
 }
 
-/// Shadow maps are of another frame than the first that is timed, whose lights have moved since.
-void draw_frame_before(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, Candidate& candidate,
-                       std::uint32_t round) {
-  const std::uint32_t first = info.group.flight ? info.group.frames - 1 : info.group.frames;
-  const std::uint32_t before = round == 0 ? first : frame_of_round(info.group, round - 1);
-  const BenchFrame frame = bench_frame(scene, info.group, before);
+void draw_round(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, Candidate& candidate, int round) {
+  const BenchFrame frame = bench_frame(scene, info.group, frame_of_round(info.group, round));
   renderer.light_still(candidate.still_lists.get());
   renderer.set_frame(frame.views, frame.lights, frame.decals);
   renderer.warm_up(*candidate.lighting);
@@ -49,24 +45,26 @@ void draw_frame_before(const MeasureInfo& info, Renderer& renderer, BenchScene& 
 
 /// All candidates of a round draw what has moved since the round before, also shadow maps: none is given another's.
 void time_rounds(const MeasureInfo& info, Renderer& renderer, BenchScene& scene, std::list<Candidate>& candidates) {
-  const std::uint32_t rounds = info.group.warm_up + info.group.frames;
+  const auto warm_up = static_cast<int>(info.group.warm_up);
+  const auto rounds = static_cast<int>(info.group.frames);
   // Lists of still lights change the order of lights, and shadow maps with it.
   const bool each_its_own =
       std::ranges::any_of(candidates, [](const Candidate& c) { return c.still_lists != nullptr; });
   const auto first = std::ranges::find_if(candidates, &Candidate::runs);
   if (first == candidates.end()) return;
-  if (!each_its_own && info.group.warm_up == 0) draw_frame_before(info, renderer, scene, *first, 0);
-  for (std::uint32_t round = 0; round < rounds; ++round) {
-    const bool warm = round >= info.group.warm_up;
+  if (!each_its_own && warm_up == 0) draw_round(info, renderer, scene, *first, -warm_up - 1);
+  for (int round = -warm_up; round < rounds; ++round) {
+    const bool warm = round >= 0;
     const std::uint32_t number = frame_of_round(info.group, round);
     const BenchFrame frame = bench_frame(scene, info.group, number);
     if (!each_its_own) renderer.set_frame(frame.views, frame.lights, frame.decals);
     const Shadows::Pending pending = renderer.pending_shadows();
     for (Candidate& candidate : candidates) {
-      say(info, "times " + full_label(*candidate.entry), 0.5 + 0.5 * static_cast<double>(round) / rounds);
+      say(info, "times " + full_label(*candidate.entry),
+          0.5 + 0.5 * (round + warm_up) / static_cast<double>(rounds + warm_up));
       if (!candidate.runs() || has_enough(info, candidate, warm)) continue;
       if (each_its_own) {
-        draw_frame_before(info, renderer, scene, candidate, round);
+        draw_round(info, renderer, scene, candidate, round - 1);
         renderer.set_frame(frame.views, frame.lights, frame.decals);
       } else {
         renderer.set_pending_shadows(pending);

@@ -255,20 +255,20 @@ Setup make_setup(const Request& request) {
   return setup;
 }
 
-Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, LightingInfo info, bool grow) {
-  Lighting lighting(renderer.device(), shaders, info);
-  const Options asked = info.options;
+bool make_room(Renderer& renderer, const ShaderLibrary& shaders, Lighting& lighting, const Options& asked) {
+  bool made = false;
   // More than once: where one list is too short, it can hide what the next one needs.
-  while (grow) {
+  while (true) {
     std::optional<Options> more = lighting.grown(renderer.cull(lighting).needed);
     std::optional<Options> any_depth = lighting.any_depth_grown(lighting.any_depth_counts().needed);
-    if (!more && !any_depth) break;
+    if (!more && !any_depth) return made;
+    LightingInfo info = lighting.info();
     if (more) info.options = std::move(*more);
     if (any_depth) info.any_depth_options = std::move(any_depth);
     info.grown = changed_options(asked, info.options);
     lighting = Lighting(renderer.device(), shaders, info);
+    made = true;
   }
-  return lighting;
 }
 
 Session::Session(const Request& request, const Setup& setup, ContextInfo::Validation validation)
@@ -316,23 +316,25 @@ void Session::move_instances() {
 Lighting Session::lighting(const Method& method, const std::vector<std::string>& options, ShadingPath path) const {
   const StillLists* still = renderer_->still();
   const std::size_t listed = setup_.lights.size() - (still == nullptr ? 0 : still->lights());
-  return make_lighting(*renderer_, shaders_,
-                       {.method = &method,
-                        .options = take(resolve_options(method, with_box_shapes(method, options, setup_.boxes() != 0))),
-                        .width = setup_.view.width(),
-                        .height = setup_.view.height(),
-                        .light_capacity = static_cast<std::uint32_t>(listed + setup_.boxes()),
-                        .path = path,
-                        .brdf = brdf_,
-                        .depth = depth_,
-                        .transparency = !gpu_scene_->blended().empty(),
-                        .captured = setup_.scene.captured.has_value(),
-                        .decals = !setup_.decals.empty(),
-                        .probes = renderer_->probes().kind(),
-                        .mirror = renderer_->mirror_roughness(),
-                        .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt,
-                        .still = still == nullptr ? gpu::STILL_OFF : still->kind()},
-                       grow_);
+  const LightingInfo info{
+      .method = &method,
+      .options = take(resolve_options(method, with_box_shapes(method, options, setup_.boxes() != 0))),
+      .width = setup_.view.width(),
+      .height = setup_.view.height(),
+      .light_capacity = static_cast<std::uint32_t>(listed + setup_.boxes()),
+      .path = path,
+      .brdf = brdf_,
+      .depth = depth_,
+      .transparency = !gpu_scene_->blended().empty(),
+      .captured = setup_.scene.captured.has_value(),
+      .decals = !setup_.decals.empty(),
+      .probes = renderer_->probes().kind(),
+      .mirror = renderer_->mirror_roughness(),
+      .shadows = shadows_ ? std::optional(shadows_->filter) : std::nullopt,
+      .still = still == nullptr ? gpu::STILL_OFF : still->kind()};
+  Lighting made(renderer_->device(), shaders_, info);
+  if (grow_) make_room(*renderer_, shaders_, made, info.options);
+  return made;
 }
 
 }  // namespace lamp::app

@@ -244,8 +244,9 @@ struct MethodWord {
 /// Whether a method's name asks for whatever suits best.
 [[nodiscard]] bool is_auto(std::string_view method);
 
-/// A lighting of the renderer's frame; with `grow`, with as much room as that needs.
-[[nodiscard]] Lighting make_lighting(Renderer& renderer, const ShaderLibrary& shaders, LightingInfo info, bool grow);
+/// Longer lists in place of those of a lighting that `asked` for some, as long as the renderer's frame needs. False:
+/// they fit, or options and device allow no longer ones.
+bool make_room(Renderer& renderer, const ShaderLibrary& shaders, Lighting& lighting, const Options& asked);
 
 /// Lists of the lights that stand still, and what they were made of.
 struct StillSetup {

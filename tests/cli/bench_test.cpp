@@ -35,46 +35,6 @@ class Bench : public CliTest {
 
 const Arguments MINE{"bench", "mine.json", "--out", "out"};
 
-/// Lights move in every frame, and so all methods draw their maps in it: none is given those of the one before.
-TEST_F(Bench, EveryMethodDrawsItsShadowMaps) {
-  write_suite("[4]", R"(, "shadows": "hard", "atlas": 512, "verify": false)");
-  static_cast<void>(output_of(MINE));
-  const json all = results();
-  ASSERT_EQ(all.at("results").size(), 2U);
-  for (const json& result : all.at("results"))
-    EXPECT_TRUE(std::ranges::any_of(result.at("stats").at("passes"), [](const json& pass) {
-      return pass.at("name") == "shadow maps";
-    })) << result.at("key");
-}
-
-TEST_F(Bench, MirrorsBesideProbesAreMeasured) {
-  write_suite("[4]", R"(, "mirror": 0.5, "probes": [2])");
-  EXPECT_NE(output_of(MINE).find("2 configurations measured, 0 wrong"), std::string::npos);
-}
-
-/// The lists of one entry are not those of another's picture.
-TEST_F(Bench, PicturesAreOfEachEntrysOwnLists) {
-  write("mine.json", R"({"version": 1, "name": "mine", "series": [{"name": "small", "scenes": ["plane"],
-      "sizes": ["32x18"], "frames": 2, "lights": [8], "still": 0.5, "pictures": true, "decals": [2], "shadows": "hard",
-      "atlas": 512, "methods": [{"name": "tiled", "still_lists": "world-tree"}, "clustered"]}]})");
-  EXPECT_NE(output_of(MINE).find("2 configurations measured, 0 wrong"), std::string::npos);
-  const json all = results();
-  EXPECT_EQ(read("out/" + all.at("results")[0].at("pictures").at("picture").get<std::string>()),
-            read("out/" + all.at("results")[1].at("pictures").at("picture").get<std::string>()));
-}
-
-TEST_F(Bench, AShaderThatDoesNotCompileEndsIt) {
-  write_suite("[4]");
-  EXPECT_EQ(script("\"$LAMP\" bench mine.json --out out --shader-dir nowhere 2>err; test $? = 2"), 0);
-  EXPECT_NE(read("err").find("--shader-dir nowhere: has no source"), std::string::npos) << read("err");
-}
-
-TEST_F(Bench, OneRunAtATimeWritesToAFolder) {
-  write_suite("[4]");
-  EXPECT_EQ(script("mkdir -p out; flock out \"$LAMP\" bench mine.json --out out 2>err; test $? = 2"), 0);
-  EXPECT_NE(read("err").find("another lamp bench writes to it"), std::string::npos);
-}
-
 TEST_F(Bench, ASuiteGivesResultsTableAndReport) {
   write_suite("[4, 8]", R"(, "pictures": true)");
   const std::string text = output_of(MINE);

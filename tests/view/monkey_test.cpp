@@ -6,10 +6,8 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <random>
 
-#include "temporary_folder.h"
 #include "view/view_test.h"
 
 namespace lamp::app {
@@ -124,11 +122,10 @@ class Monkey {
   std::mt19937_64 random_;
 };
 
-TEST(MonkeyTest, EndsNothing) {
+class MonkeyTest : public InFolder {};
+
+TEST_F(MonkeyTest, EndsNothing) {
   using Clock = std::chrono::steady_clock;
-  const std::filesystem::path was = std::filesystem::current_path();
-  const TemporaryFolder folder;
-  std::filesystem::current_path(folder.path());
   const double seconds = number_in("LAMPLIGHT_MONKEY_SECONDS", 5.0);
   const auto seed = static_cast<std::uint64_t>(number_in("LAMPLIGHT_MONKEY_SEED", 1.0));
   std::uint64_t acts = 0;
@@ -146,7 +143,6 @@ TEST(MonkeyTest, EndsNothing) {
   } catch (const std::exception& error) {
     ADD_FAILURE() << "after " << acts << " acts of the monkey with seed " << seed << ": " << error.what();
   }
-  std::filesystem::current_path(was);
   RecordProperty("acts", static_cast<int>(acts));
 }
 

@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "system/run_program.h"
-#include "temporary_folder.h"
 #include "view/view_test.h"
 
 namespace lamp::app {
@@ -24,24 +22,11 @@ std::vector<std::string> script_names() {
   return names;
 }
 
-std::string bytes_of_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// In an empty folder, which goes with it.
-class Play : public ::testing::Test {
+class Play : public InFolder {
  protected:
-  Play() { fs::current_path(folder_.path()); }
-  ~Play() override { fs::current_path(was_); }
-
   static void play_script(const std::vector<ScriptLine>& script) {
     run_headless(view_context(), small_viewer(), [&](Player& player) { play(player, script); });
   }
-
- private:
-  fs::path was_ = fs::current_path();
-  TemporaryFolder folder_;
 };
 
 class PlayScript : public Play, public ::testing::WithParamInterface<std::string> {};

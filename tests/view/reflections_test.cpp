@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "gpu/check.h"
@@ -18,11 +16,6 @@
 
 namespace lamp::app {
 namespace {
-
-std::string bytes_of_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// Plays a script, saves the state and the picture, and has `lamp` render the state.
 void expect_saved_as_rendered(const std::string& script) {

@@ -2,38 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "system/run_program.h"
-#include "temporary_folder.h"
 #include "view/view_test.h"
 
 namespace lamp::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string bytes_of_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-class Size : public ::testing::Test {
+class Size : public InFolder {
  protected:
-  Size() { fs::current_path(folder_.path()); }
-  ~Size() override { fs::current_path(was_); }
-
   /// On a screen of 720 x 480, which leaves 320 x 456 to the picture.
   static void play_in_window(const char* script) {
     HeadlessInfo info = small_viewer();
     info.state.request.size_given = false;
     run_headless(view_context(), info, [&](Player& player) { play(player, parse_script(script, "size")); });
   }
-
- private:
-  fs::path was_ = fs::current_path();
-  TemporaryFolder folder_;
 };
 
 TEST_F(Size, PickedPixelStaysWhereItIsSeen) {

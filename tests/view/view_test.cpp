@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/view_test.h"
 
+#include <fstream>
+#include <iterator>
+
 namespace lamp::app {
 
 Context& view_context() {
@@ -20,6 +23,11 @@ HeadlessInfo small_viewer() {
   request.method = "tiled";
   info.state.paused = true;
   return info;
+}
+
+std::string bytes_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace lamp::app
