@@ -14,11 +14,10 @@
 namespace lamp::app {
 namespace {
 
-/// Texels that a work group blurs, at most (blur_fused.glsl, blur_lines.glsl).
+/// Texels that a work group blurs, at most (blur_strip.glsl, blur_listing.glsl).
 glm::uvec2 most_of_group(ShadowBlur blur) {
-  if (blur == ShadowBlur::fused) return {64, 128};
-  if (blur == ShadowBlur::lines) return {64, shared::LEAST_SQUARE};
-  return {shared::LEAST_SQUARE, shared::LEAST_SQUARE};
+  if (blur == ShadowBlur::listing) return {shared::LEAST_SQUARE, shared::LEAST_SQUARE};
+  return {64, 128};
 }
 
 /// Of a square of that side.
@@ -70,18 +69,17 @@ ShadowMoments::ShadowMoments(const Context& context, const ShaderLibrary& shader
        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
        .memory = vulkan::MemoryUse::records}));
   const auto pass = [&](const char* name, std::uint32_t source, const char* directions) {
-    std::vector<vulkan::Constant> constants{{0, static_cast<std::uint32_t>(filter)}};
-    if (blur != ShadowBlur::fused) constants.push_back({1, blur == ShadowBlur::listing ? 1U : 0U});
     return take(vulkan::Pipeline::compute(
         device,
         {.name = name,
-         .constants = constants,
+         .constants = {{0, static_cast<std::uint32_t>(filter)}},
          .bindings = {{0},
                       {source, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
                       {BINDING_BLOCKS},
                       {BINDING_BLURRED, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}},
          .push_constant_bytes = sizeof(std::uint32_t)},
-        shaders.spirv(fmt::format("shadow/blur_{}{}", exponential ? "evsm" : "vsm", directions))));
+        shaders.spirv(fmt::format("shadow/blur_{}{}{}", exponential ? "evsm" : "vsm",
+                                  blur == ShadowBlur::listing ? "_listing" : "", directions))));
   };
   if (blur == ShadowBlur::fused) {
     from_depths_ = pass("shadow blur", BINDING_DEPTHS, "");

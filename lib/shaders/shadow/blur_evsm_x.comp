@@ -1,12 +1,7 @@
-// The first pass of the blur of evsm: moments of depths, blurred along x.
+// The blur of evsm in two passes, the first: moments of depths, along x.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define SHADOW_FIRST_BINDING 0
-#define SHADOW_FIRST_CONSTANT 0
-#define BLUR_FORMAT rgba32f
-#define BLUR_VECTOR vec4
-const bool BLUR_ALONG_X = true;
-#include "shadow/parts/blur_source_x.glsl"
-#include "shadow/parts/blur_lines.glsl"
+#include "shadow/parts/blur_of_evsm.glsl"
+#include "shadow/parts/blur_along_x.glsl"

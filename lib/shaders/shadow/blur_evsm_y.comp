@@ -1,12 +1,7 @@
-// The second pass of the blur of evsm: along y.
+// The blur of evsm in two passes, the second: along y.
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define SHADOW_FIRST_BINDING 0
-#define SHADOW_FIRST_CONSTANT 0
-#define BLUR_FORMAT rgba32f
-#define BLUR_VECTOR vec4
-const bool BLUR_ALONG_X = false;
-#include "shadow/parts/blur_source_y.glsl"
-#include "shadow/parts/blur_lines.glsl"
+#include "shadow/parts/blur_of_evsm.glsl"
+#include "shadow/parts/blur_along_y.glsl"
