@@ -17,7 +17,7 @@ void blur_block(BlurBlock block) {
   Loads loads = first_loads(block, strip, 0);
   for (int turn = 0; turn * TURN_ROWS < turns; ++turn) {
     share(block, strip, turn, loads);
-    [[unroll]] for (int row = 0; row < TURN_ROWS; ++row, place.y += strip.residues)
+    for (int row = 0; row < TURN_ROWS; ++row, place.y += strip.residues)
       if (place.y < end) blur_store(block, place, along_x(strip, part, column, turn, row));
   }
 }

@@ -20,7 +20,7 @@ void blur_block(BlurBlock block) {
   Loads loads = first_loads(block, strip, strip.reach);
   for (int turn = 0; turn * TURN_ROWS < turns; ++turn) {
     share(block, strip, turn, loads);
-    [[unroll]] for (int row = 0; row < TURN_ROWS; ++row, place.y += strip.residues)
+    for (int row = 0; row < TURN_ROWS; ++row, place.y += strip.residues)
       add_row(block, strip, place, end, turn * TURN_ROWS + row, along_x(strip, part, column, turn, row), sums);
   }
 }
