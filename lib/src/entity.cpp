@@ -12,6 +12,7 @@
 #include <string>
 
 #include "is_finite.h"
+#include "light_faults.h"
 
 namespace lamp {
 namespace {
@@ -21,11 +22,10 @@ constexpr double BOUND_ROOM = 1.0 + 1e-4;
 constexpr float AXIS_TOLERANCE = 1e-4F;
 
 std::string fault(const shared::OrientedBox& box) {
-  if (!is_finite(box.center)) return "center must be finite";
+  if (!is_finite(box.center)) return expected("center must be finite", box.center);
   const Vec3& half = box.half_extents;
   if (!is_finite(half) || half.x <= 0.0F || half.y <= 0.0F || half.z <= 0.0F)
-    return "half extents must be finite and > 0 m, got (" + std::to_string(half.x) + ", " + std::to_string(half.y) +
-           ", " + std::to_string(half.z) + ")";
+    return expected("half extents must be finite and > 0 m", half);
   const std::array<glm::vec3, 3> axes{box.axis_x, box.axis_y, box.axis_z};
   for (std::size_t i = 0; i < 3; ++i) {
     const float length = glm::dot(axes[i], axes[i]);

@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "is_finite.h"
+#include "light_faults.h"
 
 namespace lamp {
 namespace {
@@ -36,11 +37,6 @@ std::string show(const Vec3& value) {
   std::ostringstream text;
   text << '(' << value.x << ", " << value.y << ", " << value.z << ')';
   return text.str();
-}
-
-template <class T>
-std::string expected(std::string_view what, const T& value) {
-  return std::string(what) + ", got " + show(value);
 }
 
 // What is wrong with a light, or an empty text.
@@ -85,6 +81,23 @@ float choose(bool first, float value, float other) {
 double cosine(float half_angle) { return half_angle >= RIGHT_ANGLE ? 0.0 : std::cos(static_cast<double>(half_angle)); }
 
 }  // namespace
+
+std::string expected(std::string_view what, float value) { return std::string(what) + ", got " + show(value); }
+std::string expected(std::string_view what, const Vec3& value) { return std::string(what) + ", got " + show(value); }
+
+std::string fault_of_packed(const shared::Light& light) {
+  if (light.type != shared::LIGHT_POINT && light.type != shared::LIGHT_SPOT)
+    return "type must be LIGHT_POINT or LIGHT_SPOT, got " + std::to_string(light.type);
+  if (!is_finite(Vec3(light.position))) return expected("position must be finite", Vec3(light.position));
+  if (!(light.range >= 0.0F)) return expected("range must be >= 0 m", light.range);
+  if (light.type == shared::LIGHT_POINT) return {};
+  const Vec3 direction = light.direction;
+  const float length = direction.x * direction.x + direction.y * direction.y + direction.z * direction.z;
+  if (!(std::abs(length - 1.0F) < 1e-3F)) return expected("direction must have a length of 1", direction);
+  if (!within(light.outer_angle, 0.0F, RIGHT_ANGLE))
+    return expected("outer angle must be 0 .. pi/2 radians", light.outer_angle);
+  return {};
+}
 
 std::optional<Error> check_lights(std::span<const Light> lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -44,11 +44,13 @@ Result<const Method*> find_method(std::string_view name) {
 namespace {
 
 /// Brute force's shading takes lights in groups of 64, which cost two rounds each besides a round for every light.
-/// Where a subgroup walks one cell at a time, a thread goes through the rounds of all cells of its subgroup.
+/// Where a subgroup walks one cell at a time, a thread goes through the rounds of all cells of its subgroup. Where it
+/// walks one light of its words at a time, finding that takes as many again.
 std::uint64_t most_walked(std::string_view lookup, const DeviceTraits& traits) {
   const std::uint64_t rounds = traits.max_loop_rounds;
   if (lookup == "all") return rounds - rounds / 32 - 1;
   if (lookup.ends_with("_lists_scalar")) return rounds / WALK_ROUNDS / traits.subgroup_size;
+  if (lookup.ends_with("_bits_scalar")) return rounds / WALK_ROUNDS / 2;
   return rounds / WALK_ROUNDS;
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
@@ -100,6 +99,14 @@ double stretch_of(const glm::dmat3& m) {
   return 1.0 - std::sqrt(1.0 - largest);  // the greatest deviates less: sqrt(1 + largest) - 1
 }
 
+bool has_area(const Window& window) { return window.left < window.right && window.bottom < window.top; }
+
+DMat4 no_projection() {
+  DMat4 p{};
+  p[0][0] = std::numeric_limits<double>::quiet_NaN();
+  return p;
+}
+
 }  // namespace
 
 Result<View> View::create(std::uint32_t width, std::uint32_t height, const DMat4& clip_from_view,
@@ -156,8 +163,8 @@ shared::Frame View::frame(std::uint32_t light_count, std::uint32_t light_capacit
 }
 
 DMat4 perspective(const Window& window, double near_m, double far_m) {
-  assert(window.left < window.right && window.bottom < window.top && "the window must not be empty");
-  assert(near_m > 0.0 && near_m < far_m && "0 < near_m < far_m is required");
+  const bool is_ahead = near_m > 0.0 && near_m < far_m;  // false for a NaN
+  if (!has_area(window) || !is_ahead) return no_projection();
   const double width = window.right - window.left;
   const double height = window.top - window.bottom;
   DMat4 p{};
@@ -172,8 +179,7 @@ DMat4 perspective(const Window& window, double near_m, double far_m) {
 }
 
 DMat4 orthographic(const Window& window, double near_m, double far_m) {
-  assert(window.left < window.right && window.bottom < window.top && "the window must not be empty");
-  assert(near_m < far_m && std::isfinite(near_m) && std::isfinite(far_m) && "near_m < far_m, finite, is required");
+  if (!has_area(window) || !(near_m < far_m) || !std::isfinite(near_m) || !std::isfinite(far_m)) return no_projection();
   const double width = window.right - window.left;
   const double height = window.top - window.bottom;
   DMat4 p{};

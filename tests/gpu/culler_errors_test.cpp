@@ -95,8 +95,11 @@ TEST_F(CullerErrors, OfFramesNameTheElementAndRecordNothing) {
             "depth image: expected an image, which the method reads, got none");
   EXPECT_EQ(with([](auto& f) { f.depth_view = VK_NULL_HANDLE; }),
             "depth view: expected a view of the depth image, got none");
-  EXPECT_EQ(with([](auto& f) { f.depth_layout = VK_IMAGE_LAYOUT_UNDEFINED; }),
-            "depth layout: expected the layout that the image is in, got VK_IMAGE_LAYOUT_UNDEFINED");
+  for (const VkImageLayout layout : {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL})
+    EXPECT_EQ(with([&](auto& f) { f.depth_layout = layout; }),
+              fmt::format("depth layout: expected the layout that the image is in, one that shaders can read, such as "
+                          "VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, got VkImageLayout {}",
+                          static_cast<int>(layout)));
   EXPECT_EQ(with([](auto&) {}), "commands: expected a command buffer, got null");
   EXPECT_EQ(next_number(culler, good), 2);
 }

@@ -150,8 +150,18 @@ TEST(LoopLimits, ADeviceThatEndsLoopsWalksNoMoreLights) {
               "a pixel that walks more than 21845 lights can lose some: the device ends a thread's loops after 65535 "
               "rounds");
   }
-  EXPECT_TRUE(plan("world-cells", 8191).value().notes.empty());
-  EXPECT_EQ(plan("world-cells", 8192).value().notes.front(),
+  // Of the words of bits a subgroup looks for the least light of all its pixels.
+  EXPECT_TRUE(plan("drobot-tiled", 10922).value().notes.empty());
+  EXPECT_EQ(plan("drobot-tiled", 10923).value().notes.front(),
+            "a pixel that walks more than 10922 lights can lose some: the device ends a thread's loops after 65535 "
+            "rounds");
+  EXPECT_TRUE(plan("world-cells", 285).value().notes.empty());
+  EXPECT_EQ(
+      plan("world-cells", 8191).value().notes,
+      (std::vector<std::string>{
+          "a point that walks more than 234 lights of more than four levels, whose ranges differ 16 times and more, "
+          "can lose some: the device ends a thread's loops after 65535 rounds"}));
+  EXPECT_EQ(plan("world-cells", 8192).value().notes.back(),
             "a pixel that walks more than 8191 lights can lose some: the device ends a thread's loops after 65535 "
             "rounds");
   // Of 32 threads of a subgroup, each may bring a cell of its own.

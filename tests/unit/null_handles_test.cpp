@@ -91,6 +91,19 @@ Device full_device() {
   return device;
 }
 
+TEST(NullHandles, WhatCannotBeMadeIsNamedBeforeTheDeviceIsAsked) {
+  const Device device = full_device();
+  EXPECT_EQ(error_of(Buffer::create(device, {.name = "some"})), "buffer some: expected at least 1 byte, got 0");
+  EXPECT_EQ(error_of(Timestamps::create(device, 0)), "timestamps: expected room for at least 1 pass, got 0");
+  EXPECT_EQ(error_of(Pipeline::compute(device, {.name = "some"}, {})), "pipeline some: expected SPIR-V, got none");
+  EXPECT_EQ(PlanRunner().buffer(PLAN_BUFFER + 1), VkBuffer(VK_NULL_HANDLE));
+  Device addressable = device;
+  addressable.buffer_addresses = true;
+  EXPECT_EQ(
+      error_of(BoundLookUp{.name = "some"}.addresses(addressable)),
+      "look-up some: expected buffers made from a device that says Device::buffer_addresses, got some of one without");
+}
+
 TEST(StillLights, AreForMethodsThatReadThem) {
   const auto created = [](const char* method) {
     return error_of(Culler::create(

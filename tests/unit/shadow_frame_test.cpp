@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -77,6 +79,43 @@ TEST(ShadowFrame, NamesLightsWhoseRadialBoundsAreToBeMadeAnew) {
   EXPECT_EQ(jobs_of_a_frame(), (Jobs{{0, 1}, {2, 1}}));  // nothing is drawn, but bounds lie by index
   atlas.redraw_all();
   EXPECT_EQ(jobs_of_a_frame(0), (Jobs{{0, 0}, {1, 0}, {2, 0}}));
+}
+
+// A host that keeps what each job made, as a buffer on the GPU does: no index may keep the bound of what its map was.
+TEST(ShadowFrame, LeavesNoBoundOfAnotherMapAtAnyIndex) {
+  constexpr std::uint32_t LIGHTS = 12;
+  ShadowAtlas atlas = atlas_of({.size = 256, .light_capacity = LIGHTS});
+  const View view = view_of_the_middle();
+  std::mt19937 random(7);
+  std::vector<std::uint32_t> drawn(LIGHTS);  // by id: how often
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> bounds(
+      LIGHTS);  // by index: of which id, and of which of its draws
+  std::size_t kept = 0;
+  for (int number = 0; number < 400; ++number) {
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t id = 0; id < LIGHTS; ++id)
+      if (random() % 4 != 0) ids.push_back(id);
+    if (random() % 4 == 0) std::shuffle(ids.begin(), ids.end(), random);
+    std::vector<shared::Light> lights;
+    for (const std::uint32_t id : ids) lights.push_back(spot_at({static_cast<float>(id % 4) * 3.0F - 4.5F, 0, 0}));
+    std::vector<shared::LightSphere> moved;
+    if (random() % 2 == 0)
+      moved.push_back({.center = {static_cast<float>(random() % 4) * 3.0F - 4.5F, -1, 0}, .radius = 0.5F});
+    const std::uint64_t budget = random() % 3 == 0 ? 4096 : lamp::ALL_TEXELS;
+    const ShadowFrame frame =
+        atlas
+            .schedule(
+                {.views = std::span(&view, 1), .lights = lights, .ids = ids, .moved = moved, .budget_texels = budget})
+            .value();
+    for (const lamp::ShadowRedraw& redraw : frame.redraws) ++drawn[ids[redraw.light]];
+    for (const shared::RadialJob& job : frame.radial_jobs) bounds[job.light] = {ids[job.light], drawn[ids[job.light]]};
+    for (std::uint32_t i = 0; i < ids.size(); ++i) {
+      if (frame.maps[i].kind == shared::SHADOW_NONE) continue;
+      ASSERT_EQ(bounds[i], std::make_pair(ids[i], drawn[ids[i]])) << "frame " << number << ", index " << i;
+    }
+    kept += ids.size() - frame.radial_jobs.size();
+  }
+  EXPECT_GT(kept, 0U);
 }
 
 }  // namespace

@@ -274,16 +274,16 @@ TEST(TriangleLists, WrongInputIsNamed) {
     const auto lists = lamp::make_triangle_lists(info);
     return lists.ok() ? std::string() : lists.error().text();
   };
-  EXPECT_EQ(text({.slack_m = -1.0F}), "slack_m: must be >= 0 m and finite");
-  EXPECT_EQ(text({.patch = 0.0F}), "patch: must be > 0");
-  EXPECT_EQ(text({.budget_bytes = 0}), "budget_bytes: must be > 0");
+  EXPECT_EQ(text({.slack_m = -1.0F}), "slack_m: must be >= 0 m and finite, got -1");
+  EXPECT_EQ(text({.patch = 0.0F}), "patch: must be > 0, got 0");
+  EXPECT_EQ(text({.budget_bytes = 0}), "budget_bytes: must be > 0, got 0");
   lights[3].range = -1.0F;
-  EXPECT_EQ(text({}), "light 3: range must be >= 0 m");
+  EXPECT_EQ(text({}), "light 3: range must be >= 0 m, got -1");
   lights[3].range = 1.0F;
   lights[1].direction = {0, 0, 0};
-  EXPECT_EQ(text({}), "light 1: direction must be finite and not 0");
+  EXPECT_EQ(text({}), "light 1: direction must have a length of 1, got (0, 0, 0)");
   triangles[0].corners[1].x = 2e15;
-  EXPECT_EQ(text({}), "triangle 0: corners must be finite and at most 1e15 m from the origin");
+  EXPECT_EQ(text({}), "triangle 0: corners must be finite and at most 1e15 m from the origin, got (2e+15, 0, 0)");
 }
 
 TEST(TriangleLists, SlackOfARaster) {

@@ -211,6 +211,15 @@ TEST(View, RefusesNumbersThatAreNotFinite) {
   }
 }
 
+// A minimised window's aspect is 0.
+TEST(View, RefusesProjectionsOfWhatIsNoWindow) {
+  const lamp::Window empty = lamp::symmetric_window(1.0, 0.0);
+  for (const lamp::DMat4& projection : {lamp::perspective(empty, NEAR, FAR), lamp::perspective(OFF_CENTRE, 0.0, FAR),
+                                        lamp::perspective(OFF_CENTRE, FAR, NEAR), lamp::orthographic(empty, NEAR, FAR),
+                                        lamp::orthographic(OFF_CENTRE, NEAR, lamp::INFINITE_FAR)})
+    EXPECT_NE(refusal(projection, pose()).find("finite"), std::string::npos);
+}
+
 TEST(View, RefusesShear) {
   for (const int i : {1, 2, 3, 4, 6, 7}) {
     glm::dmat4 projection = lamp::perspective(OFF_CENTRE, NEAR, FAR);

@@ -46,9 +46,9 @@ TEST(WorldCellsPlan, KeepsItsListsWithin64MiB) {
 }
 
 TEST(WorldCellsPlan, RefusesWhatBricksCannotBe) {
-  const auto refusal = [](const std::string& setting) { return plan_of({setting}, 1000).error().text(); };
-  EXPECT_EQ(refusal("cells=8"), "option cells: expected 0, 4 or 16, got 8");
-  EXPECT_EQ(refusal("brick=49"),
+  EXPECT_EQ(resolve_options(*find_method("world-cells").value(), {"cells=8"}).error().text(),
+            "option cells: '8' is not one of 0, 4, 16");
+  EXPECT_EQ(plan_of({"brick=49"}, 1000).error().text(),
             "option brick: expected 0, or 50 and more: a light has at most 6 bricks across; got 49");
 }
 

@@ -75,7 +75,7 @@ struct Method {
   std::string_view title;    ///< a few words
   std::string_view source;   ///< author, title, venue, section
   std::string_view summary;  ///< one sentence: the idea
-  std::string_view result;   ///< what it makes: the name of its look-up
+  std::string_view result;   ///< what it makes: the name of its look-up, but for `_scalar`, `_stepped` (Plan::lookup)
   bool ordered = true;       ///< lists ascend, with the default options (else see Plan::ordered)
   bool approximate = false;  ///< may miss lights, by the paper's design (likewise)
   bool needs_depth = true;   ///< reads the depth buffer

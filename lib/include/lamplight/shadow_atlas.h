@@ -105,8 +105,9 @@ struct ShadowFrame {
   std::span<const shared::ShadowView> views;  ///< to draw, in the order of `redraws`
   std::span<const ShadowRedraw> redraws;      ///< in the order of their priority
   std::span<const ShadowSquare> squares;      ///< of the redraws, to be cleared to 0 before their views are drawn
-  /// For shadow/radial_bounds, after the draws: every light in the first frame, then those that were redrawn, that have
-  /// another map than in the frame before, or that have moved away from the place of theirs.
+  /// For shadow/radial_bounds and shadow/light_meshes, after the draws: indices whose bound is not that of their
+  /// light's map. In the first frame that is every light, then those that were redrawn, that have another map than
+  /// their index had in the frame before, or that have moved away from the place of theirs.
   std::span<const shared::RadialJob> radial_jobs;
   std::span<const std::uint32_t> waiting;  ///< indices of lights, as counted; ascending
   std::span<const std::uint32_t> without;

@@ -71,10 +71,11 @@ struct Window {
 
 inline constexpr double INFINITE_FAR = std::numeric_limits<double>::infinity();
 
-/// Reversed-depth perspective through `window` (tangents), `near_m` > 0, `far_m` > `near_m` or INFINITE_FAR.
+/// Reversed-depth perspective through `window` (tangents), `near_m` > 0, `far_m` > `near_m` or INFINITE_FAR. Of other
+/// numbers, or a window without area, such as a minimised one's, it is a matrix that View::create refuses.
 [[nodiscard]] LAMPLIGHT_API DMat4 perspective(const Window& window, double near_m, double far_m);
 
-/// Reversed-depth orthographic projection, `near_m` < `far_m`, both finite.
+/// Reversed-depth orthographic projection, `near_m` < `far_m`, both finite. Of other numbers likewise.
 [[nodiscard]] LAMPLIGHT_API DMat4 orthographic(const Window& window, double near_m, double far_m);
 
 /// The same projection with depth that runs the other way: a reversed one made standard, or back. Exact but for the

@@ -42,7 +42,7 @@ uint lookup_levels(uint view) { return lookup_level_bits[view * LOOKUP_LEVELS_VI
 uint lookup_further(Walk walk, uint light) {
   uint least = LOOKUP_NO_LIGHT;
   for (uint levels = walk.further; levels != 0u; levels &= levels - 1u) {
-    const WorldPlace place = lookup_place(walk.position, LAMP_FIRST_BIT(levels));
+    const LookupPlace place = lookup_place(walk.position, LAMP_FIRST_BIT(levels));
     LookupStream stream = lookup_stream(walk.view, place, lookup_bucket(walk.view, place.bucket), light);
     lookup_advance(walk.view, stream);
     least = min(least, stream.light);
@@ -69,7 +69,7 @@ Walk world_walk_begin(uint view, vec3 position) {
   uint used = 0u;
   for (uint levels = lookup_levels(view); levels != 0u; levels &= levels - 1u) {
     const uint level = LAMP_FIRST_BIT(levels);
-    const WorldPlace place = lookup_place(position, level);
+    const LookupPlace place = lookup_place(position, level);
     if (!place.lies) continue;
     const WorldBucket bucket = lookup_bucket(view, place.bucket);
     if (bucket.count == WORLD_ALL) walk.all = true;  // it did not fit
@@ -114,7 +114,7 @@ bool world_walk_next(inout Walk walk, out uint light) {
 uint lookup_cell(uint view, uvec2 pixel, float z_view) {
   const uint levels = lookup_levels(view);
   if (levels == 0u) return 0u;
-  const WorldPlace place = lookup_place(lookup_position(view, pixel, z_view), LAMP_FIRST_BIT(levels));
+  const LookupPlace place = lookup_place(lookup_position(view, pixel, z_view), LAMP_FIRST_BIT(levels));
   return place.bucket * LOOKUP_CELLS * LOOKUP_CELLS * LOOKUP_CELLS + place.cell;
 }
 

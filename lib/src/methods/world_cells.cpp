@@ -18,7 +18,11 @@
 namespace lamp {
 namespace {
 
-constexpr std::uint32_t ROUNDS_A_LIGHT = 8;  // of a walk's loops, one in the other, where a device counts them all
+// Of a walk's loops, one in the other, where a device counts them all: of a light, and of each level beyond those whose
+// place is kept, which are searched by halving for each of their lights.
+constexpr std::uint32_t ROUNDS_A_LIGHT = 8;
+constexpr std::uint32_t ROUNDS_A_SEARCH = 3;  // besides those of the halving
+constexpr std::uint32_t KEPT_LEVELS = 4;      // LOOKUP_STREAMS of lookup/world_cells.glsl
 
 using shared::BRICK_CELLS;
 using shared::BRICK_SLICES;
@@ -266,6 +270,20 @@ Pass bits_pass(const Sizes& s, const Buffers& b) {
           .shared_bytes = WORLD_PIECE * (8 + bit_bytes(s.cells)) + OCTET_SPARE};
 }
 
+/// How many lights a walk can name where a device ends loops.
+void note_rounds(const Problem& problem, Plan& plan) {
+  const std::uint32_t rounds = problem.traits.max_loop_rounds;
+  if (rounds == ~0U) return;
+  plan.lookup.most_walked = rounds / ROUNDS_A_LIGHT;
+  const auto search = static_cast<std::uint32_t>(std::bit_width(problem.light_capacity)) + ROUNDS_A_SEARCH;
+  const std::uint32_t of_all_levels = rounds / (ROUNDS_A_LIGHT + (shared::WORLD_LEVELS + 1 - KEPT_LEVELS) * search);
+  if (problem.light_capacity <= of_all_levels) return;
+  plan.notes.push_back("a point that walks more than " + std::to_string(of_all_levels) +
+                       " lights of more than four levels, whose ranges differ 16 times and more, can lose some: the "
+                       "device ends a thread's loops after " +
+                       std::to_string(rounds) + " rounds");
+}
+
 Plan plan_world_cells(const Problem& problem) {
   const Sizes sizes = sizes_of(problem);
   Plan plan;
@@ -278,14 +296,11 @@ Plan plan_world_cells(const Problem& problem) {
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets, sizes.cells},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};
-  if (problem.traits.max_loop_rounds != ~0U) plan.lookup.most_walked = problem.traits.max_loop_rounds / ROUNDS_A_LIGHT;
+  note_rounds(problem, plan);
   return plan;
 }
 
 std::optional<Error> check_world_cells(const Problem& problem) {
-  const std::uint32_t cells = problem.options.integer("cells");
-  if (cells != 0 && cells != BRICK_CELLS && cells != BRICK_SLICES)
-    return Error{"option cells", "expected 0, 4 or 16, got " + std::to_string(cells)};
   const std::uint32_t percent = problem.options.integer("brick");
   if (percent == 0 || percent >= LEAST_PERCENT) return std::nullopt;
   return Error{"option brick", "expected 0, or " + std::to_string(LEAST_PERCENT) +
@@ -315,8 +330,7 @@ Method world_cells_method() {
                        "along a brick: 4, with a bit for each, or 16, with one for each slice, which takes less room "
                        "and longer to look up; 0: 4, or with brick=0 16 from some 240 000 lights on",
                    .fallback = "0",
-                   .min = 0,
-                   .max = BRICK_SLICES},
+                   .choices = {"0", "4", "16"}},
                   {.key = "mean_bricks",
                    .help = "bricks a light, on average, that there is room for; from 24 on, as many as lights "
                            "anywhere reach and what is beyond 24, and all where these are few",

@@ -274,6 +274,8 @@ void ShadowAtlas::State::list_radial_jobs(const ShadowFrameInfo& frame) {
     if (std::exchange(bounded[i], now) != now)
       radial_jobs.push_back({.light = i, .shows_all = now.shows_all, .parts = 1});
   }
+  // An index without a light in this frame: its map may be drawn anew at another, which nobody would see here.
+  std::fill(bounded.begin() + static_cast<std::ptrdiff_t>(maps.size()), bounded.end(), Bounded{});
 }
 
 ShadowAtlas::ShadowAtlas(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -71,6 +71,9 @@ Result<std::vector<VkDeviceAddress>> BoundLookUp::addresses(const Device& device
                  "expected a device with the feature bufferDeviceAddress that says Device::buffer_addresses, "
                  "got one without"};
   if (auto error = check_made(device)) return *error;
+  if (!addressable)
+    return Error{"look-up " + std::string(name),
+                 "expected buffers made from a device that says Device::buffer_addresses, got some of one without"};
   std::vector<VkDeviceAddress> found;
   for (const Bound& bound : resources) {
     const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,

@@ -81,6 +81,7 @@ Result<Allocation> Buffer::allocate(const Device& device, const BufferInfo& info
 
 Result<Buffer> Buffer::create(const Device& device, const BufferInfo& info) {
   if (auto error = check_made(device)) return *error;
+  if (info.bytes == 0) return Error{"buffer " + info.name, "expected at least 1 byte, got 0"};
   Buffer buffer;
   buffer.bytes_ = info.bytes;
   const VkBufferCreateInfo create{

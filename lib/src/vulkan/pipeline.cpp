@@ -258,6 +258,7 @@ Result<Pipeline> Pipeline::make_graphics(const Device& device, const PipelineInf
 Result<Pipeline> Pipeline::compute(const Device& device, const PipelineInfo& info,
                                    std::span<const std::uint32_t> spirv) {
   if (auto error = check_made(device)) return *error;
+  if (spirv.empty()) return Error{"pipeline " + info.name, "expected SPIR-V, got none"};
   const auto make = [&] { return make_compute(device, info, spirv); };
   if (device.pipelines == nullptr) return make();
   return device.pipelines->find_or_make((Description(device) << info << spirv).bytes(), make);

@@ -62,11 +62,32 @@ std::optional<Error> check_part(const std::string& element, const BufferPart& pa
   return std::nullopt;
 }
 
+/// Later versions of Vulkan may have more that they can.
+bool shaders_cannot_read(VkImageLayout layout) {
+  switch (layout) {
+    case VK_IMAGE_LAYOUT_UNDEFINED:
+    case VK_IMAGE_LAYOUT_PREINITIALIZED:
+    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL:
+    case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL:
+    case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL:
+    case VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL:
+    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::optional<Error> check_depth(const Resource& depth) {
   if (depth.image == VK_NULL_HANDLE) return Error{"depth image", "expected an image, which the method reads, got none"};
   if (depth.view == VK_NULL_HANDLE) return Error{"depth view", "expected a view of the depth image, got none"};
-  if (depth.layout == VK_IMAGE_LAYOUT_UNDEFINED)
-    return Error{"depth layout", "expected the layout that the image is in, got VK_IMAGE_LAYOUT_UNDEFINED"};
+  if (shaders_cannot_read(depth.layout))
+    return Error{"depth layout",
+                 "expected the layout that the image is in, one that shaders can read, such as "
+                 "VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, got VkImageLayout " +
+                     std::to_string(depth.layout)};
   return std::nullopt;
 }
 

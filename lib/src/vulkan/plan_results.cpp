@@ -56,7 +56,7 @@ FrameCounts PlanRunner::counts(std::uint32_t slot) const {
 BoundLookUp PlanRunner::lookup(const PlanInputs& inputs, Passes which, std::uint32_t view) const {
   const bool fused = which == Passes::fused;
   const LookUp& lookup = fused ? plan_.fused->lookup : plan_.lookup;
-  BoundLookUp bound{.name = lookup.name, .constants = lookup_constants(lookup)};
+  BoundLookUp bound{.name = lookup.name, .constants = lookup_constants(lookup), .addressable = addressable_};
   for (std::uint32_t i = 0; i < lookup.bindings.size(); ++i) {
     const auto [id, access] = lookup.bindings[i];
     const Resource used = fused ? resource(id, inputs, view) : all_views(id, inputs);

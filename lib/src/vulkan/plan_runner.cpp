@@ -114,6 +114,7 @@ Result<PlanRunner> PlanRunner::create(const Device& device, Plan plan, const Sha
   runner.plan_ = std::move(plan);
   runner.sets_ = DescriptorSets(device);
   runner.offset_alignment_ = device.traits.storage_offset_alignment;
+  runner.addressable_ = device.buffer_addresses;
   for (const BufferDesc& desc : runner.plan_.buffers) {
     Result<Buffer> buffer = Buffer::create(device, buffer_info(device, runner.plan_, desc));
     if (!buffer) return buffer.error();
@@ -173,7 +174,7 @@ std::span<const PipelineStatistic> PlanRunner::statistics(std::string_view pass)
 }
 
 VkBuffer PlanRunner::buffer(ResourceId id) const {
-  return id < PLAN_BUFFER || id == NO_RESOURCE ? VK_NULL_HANDLE : buffers_[id - PLAN_BUFFER].handle();
+  return id < PLAN_BUFFER || id - PLAN_BUFFER >= buffers_.size() ? VK_NULL_HANDLE : buffers_[id - PLAN_BUFFER].handle();
 }
 
 Result<std::uint64_t> PlanRunner::record(Recorder& recorder, const PlanInputs& inputs, Passes which) {

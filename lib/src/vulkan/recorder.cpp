@@ -147,6 +147,7 @@ void AccessTracker::forget(VkBuffer buffer) {
 
 Result<Timestamps> Timestamps::create(const Device& device, std::uint32_t max_passes) {
   if (auto error = check_made(device)) return *error;
+  if (max_passes == 0) return Error{"timestamps", "expected room for at least 1 pass, got 0"};
   Timestamps timestamps;
   const VkQueryPoolCreateInfo create{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "../is_finite.h"
+#include "../light_faults.h"
 #include "list_groups.h"
 #include "patches.h"
 #include "still_light.h"
@@ -33,29 +34,28 @@ std::optional<Error> fault_of(const StillTriangle& triangle, std::size_t number)
   const std::string name = "triangle " + std::to_string(number);
   for (const DVec3& corner : triangle.corners)
     if (!is_near(corner.x) || !is_near(corner.y) || !is_near(corner.z))
-      return Error(name, "corners must be finite and at most 1e15 m from the origin");
-  if (!std::ranges::all_of(triangle.normals, is_finite)) return Error(name, "normals must be finite");
-  if (!(triangle.normal_tilt >= 0.0F)) return Error(name, "normal_tilt must be >= 0 radians");
+      return Error(name, expected("corners must be finite and at most 1e15 m from the origin",
+                                  Vec3(glm::vec3(glm::dvec3(corner)))));
+  for (const Vec3& normal : triangle.normals)
+    if (!is_finite(normal)) return Error(name, expected("normals must be finite", normal));
+  if (!(triangle.normal_tilt >= 0.0F))
+    return Error(name, expected("normal_tilt must be >= 0 radians", triangle.normal_tilt));
   return std::nullopt;
 }
 
 std::optional<Error> fault_of(const shared::Light& light, std::size_t number) {
-  const std::string name = "light " + std::to_string(number);
-  if (!is_finite(light.position)) return Error(name, "position must be finite");
-  if (!(light.range >= 0.0F)) return Error(name, "range must be >= 0 m");
-  if (light.type != shared::LIGHT_SPOT) return std::nullopt;
-  const bool points_somewhere = glm::dvec3(light.direction) != glm::dvec3(0.0);
-  if (!is_finite(light.direction) || !points_somewhere) return Error(name, "direction must be finite and not 0");
-  const bool is_half_angle = light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F;  // false for a NaN
-  if (!is_half_angle) return Error(name, "outer_angle must lie in 0 .. pi/2 radians");
-  return std::nullopt;
+  std::string fault = fault_of_packed(light);
+  if (fault.empty()) return std::nullopt;
+  return Error("light " + std::to_string(number), std::move(fault));
 }
 
 std::optional<Error> fault_of(const TriangleListsInfo& info) {
-  if (!(info.slack_m >= 0.0F) || std::isinf(info.slack_m)) return Error("slack_m", "must be >= 0 m and finite");
-  if (!(info.patch > 0.0F)) return Error("patch", "must be > 0");
-  if (info.budget_bytes == 0) return Error("budget_bytes", "must be > 0");
-  if (info.triangles.size() >= shared::TRIANGLE_UNLIT) return Error("triangles", "must be fewer than 2^31 - 1");
+  if (!(info.slack_m >= 0.0F) || std::isinf(info.slack_m))
+    return Error("slack_m", expected("must be >= 0 m and finite", info.slack_m));
+  if (!(info.patch > 0.0F)) return Error("patch", expected("must be > 0", info.patch));
+  if (info.budget_bytes == 0) return Error("budget_bytes", "must be > 0, got 0");
+  if (info.triangles.size() >= shared::TRIANGLE_UNLIT)
+    return Error("triangles", "must be fewer than 2^31 - 1, got " + std::to_string(info.triangles.size()));
   for (std::size_t i = 0; i < info.triangles.size(); ++i)
     if (auto fault = fault_of(info.triangles[i], i)) return fault;
   for (std::size_t i = 0; i < info.lights.size(); ++i)

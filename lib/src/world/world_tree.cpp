@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "../is_finite.h"
+#include "../light_faults.h"
 #include "lamplight/light.h"
 #include "lamplight/method.h"
 #include "tree_grid.h"
@@ -38,18 +38,10 @@ std::string in_range(std::uint64_t least, std::uint64_t most, std::uint64_t got)
   return "expected " + std::to_string(least) + " to " + std::to_string(most) + ", got " + std::to_string(got);
 }
 
-bool is_unit(const Vec3& v) { return std::abs(v.x * v.x + v.y * v.y + v.z * v.z - 1.0F) < 1e-3F; }
-
 std::optional<Error> check(std::uint32_t id, const shared::Light& light) {
-  const std::string source = "light " + std::to_string(id);
-  if (!is_finite(Vec3(light.position))) return Error{source, "position must be finite"};
-  if (!(light.range >= 0.0F)) return Error{source, "range must be >= 0, got " + std::to_string(light.range)};
-  if (light.type != shared::LIGHT_POINT && light.type != shared::LIGHT_SPOT)
-    return Error{source, "type must be LIGHT_POINT or LIGHT_SPOT, got " + std::to_string(light.type)};
-  const bool is_cone = is_unit(Vec3(light.direction)) && light.outer_angle >= 0.0F && light.outer_angle <= 1.5708F;
-  if (light.type == shared::LIGHT_SPOT && !is_cone)
-    return Error{source, "a spot needs a direction of unit length and an outer angle from 0 to pi / 2"};
-  return std::nullopt;
+  std::string fault = fault_of_packed(light);
+  if (fault.empty()) return std::nullopt;
+  return Error{"light " + std::to_string(id), std::move(fault)};
 }
 
 std::optional<Error> check(const WorldTreeInfo& info) {

@@ -1,4 +1,4 @@
-// What a plan counts while it runs on the GPU; read back into Stats.
+// What a plan counts while it runs on the GPU; read back as Culler::counters.
 // Promise: 16 bytes, zeroed at the start of every frame.
 // SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_COUNTERS_H

@@ -14,7 +14,7 @@
 
 namespace lamp::vulkan {
 
-/// SpecializationConstants constants of 32 bits.
+/// Specialization constants of 32 bits.
 struct LAMPLIGHT_API SpecializationConstants {
   std::vector<Constant> constants;
   std::vector<VkSpecializationMapEntry> entries;
@@ -41,6 +41,7 @@ struct LAMPLIGHT_API BoundLookUp {
   std::vector<Constant> constants;
   std::vector<Bound> resources;
   std::vector<Use> uses;
+  bool addressable = false;  ///< its buffers were made from a Device that said buffer_addresses
 
   /// The same for a shader that says LOOKUP_FIRST_BINDING and LOOKUP_FIRST_CONSTANT. Of a look-up as Culler::lookup or
   /// PlanRunner gives it, not of one that was moved before.
@@ -55,7 +56,7 @@ struct LAMPLIGHT_API BoundLookUp {
   /// Its constants behind those of your own.
   [[nodiscard]] SpecializationConstants specialization(std::vector<Constant> own = {}) const;
   /// Of its buffers, in the order of their bindings: what a shader with LOOKUP_ADDRESSES reads instead of descriptors.
-  /// Errors: a device that does not say Device::buffer_addresses.
+  /// Errors: a device that does not say Device::buffer_addresses, or did not when the buffers were made.
   [[nodiscard]] Result<std::vector<VkDeviceAddress>> addresses(const Device& device) const;
   /// Those of buffers, by shaders of these stages.
   [[nodiscard]] std::vector<Use> buffer_uses(VkPipelineStageFlags2 stages) const;

@@ -119,8 +119,8 @@ class LAMPLIGHT_API Culler {
   [[nodiscard]] VkMemoryBarrier2 barrier_behind() const;
 
   /// How a shader reads the result, of all views: the file lookup/NAME.glsl, constants for its specialization,
-  /// resources for its descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, or grows
-  /// in `finish`.
+  /// resources for its descriptors (set 0, bindings from LOOKUP_BINDING). Holds until the Culler is destroyed, moved or
+  /// assigned to, or grows in `finish`.
   [[nodiscard]] BoundLookUp lookup() const;
 
   /// What the frame that was recorded last counted: cells that did not fit and were walked the long way, and lights

@@ -52,7 +52,8 @@ class LAMPLIGHT_API PlanRunner {
   enum class Passes : std::uint8_t { separate, fused };
 
   PlanRunner() = default;
-  /// Allocates the buffers and builds the pipelines of a checked plan.
+  /// Allocates the buffers and builds the pipelines of a plan that `plan_check` lets pass on this device, as it does
+  /// those of `make_plan`: it is not checked again, for its shaders may be others than the library's.
   [[nodiscard]] static Result<PlanRunner> create(const Device& device, Plan plan,
                                                  const ShaderSource& shaders = embedded_shaders);
 
@@ -159,6 +160,7 @@ class LAMPLIGHT_API PlanRunner {
   Buffer every_light_;  ///< a tree of every light, where the plan reads one and the host brings none
   DescriptorSets sets_;
   std::uint32_t offset_alignment_ = 1;  ///< bytes, of storage buffers
+  bool addressable_ = false;            ///< buffers have addresses
   Sequence separate_;
   Sequence fused_;
   /// What a view's passes that are kept are recorded with, from which record on, and whether one of these is known to

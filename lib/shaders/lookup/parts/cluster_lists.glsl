@@ -14,9 +14,9 @@ LOOKUP_VIEW_WORDS(3, LOOKUP_BITS_VIEW);
 struct Walk {
   uint at;
   uint end;
-  uint first_word;  // of the tile's bits; NO_WORD: `at` is an entry of the list
+  uint first_word;  // of the tile's bits; LOOKUP_NO_WORD: `at` is an entry of the list
 };
-LAMP_CONST NO_WORD = ~0u;
+LAMP_CONST LOOKUP_NO_WORD = ~0u;
 
 Walk walk_from(uint first, uint end, uint first_word) {
   Walk walk;
@@ -26,12 +26,12 @@ Walk walk_from(uint first, uint end, uint first_word) {
   return walk;
 }
 
-Walk walk_nothing() { return walk_from(0u, 0u, NO_WORD); }
+Walk walk_nothing() { return walk_from(0u, 0u, LOOKUP_NO_WORD); }
 
 Walk walk_of_cell(uint view, uint cell) {
   const uvec2 range = lookup_ranges[view * (LOOKUP_RANGES_VIEW / 2u) + cell];
   const uint first = view * LOOKUP_LISTS_VIEW + range.x;
-  if (range.y != NO_RANGE) return walk_from(first, first + range.y, NO_WORD);
+  if (range.y != NO_RANGE) return walk_from(first, first + range.y, LOOKUP_NO_WORD);
   const uint tile = cell % square_count(lookup_frames[view], LOOKUP_TILE_PX);
   const uint first_word = view * LOOKUP_BITS_VIEW + tile * LOOKUP_WORDS;
   return walk_from(0u, lookup_light_count(), first_word);
@@ -41,7 +41,7 @@ Walk walk_of_cell(uint view, uint cell) {
 
 Walk walk_of_cell_in(uint view, uint cell, uint first, uint end) {
   Walk walk = walk_of_cell(view, cell);
-  if (walk.first_word != NO_WORD) return walk_from(first, min(end, walk.end), walk.first_word);
+  if (walk.first_word != LOOKUP_NO_WORD) return walk_from(first, min(end, walk.end), walk.first_word);
   walk.at = lookup_lower_bound(walk.at, walk.end, first);
   walk.end = lookup_lower_bound(walk.at, walk.end, end);
   return walk;
@@ -61,11 +61,11 @@ uint lookup_next_bit(uint first_word, uint from, uint end) {
 
 bool walk_next(inout Walk walk, out uint light) {
   light = 0u;
-  if (walk.first_word != NO_WORD && LOOKUP_WORDS != 0u)
+  if (walk.first_word != LOOKUP_NO_WORD && LOOKUP_WORDS != 0u)
     walk.at = lookup_next_bit(walk.first_word, walk.at, walk.end);
   if (walk.at >= walk.end) return false;
   light = walk.at;
-  if (walk.first_word == NO_WORD) light = lookup_lists[walk.at];
+  if (walk.first_word == LOOKUP_NO_WORD) light = lookup_lists[walk.at];
   ++walk.at;
   return true;
 }

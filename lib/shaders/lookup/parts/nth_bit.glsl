@@ -4,7 +4,7 @@
 #define LOOKUP_NTH_BIT
 
 // `rank` is less than how many bits are set.
-uint nth_bit(uint bits, uint rank) {
+uint lookup_nth_bit(uint bits, uint rank) {
   uint place = 0u;
   for (uint width = 16u; width > 0u; width /= 2u) {
     const uint below = LAMP_BIT_COUNT(LAMP_BITS(bits, place, width));

@@ -7,9 +7,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lookup/parts/subgroup.glsl"
 
-LAMP_CONST FEW_WORDS = 8u;  // are not worth a look
+LAMP_CONST LOOKUP_FEW_WORDS = 8u;  // are not worth a look
 #ifdef LOOKUP_SPARSE
-#define LOOKUP_LOOKS (LOOKUP_WORDS > FEW_WORDS)
+#define LOOKUP_LOOKS (LOOKUP_WORDS > LOOKUP_FEW_WORDS)
 #else
 #define LOOKUP_LOOKS false
 #endif
@@ -41,10 +41,10 @@ WalkMerged walk_begin_merged(Walk own) {
   return walk;
 }
 
-LAMP_CONST BLOCK_WORDS = 32u;
+LAMP_CONST LOOKUP_BLOCK_WORDS = 32u;
 
 // Which of a block's words hold a light, of the cell whose words begin at `base`: every `step`-th from `first` on.
-uint words_with_lights(uint base, uint block, uint count, uint first, uint step) {
+uint lookup_words_with_lights(uint base, uint block, uint count, uint first, uint step) {
   uint found = 0u;
   for (uint i = first; i < count; i += step)
     if (lookup_bits[base + block + i] != 0u) found |= 1u << i;
@@ -53,9 +53,9 @@ uint words_with_lights(uint base, uint block, uint count, uint first, uint step)
 
 // Most words are empty. Threads share out the words of a block, of every cell that some thread has, so that the subgroup
 // sees in one step which of them to walk.
-void look_at_words(inout WalkMerged walk) {
+void lookup_at_words(inout WalkMerged walk) {
   walk.block = walk.word;
-  const uint count = min(BLOCK_WORDS, walk.end - walk.word);
+  const uint count = min(LOOKUP_BLOCK_WORDS, walk.end - walk.word);
   walk.word += count;
   walk.open = ~0u >> (32u - count);
   const uvec4 here = subgroupBallot(true);
@@ -70,21 +70,21 @@ void look_at_words(inout WalkMerged walk) {
   bool waits = walk.own.begin < walk.own.end;
   for (uvec4 waiting = subgroupBallot(waits); LAMP_DIFFER(waiting, nobody); waiting = subgroupBallot(waits)) {
     const uint base = subgroupMin(waits ? walk.own.base : ~0u);
-    found |= words_with_lights(base, walk.block, count, first, step);
+    found |= lookup_words_with_lights(base, walk.block, count, first, step);
     waits = waits && walk.own.base != base;
   }
   walk.open = subgroupOr(found);
 }
 
 // The next word to walk; false if there is none.
-bool next_open_word(inout WalkMerged walk) {
+bool lookup_next_open_word(inout WalkMerged walk) {
   if (!LOOKUP_LOOKS) {
     walk.at = walk.word++;
     return walk.at < walk.end;
   }
   while (walk.open == 0u) {
     if (walk.word >= walk.end) return false;
-    look_at_words(walk);
+    lookup_at_words(walk);
   }
   walk.at = walk.block + LAMP_FIRST_BIT(walk.open);
   walk.open &= walk.open - 1u;
@@ -95,7 +95,7 @@ bool next_open_word(inout WalkMerged walk) {
 bool walk_next_merged(inout WalkMerged walk, out uint light) {
   light = 0u;
   while (walk.bits == 0u) {
-    if (!next_open_word(walk)) return false;
+    if (!lookup_next_open_word(walk)) return false;
     walk.own_bits = lookup_word(walk.own, walk.at);
     walk.bits = subgroupOr(walk.own_bits);
   }

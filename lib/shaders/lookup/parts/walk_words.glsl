@@ -24,7 +24,7 @@ uint walk_take(inout Walk walk, uint most, uint rank, out uint light) {
   while (walk_word(walk)) {
     const uint count = LAMP_BIT_COUNT(walk.bits);
     if (taken + count > most) break;
-    if (rank - taken < count) light = lookup_light_of(walk, nth_bit(walk.bits, rank - taken));
+    if (rank - taken < count) light = lookup_light_of(walk, lookup_nth_bit(walk.bits, rank - taken));
     taken += count;
     walk.bits = 0u;
   }

@@ -2,15 +2,15 @@
 // Needs: LOOKUP_BUCKETS, LOOKUP_CELLS; common/world_cells.glsl.
 // SPDX-License-Identifier: Apache-2.0
 // A position's place at a level.
-struct WorldPlace {
+struct LookupPlace {
   bool lies;  // in a brick; positions farther out than any light have none
   uint bucket;
   uint code;  // of the brick
   uint cell;  // of the brick
 };
 
-WorldPlace lookup_place(vec3 position, uint level) {
-  WorldPlace place;
+LookupPlace lookup_place(vec3 position, uint level) {
+  LookupPlace place;
   place.lies = true;
   place.cell = 0u;
   vec3 brick = position * 0.0;

@@ -55,7 +55,7 @@ void lookup_advance(uint view, inout LookupStream stream) {
 }
 
 // Of a bucket that has lights, before the first; or with `light`, before the first that is not less.
-LookupStream lookup_stream(uint view, WorldPlace place, WorldBucket bucket, uint light) {
+LookupStream lookup_stream(uint view, LookupPlace place, WorldBucket bucket, uint light) {
   uint begin = 0u;
   for (uint end = light == 0u ? 0u : bucket.count; begin < end;) {
     const uint middle = (begin + end) / 2u;
