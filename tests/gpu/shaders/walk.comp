@@ -10,6 +10,7 @@ layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint VIEW = 0;
 #define LOOKUP_VIEW VIEW
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame frame; };
+#define LOOKUP_POSITION_FRAME(view) frame  // of the sample whose depth this is
 layout(set = 0, binding = 1) uniform texture2D depth_image;
 layout(set = 0, binding = 2, scalar) writeonly buffer MaskBuffer { uvec2 masks[]; };
 #include "lookup.glsl"
