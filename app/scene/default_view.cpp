@@ -33,9 +33,14 @@ Shape shape_of(const Box& bounds) {
   shape.half_along = std::max(shape.half.x, shape.half.z);
   shape.half_beside = std::min(shape.half.x, shape.half.z);
   shape.inside = shape.half_along > 4.0F && shape.half_beside > 2.0F && shape.half.y > 1.25F;
-  shape.radius = std::max(glm::length(shape.half), 1e-3F);
+  shape.radius = glm::length(shape.half);
+  // What is smaller is a point, but for what was rounded on its way here.
+  if (shape.radius < std::max(1e-9F, 1e-6F * glm::length(shape.center))) shape.radius = std::max(shape.radius, 1e-3F);
   return shape;
 }
+
+/// 1, but less in a scene that is too small to stand in.
+float scale_of(const Shape& shape) { return std::min(shape.radius / 4.0F, 1.0F); }
 
 /// A person's eyes, or a fifth of the height where that is more: floors often lie above the lowest point.
 float eye_height(const Shape& shape) { return shape.center.y - shape.half.y + std::max(1.7F, 0.4F * shape.half.y); }
@@ -87,23 +92,25 @@ Flight default_flight(const Box& bounds) {
   };
   Flight flight;
   flight.fov_y = FOV_Y;
+  flight.near_m *= scale_of(shape);
   for (std::size_t key = 0; key < KEYS; ++key) {
     flight.keys.push_back({eye_at(key), shape.inside ? eye_at(key + 1) : shape.center});
   }
   return flight;
 }
 
-Flight flight_at(const Camera& camera) {
-  constexpr float STEP_M = 0.3F;
+Flight flight_at(const Camera& camera, const Box& bounds) {
+  const float scale = scale_of(shape_of(bounds));
   Flight flight;
   flight.fov_y = camera.fov_y;
+  flight.near_m *= scale;
   const glm::vec3 eye(camera.world_from_camera[3]);
   const glm::vec3 back(camera.world_from_camera[2]);
   const float start = std::atan2(-back.z, -back.x);
   for (std::size_t key = 0; key < KEYS; ++key) {
     const float angle = start + glm::two_pi<float>() * static_cast<float>(key) / static_cast<float>(KEYS);
     const glm::vec3 ahead(std::cos(angle), 0.0F, std::sin(angle));
-    flight.keys.push_back({eye + ahead * STEP_M, eye + ahead * 10.0F});
+    flight.keys.push_back({eye + ahead * (0.3F * scale), eye + ahead * (10.0F * scale)});
   }
   return flight;
 }

@@ -13,7 +13,7 @@ namespace lamp::app {
 [[nodiscard]] Flight default_flight(const Box& bounds);
 
 /// Eight keys that turn once around, a step away from where a perspective camera stands: whoever placed it chose open
-/// air, and in a maze of rooms the middle of the bounds seldom is.
-[[nodiscard]] Flight flight_at(const Camera& camera);
+/// air, and in a maze of rooms the middle of the bounds seldom is. The step is shorter in a small scene.
+[[nodiscard]] Flight flight_at(const Camera& camera, const Box& bounds);
 
 }  // namespace lamp::app

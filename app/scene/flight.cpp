@@ -136,7 +136,8 @@ Camera flight_camera(const Flight& flight, std::uint32_t frame) {
   }
   return {.name = "flight",
           .world_from_camera = look_at(catmull_rom(eyes, t), catmull_rom(targets, t)),
-          .fov_y = flight.fov_y};
+          .fov_y = flight.fov_y,
+          .near_m = flight.near_m};
 }
 
 Camera frame_camera(const Scene& scene, int frame) {

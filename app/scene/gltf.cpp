@@ -36,6 +36,19 @@ void check_extent(const Box& box, const std::string& file) {
   }
 }
 
+/// Of the file's own cameras and of the default ones, which stand outside of what is large.
+void check_eyes(const Scene& scene, const std::string& file) {
+  const auto check = [&file](const std::string& element, const glm::vec3& eye) {
+    const double distance = glm::length(glm::dvec3(eye));
+    if (!(distance <= double{FURTHEST_M}))
+      gltf_fail(file, element,
+                fmt::format("stands {:g} m from the origin, expected at most {:g} m", distance, FURTHEST_M));
+  };
+  for (const Camera& camera : scene.cameras)
+    check(fmt::format("camera '{}'", camera.name), glm::vec3(camera.world_from_camera[3]));
+  for (const FlightKey& key : scene.flight->keys) check("flight", key.eye);
+}
+
 /// The files of its buffers, and those of the images that it shows, each once.
 std::vector<std::filesystem::path> files_beside(const GltfDocument& document, std::span<const GltfImageUse> uses) {
   std::vector<std::filesystem::path> files;
@@ -72,8 +85,9 @@ Scene to_scene(GltfDocument document, std::string name) {
   check_extent(box, document.origin.file);
   scene.cameras = read_cameras(document, nodes);
   const bool has_eye = !scene.cameras.empty() && !scene.cameras[0].orthographic;
-  scene.flight = has_eye ? flight_at(scene.cameras[0]) : default_flight(box);
+  scene.flight = has_eye ? flight_at(scene.cameras[0], box) : default_flight(box);
   if (scene.cameras.empty()) scene.cameras.push_back(default_camera(box));
+  check_eyes(scene, document.origin.file);
 
   // Last, as it takes longest: every other mistake in the file has been found by now.
   scene.images = read_images(document, materials.images);

@@ -119,6 +119,7 @@ struct Flight {
   std::vector<FlightKey> keys;
   std::uint32_t frames = 300;
   float fov_y = 1.0F;
+  float near_m = 0.05F;
 };
 
 /// Axis-aligned, world space, metres.

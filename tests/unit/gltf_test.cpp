@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
 
 #include "image/image.h"
+#include "scene/flight.h"
 #include "temporary_folder.h"
 #include "unit/gltf_builder.h"
 
@@ -176,10 +178,10 @@ TEST(Gltf, FollowsPathsBelowItsFolderAndLinksInIt) {
   std::filesystem::remove_all(folder);
 }
 
-/// Whether a world point is ahead of a camera and within its vertical field of view.
+/// Whether a world point is beyond a camera's near plane and within its vertical field of view.
 bool sees(const lamp::app::Camera& camera, glm::vec3 point) {
   const glm::vec3 view(glm::inverse(camera.world_from_camera) * glm::vec4(point, 1.0F));
-  return view.z < 0.0F && std::abs(view.y) <= -view.z * std::tan(camera.fov_y / 2.0F);
+  return -view.z > camera.near_m && std::abs(view.y) <= -view.z * std::tan(camera.fov_y / 2.0F);
 }
 
 TEST(Gltf, FramesSmallScenesFromOutside) {
@@ -189,6 +191,40 @@ TEST(Gltf, FramesSmallScenesFromOutside) {
   for (const lamp::app::Vertex& vertex : scene.vertices) EXPECT_TRUE(sees(scene.cameras[0], vertex.position));
   ASSERT_TRUE(scene.flight.has_value());
   EXPECT_EQ(scene.flight->keys.size(), 8U);
+}
+
+TEST(Gltf, FramesScenesOfEverySize) {
+  for (const float size : {1e-8F, 1e-6F, 1e-4F, 0.02F, 1.0F, 100.0F, 1e6F}) {
+    SCOPED_TRACE(size);
+    GltfBuilder builder = triangle();
+    builder.document["nodes"][0]["scale"] = {size, size, size};
+    const Scene scene = load(builder);
+    const auto sees_all = [&](const lamp::app::Camera& camera) {
+      return std::ranges::all_of(scene.vertices,
+                                 [&](const auto& vertex) { return sees(camera, size * vertex.position); });
+    };
+    EXPECT_TRUE(sees_all(scene.cameras.at(0)));
+    for (int frame = 0; frame < 300; frame += 10) EXPECT_TRUE(sees_all(lamp::app::frame_camera(scene, frame))) << frame;
+  }
+}
+
+TEST(Gltf, TakesTheExtentOfAPointForOneItCanShow) {
+  GltfBuilder builder = triangle();
+  builder.document["nodes"][0]["scale"] = {0, 0, 0};
+  builder.document["nodes"][0]["translation"] = {1, 2, 3};
+  EXPECT_TRUE(sees(load(builder).cameras.at(0), {1, 2, 3}));
+}
+
+TEST(Gltf, RefusesEyesThatAreTooFarAway) {
+  GltfBuilder builder = triangle();
+  builder.document["nodes"][0]["scale"] = {9e14, 9e14, 9e14};
+  EXPECT_EQ(error_text(builder.gltf()),
+            "test.gltf: camera 'default': stands 1.85927e+15 m from the origin, expected at most 1e+15 m");
+  builder.document["nodes"][0]["scale"] = {1, 1, 1};
+  builder.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+  builder.root({{"name", "eye"}, {"camera", 0}, {"translation", {9e14, 9e14, 0}}});
+  EXPECT_EQ(error_text(builder.gltf()),
+            "test.gltf: camera 'eye': stands 1.27279e+15 m from the origin, expected at most 1e+15 m");
 }
 
 TEST(Gltf, StandsInsideLargeScenes) {
@@ -213,12 +249,22 @@ TEST(Gltf, FliesAtTheFilesOwnCamera) {
   GltfBuilder builder = triangle();
   builder.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
   builder.root({{"camera", 0}, {"translation", {7, 1, 2}}});
+  builder.root({{"mesh", 0}, {"translation", {9, 0, 0}}});
   const Scene scene = load(builder);
   ASSERT_EQ(scene.flight->keys.size(), 8U);
+  EXPECT_EQ(scene.flight->near_m, 0.05F);
   EXPECT_FLOAT_EQ(scene.flight->fov_y, 0.5F);
   expect_near(scene.flight->keys[0].target, {7, 1, -8});
   expect_near(scene.flight->keys[4].target, {7, 1, 12});
   for (const auto& key : scene.flight->keys) EXPECT_NEAR(glm::distance(key.eye, {7, 1, 2}), 0.3F, 1e-5F);
+
+  builder.document["nodes"][0]["scale"] = {0.02, 0.02, 0.02};
+  builder.document["nodes"][2]["translation"] = {0, 0, 0};
+  builder.document["nodes"][2]["scale"] = {0.02, 0.02, 0.02};
+  builder.document["nodes"][1]["translation"] = {0, 0, 0.01};
+  const Scene small = load(builder);
+  EXPECT_LT(small.flight->near_m, 0.001F);
+  EXPECT_LT(glm::distance(small.flight->keys[0].eye, {0, 0, 0.01F}), 0.005F) << "within the scene";
 }
 
 TEST(Gltf, NotesWhatItLeavesOut) {
