@@ -18,17 +18,19 @@ namespace {
 using procedural::Random;
 
 constexpr float PROBES_AT_A_POINT = 4.0F;  // of open air
-constexpr float LEAST_SIDE_M = 0.05F;
+
+/// The smallest probe: 5 cm, less in a scene that is small.
+float least_side_m(const OpenAir& air) { return std::min(0.05F, 0.25F * air.diagonal_m); }
 
 /// The half extents of a cube of such a probe.
 float reach_of(const OpenAir& air, std::uint32_t count) {
   const auto reach = static_cast<float>(0.5 * std::cbrt(PROBES_AT_A_POINT * air.volume() / count));
-  return std::clamp(reach, LEAST_SIDE_M, 0.25F * air.diagonal_m);
+  return std::clamp(reach, least_side_m(air), 0.25F * air.diagonal_m);
 }
 
-/// Metres along an axis to the walls, or `farthest`: the median of five rays, so that a column or a gap decides
-/// nothing.
-float wall_distance(const Occluders& walls, const glm::dvec3& from, int axis, double side, float farthest) {
+/// Metres along an axis to the walls, or the scene's diagonal: the median of five rays, so that a column or a gap
+/// decides nothing.
+float wall_distance(const Occluders& walls, const glm::dvec3& from, int axis, double side, const OpenAir& air) {
   constexpr double ASIDE = 0.15;  // of the way
   constexpr std::array<std::array<double, 2>, 5> TURNS{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   std::array<float, TURNS.size()> distances{};
@@ -37,11 +39,11 @@ float wall_distance(const Occluders& walls, const glm::dvec3& from, int axis, do
     way[axis] = side;
     way[(axis + 1) % 3] = ASIDE * TURNS[i][0];
     way[(axis + 2) % 3] = ASIDE * TURNS[i][1];
-    const auto hit = walls.first_hit({.from = from, .to = from + way * static_cast<double>(farthest)});
-    distances[i] = hit ? static_cast<float>(hit->at) * farthest : farthest;
+    const auto hit = walls.first_hit({.from = from, .to = from + way * static_cast<double>(air.diagonal_m)});
+    distances[i] = hit ? static_cast<float>(hit->at) * air.diagonal_m : air.diagonal_m;
   }
   std::ranges::sort(distances);
-  return std::max(distances[TURNS.size() / 2], LEAST_SIDE_M);
+  return std::max(distances[TURNS.size() / 2], least_side_m(air));
 }
 
 struct Sides {
@@ -65,8 +67,8 @@ Probe generated(const Surroundings& of, std::uint32_t number, std::uint64_t seed
   const float reach = of.reach_m * random.between(0.5F, 1.5F);
   Sides walls;
   for (int axis = 0; axis < 3; ++axis) {
-    walls.low[axis] = wall_distance(of.walls, capture, axis, -1.0, of.air.diagonal_m);
-    walls.high[axis] = wall_distance(of.walls, capture, axis, 1.0, of.air.diagonal_m);
+    walls.low[axis] = wall_distance(of.walls, capture, axis, -1.0, of.air);
+    walls.high[axis] = wall_distance(of.walls, capture, axis, 1.0, of.air);
   }
   // Walls are lit with full weight: they lie deeper in the volume than it blends.
   const float blend = 0.25F * std::min({reach, walls.half_extents().x, walls.half_extents().y, walls.half_extents().z});
@@ -89,6 +91,11 @@ std::vector<Probe> place_probes(const Scene& scene, std::uint32_t count, std::ui
   const std::size_t own = std::min<std::size_t>(count, scene.probes.size());
   std::vector<Probe> probes(scene.probes.begin(), scene.probes.begin() + static_cast<std::ptrdiff_t>(own));
   if (probes.size() == count) return probes;
+  const Box box = bounds(scene);
+  if (box.min == box.max)
+    throw Error(fmt::format(
+        "scene '{}': is a single point, which leaves no room for generated probes, expected at most {} probes",
+        scene.name, scene.probes.size()));
   const OpenAir air = find_open_air(scene);
   const Occluders walls = scene_occluders(scene);
   const Surroundings of{.air = air, .walls = walls, .reach_m = reach_of(air, count)};

@@ -138,6 +138,24 @@ TEST(GltfProbes, AreRead) {
   EXPECT_EQ(place_probes(scene, 1, 1).size(), 1U);
 }
 
+TEST(GltfProbes, AreGeneratedInScenesOfEveryExtentButNone) {
+  GltfBuilder builder = test::triangle();
+  builder.document["nodes"][0]["scale"] = {0.02, 0.02, 0.02};
+  const std::vector<Probe> probes = place_probes(test::load(builder), 4, 1);
+  EXPECT_FALSE(check_probes(probes).has_value());
+  for (const Probe& probe : probes)
+    for (int i = 0; i < 3; ++i) EXPECT_LT(probe.half_extents[i], 0.02F);
+  builder.document["nodes"][0]["scale"] = {0, 0, 0};
+  try {
+    static_cast<void>(place_probes(test::load(builder), 4, 1));
+    ADD_FAILURE() << "probes of a point";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "scene 'test.gltf': is a single point, which leaves no room for generated probes, expected at most 0 "
+                 "probes");
+  }
+}
+
 TEST(GltfProbes, MistakesAreNamed) {
   const auto error = [](const json& probe, const json& node = json::object()) {
     return test::error_text(with_probe(probe, node).gltf());
