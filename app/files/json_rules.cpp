@@ -193,6 +193,23 @@ std::string expectation(const Rule& rule, std::size_t into_size) {
   return {};
 }
 
+/// What a text of the range does not tell of a number, or of the first in an array, that is too large or too small for
+/// 32 bits; empty if that is not what is wrong.
+std::string untold_limit(const Rule& rule, const json& value) {
+  if (rule.want == Want::numbers && value.is_array() && (rule.size == 0 || value.size() == rule.size)) {
+    const auto wrong = std::ranges::find_if(value, [&rule](const json& number) { return !in_range(rule, number); });
+    if (wrong == value.end()) return {};
+    const std::string limit = untold_limit({.want = Want::number, .min = rule.min, .max = rule.max}, *wrong);
+    return limit.empty() ? limit : fmt::format("numbers of {}", limit);
+  }
+  if (rule.want != Want::number || !value.is_number()) return {};
+  const auto number = value.get<double>();
+  if (number > rule.max && !tells_max(rule)) return fmt::format("at most {:g}", rule.max);
+  if (number < rule.min && (rule.min < 0.0 || (is_above_zero(rule) && number > 0.0)))
+    return fmt::format("at least {:g}", rule.min);
+  return {};
+}
+
 /// What is wrong with a value that breaks its rule, and what was expected; of named indices, the first that is none.
 std::string complaint(const Rule& rule, const json& value, std::size_t into_size) {
   if (rule.want == Want::named_indices && value.is_object()) {
@@ -201,8 +218,8 @@ std::string complaint(const Rule& rule, const json& value, std::size_t into_size
       if (!fits(of_one, index, into_size))
         return fmt::format("{} {} is {}, expected {}", rule.key, name, shown(index), expectation(of_one, into_size));
   }
-  if (rule.want == Want::number && !tells_max(rule) && value.is_number() && value.get<double>() > rule.max)
-    return fmt::format("{} is {}, expected at most {}", rule.key, shown(value), rule.max);
+  if (const std::string limit = untold_limit(rule, value); !limit.empty())
+    return fmt::format("{} is {}, expected {}", rule.key, shown(value), limit);
   return fmt::format("{} is {}, expected {}", rule.key, shown(value), expectation(rule, into_size));
 }
 
