@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "error.h"
@@ -16,18 +17,17 @@
 namespace lamp::app {
 namespace {
 
-/// Keeps the place, the direction of view (-Z) and the side that is up; drops scale, shear and mirroring.
-glm::mat4 rigid_pose(const GltfDocument& document, const PlacedNode& placed) {
-  const glm::dmat4& world = placed.world_from_node;
-  const glm::dvec3 back(world[2]);
-  const glm::dvec3 right = glm::cross(glm::dvec3(world[1]), back);
-  if (!(glm::length(back) > 1e-12) || !(glm::length(right) > 1e-12)) {
-    gltf_fail(document.origin.file, fmt::format("node {}", placed.node),
-              "its transform flattens the camera, expected a scale that is not 0");
-  }
-  const glm::dvec3 z = glm::normalize(back);
+/// Keeps the place, the direction of view (-Z) and the side that is up; drops scale, shear and mirroring. Nothing where
+/// the node is flat.
+std::optional<glm::mat4> rigid_pose(const PlacedNode& placed) {
+  const auto back = axis_of(placed, 2);
+  const auto up = axis_of(placed, 1);
+  if (!back || !up) return std::nullopt;
+  const glm::dvec3 right = glm::cross(*up, *back);
+  if (!(glm::length(right) > 1e-12)) return std::nullopt;
   const glm::dvec3 x = glm::normalize(right);
-  return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), world[3]));
+  return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(*back, x), 0.0), glm::dvec4(*back, 0.0),
+                              placed.world_from_node[3]));
 }
 
 void set_projection(const tinygltf::Camera& from, Camera& camera) {
@@ -70,23 +70,30 @@ class UniqueNames {
 
 }  // namespace
 
-std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const PlacedNode> nodes) {
+std::vector<Camera> read_cameras(GltfDocument& document, std::span<const PlacedNode> nodes) {
   std::vector<Camera> cameras;
   UniqueNames names;
+  std::size_t hidden = 0;
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(placed.node)];
     if (node.camera < 0) continue;
+    const std::optional<glm::mat4> pose = rigid_pose(placed);
+    if (!pose) {
+      ++hidden;
+      continue;
+    }
     const tinygltf::Camera& from = document.model.cameras[static_cast<std::size_t>(node.camera)];
     const std::string element = fmt::format("camera {}", node.camera);
     const std::string& own = from.name.empty() ? element : from.name;
 
     Camera camera;
     camera.name = names.add(node.name.empty() ? own : node.name);
-    camera.world_from_camera = rigid_pose(document, placed);
+    camera.world_from_camera = *pose;
     set_projection(from, camera);
     check_view(camera, document.origin.file, element);
     cameras.push_back(camera);
   }
+  note_hidden(hidden, "cameras", document.notes);
   return cameras;
 }
 

@@ -13,7 +13,8 @@
 
 namespace lamp::app {
 
-/// In the order of the nodes, named like them or, where they have no name, like themselves. Throws Error.
-[[nodiscard]] std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const PlacedNode> nodes);
+/// In the order of the nodes, named like them or, where they have no name, like themselves. Those that a scale
+/// of 0 hides are noted in the document. Throws Error.
+[[nodiscard]] std::vector<Camera> read_cameras(GltfDocument& document, std::span<const PlacedNode> nodes);
 
 }  // namespace lamp::app

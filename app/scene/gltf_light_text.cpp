@@ -104,7 +104,7 @@ std::string gltf_text(std::span<const Light> lights, const std::string& name) {
 }
 
 std::vector<Light> lights_of_gltf(std::string_view text, const std::string& name) {
-  const GltfDocument document = read_document(std::as_bytes(std::span(text)), {.file = name, .folder = {}});
+  GltfDocument document = read_document(std::as_bytes(std::span(text)), {.file = name, .folder = {}});
   GltfLights found = read_lights(document, place_nodes(document));
   if (!found.directional_lights.empty())
     throw Error(fmt::format("{}: has a directional light, expected point and spot lights alone", name));

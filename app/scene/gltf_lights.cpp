@@ -23,14 +23,9 @@ std::optional<std::size_t> light_index(const tinygltf::Node& node) {
   return static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
 }
 
-/// Where the node's -Z axis points.
-glm::vec3 forward(const GltfDocument& document, const PlacedNode& placed) {
-  const glm::dvec3 axis = -glm::dvec3(placed.world_from_node[2]);
-  if (!(glm::length(axis) > 1e-12)) {
-    gltf_fail(document.origin.file, fmt::format("node {}", placed.node),
-              "its transform leaves the light no direction, expected a scale in z that is not 0");
-  }
-  return glm::normalize(axis);
+/// Whether a scale of 0 hides the light or leaves it no direction (-Z).
+bool is_left_out(const tinygltf::Light& light, const PlacedNode& placed) {
+  return light.type == "point" ? is_hidden(placed) : !axis_of(placed, 2);
 }
 
 glm::vec3 color_of(const tinygltf::Light& from) {
@@ -64,16 +59,22 @@ void set_cone(const tinygltf::SpotLight& from, const std::string& file, const st
 
 }  // namespace
 
-GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode> nodes) {
+GltfLights read_lights(GltfDocument& document, std::span<const PlacedNode> nodes) {
   GltfLights result;
+  std::size_t hidden = 0;
   for (const PlacedNode& placed : nodes) {
     const auto index = light_index(document.model.nodes[static_cast<std::size_t>(placed.node)]);
     if (!index) continue;
     const tinygltf::Light& from = document.model.lights[*index];
     const std::string element = fmt::format("light {}", *index);
     const glm::vec3 power = power_of(from, document.origin.file, element);
+    if (is_left_out(from, placed)) {
+      ++hidden;
+      continue;
+    }
+    const glm::vec3 forward(-axis_of(placed, 2).value_or(glm::dvec3(0.0)));
     if (from.type == "directional") {
-      result.directional_lights.push_back({forward(document, placed), power});
+      result.directional_lights.push_back({forward, power});
       continue;
     }
     Light light;
@@ -84,11 +85,12 @@ GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode>
     // tinygltf says 0 where the file says nothing; the check refuses a 0 that is in the file.
     light.range = from.range > 0.0 ? static_cast<float>(from.range) : std::numeric_limits<float>::infinity();
     if (light.type == LightType::spot) {
-      light.direction = forward(document, placed);
+      light.direction = forward;
       set_cone(from.spot, document.origin.file, element, light);
     }
     result.lights.push_back(light);
   }
+  note_hidden(hidden, "lights", document.notes);
   return result;
 }
 

@@ -18,7 +18,7 @@ struct GltfLights {
   std::vector<DirectionalLight> directional_lights;
 };
 
-/// In the order of the nodes. Throws Error.
-[[nodiscard]] GltfLights read_lights(const GltfDocument& document, std::span<const PlacedNode> nodes);
+/// In the order of the nodes. Those that a scale of 0 hides are noted in the document. Throws Error.
+[[nodiscard]] GltfLights read_lights(GltfDocument& document, std::span<const PlacedNode> nodes);
 
 }  // namespace lamp::app

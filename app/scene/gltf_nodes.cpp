@@ -67,6 +67,18 @@ std::vector<int> roots(const tinygltf::Model& model) {
 
 }  // namespace
 
+std::optional<glm::dvec3> axis_of(const PlacedNode& placed, int axis) {
+  const glm::dvec3 column(placed.world_from_node[axis]);
+  const double length = glm::length(column);
+  return length > 1e-12 ? std::optional(column / length) : std::nullopt;
+}
+
+bool is_hidden(const PlacedNode& placed) { return !axis_of(placed, 0) && !axis_of(placed, 1) && !axis_of(placed, 2); }
+
+void note_hidden(std::size_t count, std::string_view what, std::vector<std::string>& notes) {
+  if (count > 0) notes.push_back(fmt::format("{} {} left out: a scale of 0 hides them", count, what));
+}
+
 std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
   const tinygltf::Model& model = document.model;
   // A stack of our own: a file may nest deeper than calls can.

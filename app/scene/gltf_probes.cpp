@@ -74,7 +74,6 @@ Axes axes_of(const Source& from, const glm::dmat4& world_from_node) {
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3 axis(world_from_node[i]);
     axes.metres[i] = glm::length(axis);
-    if (!(axes.metres[i] > 1e-12)) from.fail("its node's scale is 0 along an axis, expected another");
     axes.unit[i] = axis / axes.metres[i];
   }
   for (int i = 0; i < 3; ++i)
@@ -116,12 +115,17 @@ Probe probe_of(const Source& from, const glm::dmat4& world_from_node) {
 
 std::vector<Probe> read_probes(GltfDocument& document, std::span<const PlacedNode> nodes) {
   std::vector<Probe> probes;
+  std::size_t hidden = 0;
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Value& extras = document.model.nodes[static_cast<std::size_t>(placed.node)].extras;
     if (!extras.IsObject() || !extras.Has(PROBE_KEY)) continue;
     const Source from{.value = extras.Get(PROBE_KEY),
                       .file = document.origin.file,
                       .element = fmt::format("node {}: extras.{}", placed.node, PROBE_KEY)};
+    if (!axis_of(placed, 0) || !axis_of(placed, 1) || !axis_of(placed, 2)) {
+      ++hidden;
+      continue;
+    }
     probes.push_back(probe_of(from, placed.world_from_node));
     std::vector<std::string> unknown = from.value.Keys();
     std::erase_if(unknown, [](const std::string& key) { return std::ranges::find(MEMBERS, key) != MEMBERS.end(); });
@@ -129,6 +133,7 @@ std::vector<Probe> read_probes(GltfDocument& document, std::span<const PlacedNod
       document.notes.push_back(one_line(fmt::format("{}: {} members are not known, left out: {}", from.element,
                                                     unknown.size(), fmt::join(unknown, ", "))));
   }
+  note_hidden(hidden, "probes", document.notes);
   return probes;
 }
 

@@ -13,7 +13,7 @@
 namespace lamp::app {
 
 /// In the order of the nodes: those with an object `lamplight_probe` among their extras (docs/methods/probes.md). Notes
-/// of the document say what of it is not read. Throws Error.
+/// of the document say what of it is not read, and how many a scale of 0 hides. Throws Error.
 [[nodiscard]] std::vector<Probe> read_probes(GltfDocument& document, std::span<const PlacedNode> nodes);
 
 }  // namespace lamp::app

@@ -82,4 +82,29 @@ TEST(GltfLights, PlacesOneDefinitionManyTimesInTheOrderOfTheNodes) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(scene.lights[i].position.x, static_cast<float>(i));
 }
 
+TEST(GltfLights, AreHiddenByAScaleOfZero) {
+  GltfBuilder builder = triangle();
+  for (const char* type : {"point", "spot", "directional"}) {
+    builder.root({{"scale", {0, 0, 0}}, {"children", {builder.document["nodes"].size() + 1}}});
+    builder.add("nodes", {{"extensions", builder.light({{"type", type}, {"spot", json::object()}})}});
+  }
+  const Scene scene = load(builder);
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_TRUE(scene.directional_lights.empty());
+  EXPECT_EQ(scene.notes, std::vector<std::string>{"3 lights left out: a scale of 0 hides them"});
+}
+
+TEST(GltfLights, ShineFromFlatNodesWhereTheyHaveADirection) {
+  GltfBuilder builder = triangle();
+  for (const char* type : {"point", "spot"})
+    for (const int flat : {0, 2}) {
+      json scale = {1, 1, 1};
+      scale[static_cast<std::size_t>(flat)] = 0;
+      builder.root({{"scale", scale}, {"extensions", builder.light({{"type", type}, {"spot", json::object()}})}});
+    }
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.lights.size(), 3U);
+  EXPECT_EQ(scene.notes, std::vector<std::string>{"1 lights left out: a scale of 0 hides them"});
+}
+
 }  // namespace

@@ -267,6 +267,22 @@ TEST(Gltf, FliesAtTheFilesOwnCamera) {
   EXPECT_LT(glm::distance(small.flight->keys[0].eye, {0, 0, 0.01F}), 0.005F) << "within the scene";
 }
 
+TEST(Gltf, LeavesOutCamerasThatAScaleOfZeroHides) {
+  GltfBuilder builder = triangle();
+  builder.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+  for (const json& scale : {json{0, 0, 0}, json{1, 1, 0}, json{1, 0, 1}})
+    builder.root({{"camera", 0}, {"scale", scale}});
+  const Scene none = load(builder);
+  EXPECT_EQ(none.cameras.at(0).name, "default");
+  EXPECT_EQ(none.notes, std::vector<std::string>{"3 cameras left out: a scale of 0 hides them"});
+  builder.root({{"name", "tiny"}, {"camera", 0}, {"scale", {1e-7, 1e-7, 1e-7}}});
+  builder.root({{"name", "flat"}, {"camera", 0}, {"scale", {0, 1, 1}}});
+  const Scene two = load(builder);
+  ASSERT_EQ(two.cameras.size(), 2U);
+  for (const lamp::app::Camera& camera : two.cameras)
+    EXPECT_EQ(camera.world_from_camera, glm::mat4(1.0F)) << camera.name;
+}
+
 TEST(Gltf, NotesWhatItLeavesOut) {
   GltfBuilder builder = triangle();
   builder.add("animations", json::object());
