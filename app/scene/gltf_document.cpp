@@ -8,16 +8,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "files/printable.h"
 #include "files/read_json.h"
+#include "scene/gltf_clean.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_error.h"
+#include "scene/gltf_notes.h"
 #include "scene/gltf_rules.h"
 
 namespace lamp::app {
@@ -27,11 +29,6 @@ using nlohmann::json;
 
 constexpr std::size_t MOST_VALUES = MOST_JSON_VALUES / 4;  // they are converted for tinygltf, which keeps its own
 
-constexpr auto EXTENSIONS = std::to_array<std::string_view>(
-    {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization", "KHR_texture_transform"});
-
-bool is_supported(std::string_view extension) { return std::ranges::find(EXTENSIONS, extension) != EXTENSIONS.end(); }
-
 void check_version(const json& document, const std::string& file) {
   const auto version = document["asset"]["version"].get<std::string>();
   if (!version.starts_with("2.")) {
@@ -39,64 +36,33 @@ void check_version(const json& document, const std::string& file) {
   }
 }
 
-/// The extensions of a list ("extensionsUsed") that the loader does not know.
+/// The names in a list ("extensionsUsed") that are not supported.
 std::vector<std::string> unsupported(const json& document, const char* list) {
   std::vector<std::string> names = document.value(list, std::vector<std::string>{});
   std::erase_if(names, [](const std::string& name) { return is_supported(name); });
   return names;
 }
 
-void check_extensions(const json& document, const std::string& file, std::vector<std::string>& notes) {
+/// Files may have extensions that they do not name in extensionsUsed: `dropped` are those that were there.
+void check_extensions(const json& document, const std::string& file, std::set<std::string> dropped,
+                      std::vector<std::string>& notes) {
   if (const auto names = unsupported(document, "extensionsRequired"); !names.empty()) {
-    gltf_fail(
-        file, "extensionsRequired",
-        fmt::format("{} not supported, expected none but {}", fmt::join(names, ", "), fmt::join(EXTENSIONS, ", ")));
+    gltf_fail(file, "extensionsRequired",
+              fmt::format("{} not supported, expected none but {}", fmt::join(names, ", "),
+                          fmt::join(GLTF_EXTENSIONS, ", ")));
   }
-  if (const auto names = unsupported(document, "extensionsUsed"); !names.empty()) {
+  std::vector<std::string> names = unsupported(document, "extensionsUsed");
+  for (const std::string& name : names) dropped.erase(name);
+  names.insert(names.end(), dropped.begin(), dropped.end());
+  if (!names.empty())
     notes.push_back(one_line(fmt::format("extensions that are not supported, left out: {}", fmt::join(names, ", "))));
-  }
-}
-
-/// An array of the document, by reference: data URIs can be long.
-const json& elements(const json& document, const char* array) {
-  static const json NONE = json::array();
-  const auto found = document.find(array);
-  return found == document.end() ? NONE : *found;
-}
-
-/// What the format forbids, and a reader would have to guess about.
-void check_pairs(const json& document, const std::string& file) {
-  std::size_t number = 0;
-  for (const json& node : elements(document, "nodes")) {
-    const std::string element = fmt::format("node {}", number++);
-    for (const char* part : {"translation", "rotation", "scale"})
-      if (node.contains("matrix") && node.contains(part))
-        gltf_fail(file, element, fmt::format("has a matrix and a {}, expected one of them", part));
-  }
-  number = 0;
-  for (const json& mesh : elements(document, "meshes")) {
-    if (mesh["primitives"].empty())
-      gltf_fail(file, fmt::format("mesh {}", number), "has no primitives, expected one or more");
-    ++number;
-  }
-}
-
-/// Says which parts of the file have no effect here.
-void note_left_out(const json& document, std::vector<std::string>& notes) {
-  if (const std::size_t count = elements(document, "animations").size(); count > 0)
-    notes.push_back(fmt::format("{} animations left out: the scene stands still", count));
-  std::size_t morphed = 0;
-  for (const json& mesh : elements(document, "meshes")) {
-    for (const json& primitive : mesh["primitives"]) morphed += primitive.contains("targets") ? 1 : 0;
-  }
-  if (morphed > 0) notes.push_back(fmt::format("morph targets of {} primitives left out", morphed));
 }
 
 /// Buffers may be parts of one file.
 void check_buffer_bytes(const json& document, const std::string& file) {
   constexpr std::size_t MOST = std::size_t{1} << 32;
   std::size_t total = 0;
-  for (const json& buffer : elements(document, "buffers")) total += buffer["byteLength"].get<std::size_t>();
+  for (const json& buffer : gltf_array(document, "buffers")) total += buffer["byteLength"].get<std::size_t>();
   if (total > MOST) gltf_fail(file, "buffers", fmt::format("have {} bytes together, expected at most {}", total, MOST));
 }
 
@@ -104,7 +70,7 @@ std::vector<std::vector<std::byte>> read_buffers(const json& document, const Glt
                                                  std::optional<std::span<const std::byte>> binary) {
   check_buffer_bytes(document, origin.file);
   std::vector<std::vector<std::byte>> buffers;
-  for (const json& buffer : elements(document, "buffers")) {
+  for (const json& buffer : gltf_array(document, "buffers")) {
     const std::string element = fmt::format("buffer {}", buffers.size());
     const auto length = buffer["byteLength"].get<std::size_t>();
     std::vector<std::byte> bytes;
@@ -128,7 +94,7 @@ std::vector<std::vector<std::byte>> read_buffers(const json& document, const Glt
 /// Without those of images, of which only some are used.
 std::vector<std::filesystem::path> buffer_files(const json& document, const GltfOrigin& origin) {
   std::vector<std::filesystem::path> files;
-  for (const json& buffer : elements(document, "buffers")) {
+  for (const json& buffer : gltf_array(document, "buffers")) {
     if (!buffer.contains("uri")) continue;
     if (auto file = external_file(buffer["uri"].get_ref<const std::string&>(), origin, "buffers"))
       files.push_back(*std::move(file));
@@ -139,7 +105,7 @@ std::vector<std::filesystem::path> buffer_files(const json& document, const Gltf
 std::vector<GltfImage> read_images(const json& document, const std::string& file) {
   std::vector<GltfImage> images;
   std::map<std::pair<std::string_view, int>, int> sources;
-  for (const json& image : elements(document, "images")) {
+  for (const json& image : gltf_array(document, "images")) {
     if (image.contains("uri") == image.contains("bufferView")) {
       gltf_fail(file, fmt::format("image {}", images.size()), "expected either a uri or a bufferView");
     }
@@ -147,7 +113,7 @@ std::vector<GltfImage> read_images(const json& document, const std::string& file
     const std::string_view uri = found == image.end() ? std::string_view() : found->get_ref<const std::string&>();
     const int view = image.value("bufferView", -1);
     const int index = static_cast<int>(images.size());
-    const std::string fallback = uri.starts_with("data:") ? fmt::format("image {}", index) : std::string(uri);
+    const std::string fallback = is_data_uri(uri) ? fmt::format("image {}", index) : std::string(uri);
     images.push_back({.name = image.value("name", fallback),
                       .uri = std::string(uri),
                       .buffer_view = view,
@@ -156,44 +122,37 @@ std::vector<GltfImage> read_images(const json& document, const std::string& file
   return images;
 }
 
-/// Of an object's extras nothing but a probe. tinygltf drops what is empty, and an empty probe is a mistake to be
-/// named, as is one of its members: an object gets a member that says what it says without, anything else becomes what
-/// no member may be.
-void keep_probe(json& value) {
-  const auto extras = value.find("extras");
-  if (extras == value.end()) return;
-  if (!extras->is_object() || !extras->contains(PROBE_KEY)) {
-    value.erase(extras);
-    return;
-  }
-  json probe = extras->at(PROBE_KEY);
-  if (probe.is_object())
-    for (json& member : probe)
-      if (member.empty()) member = false;  // null, {} and []
-  if (probe.empty()) probe = probe.is_object() ? json{{"shape", "box"}} : json(false);
-  *extras = json{{PROBE_KEY, std::move(probe)}};
-}
+/// Where a primitive's indices are an accessor without a buffer view.
+struct ZeroIndices {
+  std::size_t mesh = 0;
+  std::size_t primitive = 0;
+  int accessor = 0;
+};
 
-/// Drops what the loader never reads, so that it is neither converted nor stored.
-void prune(json& value) {
-  if (value.is_array()) {
-    for (json& element : value) prune(element);
-  }
-  if (!value.is_object()) return;
-  keep_probe(value);
-  for (auto& [key, member] : value.items()) {
-    if (key == "extensions" && member.is_object()) {
-      for (auto it = member.begin(); it != member.end();)
-        it = is_supported(it.key()) ? std::next(it) : member.erase(it);
+/// Takes these out of the document: tinygltf refuses them, though they stand for zeros as elsewhere.
+std::vector<ZeroIndices> take_zero_indices(json& document) {
+  std::vector<ZeroIndices> taken;
+  if (!document.contains("meshes")) return taken;
+  std::size_t mesh = 0;
+  for (json& of : document["meshes"]) {
+    std::size_t number = 0;
+    for (json& primitive : of["primitives"]) {
+      const auto indices = primitive.find("indices");
+      if (indices != primitive.end() && !document["accessors"][indices->get<std::size_t>()].contains("bufferView")) {
+        taken.push_back({mesh, number, indices->get<int>()});
+        primitive.erase(indices);
+      }
+      ++number;
     }
-    prune(member);
+    ++mesh;
   }
+  return taken;
 }
 
 /// tinygltf fills in defaults. Buffers and images stay out of it: it would read them without our checks.
 tinygltf::Model convert(json document, const std::string& file) {
   for (const char* part : {"buffers", "images", "animations"}) document.erase(part);
-  prune(document);
+  const std::vector<ZeroIndices> zero_indices = take_zero_indices(document);
   const std::string text = document.dump();
   tinygltf::TinyGLTF loader;
   tinygltf::Model model;
@@ -203,6 +162,8 @@ tinygltf::Model convert(json document, const std::string& file) {
     const std::string first_line = error.substr(0, error.find('\n'));
     gltf_fail(file, "", first_line.empty() ? "cannot be read as glTF 2.0" : first_line);
   }
+  for (const ZeroIndices& taken : zero_indices)
+    model.meshes[taken.mesh].primitives[taken.primitive].indices = taken.accessor;
   return model;
 }
 
@@ -248,11 +209,12 @@ GltfDocument read_document(std::span<const std::byte> bytes, GltfOrigin origin) 
 
   const GltfContainer container = split_container(bytes, file);
   json parsed = parse_json(container.json, file, MOST_VALUES);
+  make_whole(parsed);
   check_gltf(parsed, file);
-  check_pairs(parsed, file);
   check_version(parsed, file);
-  check_extensions(parsed, file, document.notes);
+  check_extensions(parsed, file, drop_unread(parsed), document.notes);
   note_left_out(parsed, document.notes);
+  note_allowed(parsed, document.notes);
 
   document.buffers = read_buffers(parsed, document.origin, container.binary);
   document.files = buffer_files(parsed, document.origin);

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "scene/captured_frame.h"
@@ -29,9 +31,12 @@ glm::vec2 vec2_of(const tinygltf::Value& extension, const char* key, glm::vec2 f
   return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
 }
 
-void apply_transform(const tinygltf::ExtensionMap& extensions, Texture& texture) {
-  const auto found = extensions.find("KHR_texture_transform");
-  if (found == extensions.end()) return;
+/// `Info` is one of tinygltf's three kinds of texture info.
+template <class Info>
+void read_coordinates(const Info& info, Texture& texture) {
+  texture.uv = static_cast<std::uint32_t>(info.texCoord);
+  const auto found = info.extensions.find("KHR_texture_transform");
+  if (found == info.extensions.end()) return;
   const tinygltf::Value& transform = found->second;
   texture.offset = vec2_of(transform, "offset", texture.offset);
   texture.scale = vec2_of(transform, "scale", texture.scale);
@@ -44,6 +49,9 @@ struct TextureReader {
   GltfDocument& document;
   std::vector<GltfImageUse>& images;
   std::map<std::pair<int, bool>, std::int32_t> places;
+  std::set<int> without_image;  ///< textures
+  std::set<int> other_filters;  ///< samplers
+  std::size_t without_set = 0;  ///< uses whose coordinates a vertex has no place for
 
   std::int32_t place(int image, bool srgb) {
     const auto [found, added] = places.try_emplace({image, srgb}, static_cast<std::int32_t>(images.size()));
@@ -51,26 +59,39 @@ struct TextureReader {
     return found->second;
   }
 
-  /// `Info` is one of tinygltf's three kinds of texture info.
   template <class Info>
   Texture read(const Info& info, bool srgb) {
     Texture texture;
     if (info.index < 0) return texture;
     const tinygltf::Texture& from = document.model.textures[static_cast<std::size_t>(info.index)];
     if (from.source < 0) {
-      document.notes.push_back(fmt::format("texture {}: no image in a format that is supported, left out", info.index));
+      without_image.insert(info.index);
       return texture;
     }
+    read_coordinates(info, texture);
+    if (texture.uv >= Vertex{}.uv.size()) {
+      ++without_set;
+      return {};
+    }
     texture.image = place(document.images[static_cast<std::size_t>(from.source)].first_alike, srgb);
-    texture.uv = static_cast<std::uint32_t>(info.texCoord);
     if (from.sampler >= 0) {
       const tinygltf::Sampler& sampler = document.model.samplers[static_cast<std::size_t>(from.sampler)];
       texture.wrap_u = to_wrap(sampler.wrapS);
       texture.wrap_v = to_wrap(sampler.wrapT);
       texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+      const bool is_linear = sampler.minFilter < 0 || sampler.minFilter == TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+      if (!is_linear) other_filters.insert(from.sampler);
     }
-    apply_transform(info.extensions, texture);
     return texture;
+  }
+
+  void note_left_out() const {
+    const auto note = [this](std::size_t count, std::string_view what) {
+      if (count > 0) document.notes.push_back(fmt::format("{} {}", count, what));
+    };
+    note(without_image.size(), "textures left out: they have no image in a format that is supported");
+    note(without_set, "uses of textures left out: their texCoord is neither 0 nor 1");
+    note(other_filters.size(), "samplers have their minFilter replaced: textures become smaller by linear mip levels");
   }
 };
 
@@ -118,7 +139,7 @@ Material read_material(const tinygltf::Material& from, TextureReader& textures) 
 
 GltfMaterials read_materials(GltfDocument& document) {
   GltfMaterials result;
-  TextureReader textures{document, result.images, {}};
+  TextureReader textures{.document = document, .images = result.images};
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
     const tinygltf::Material& from = document.model.materials[i];
     result.materials.push_back(read_material(from, textures));
@@ -127,6 +148,7 @@ GltfMaterials read_materials(GltfDocument& document) {
       document.notes.push_back(fmt::format("material {}: emits {:g}, shown as {:g}, the most that is kept of a pixel",
                                            i, most, LARGEST_EMISSION));
   }
+  textures.note_left_out();
   Material fallback;
   fallback.name = "default";
   fallback.metallic = 1.0F;  // as the specification's default material

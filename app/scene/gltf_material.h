@@ -21,7 +21,7 @@ struct GltfMaterials {
   std::vector<GltfImageUse> images;  ///< what Texture::image points into
 };
 
-/// Throws Error. Textures without an image are noted in the document.
+/// Throws Error. What of textures and samplers is left out is noted in the document.
 [[nodiscard]] GltfMaterials read_materials(GltfDocument& document);
 
 }  // namespace lamp::app

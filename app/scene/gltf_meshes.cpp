@@ -57,6 +57,7 @@ class MeshBuilder {
   }
 
   [[nodiscard]] std::size_t left_out() const { return left_out_.size(); }
+  [[nodiscard]] std::size_t without_positions() const { return without_positions_.size(); }
   [[nodiscard]] std::size_t without_coordinates() const { return without_coordinates_.size(); }
 
  private:
@@ -73,7 +74,7 @@ class MeshBuilder {
       const std::optional<Triangles> triangles = read_primitive(document_, {mesh, i, pose}, normal_uv, notes);
       note_once(notes);
       if (!triangles) {
-        left_out_.emplace(mesh, i);
+        (primitives[i].mode < TINYGLTF_MODE_TRIANGLES ? left_out_ : without_positions_).emplace(mesh, i);
         continue;
       }
       if (lacks_coordinates(primitives[i], scene_.materials[material])) without_coordinates_.emplace(mesh, i);
@@ -132,6 +133,7 @@ class MeshBuilder {
   std::map<MeshUse, std::vector<std::uint32_t>> made_;
   std::set<std::string> noted_;
   std::set<std::pair<std::size_t, std::size_t>> left_out_;             ///< mesh and primitive
+  std::set<std::pair<std::size_t, std::size_t>> without_positions_;    ///< likewise
   std::set<std::pair<std::size_t, std::size_t>> without_coordinates_;  ///< likewise
 };
 
@@ -153,6 +155,9 @@ void add_meshes(GltfDocument& document, std::span<const PlacedNode> nodes, Scene
   }
   if (builder.left_out() > 0) {
     document.notes.push_back(fmt::format("{} primitives of points or lines left out", builder.left_out()));
+  }
+  if (builder.without_positions() > 0) {
+    document.notes.push_back(fmt::format("{} primitives without POSITION left out", builder.without_positions()));
   }
   if (builder.without_coordinates() > 0) {
     document.notes.push_back(fmt::format("{} primitives lack texture coordinates: a texture of theirs is one colour",

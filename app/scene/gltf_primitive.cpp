@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -44,7 +46,6 @@ void read_colors(const PrimitiveReader& reader, std::vector<Vertex>& vertices, s
 }
 
 std::vector<Vertex> read_vertices(const PrimitiveReader& reader, std::vector<std::string>& notes) {
-  if (!reader.has(POSITION.name)) reader.fail("POSITION is missing, expected an attribute of that name");
   const GltfFloats positions = read_attribute(reader, POSITION, 0);
   std::vector<Vertex> vertices(positions.count());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -107,13 +108,22 @@ void note_repairs(const PrimitiveReader& reader, std::size_t count, std::string_
   if (count > 0) notes.push_back(fmt::format("{}: {} {} of length 0 replaced", reader.element, count, what));
 }
 
+/// repair_tangents() makes 1 or -1 of it.
+void note_handedness(const PrimitiveReader& reader, const Triangles& triangles, std::vector<std::string>& notes) {
+  const auto is_odd = [](const Vertex& vertex) { return std::abs(std::abs(vertex.tangent.w) - 1.0F) > 1e-3F; };
+  const auto count = std::ranges::count_if(triangles.vertices, is_odd);
+  if (count > 0)
+    notes.push_back(
+        fmt::format("{}: {} tangents with a w that is not 1 or -1: its sign is taken", reader.element, count));
+}
+
 }  // namespace
 
 std::optional<Triangles> read_primitive(const GltfDocument& document, GltfPrimitive where,
                                         std::optional<std::uint32_t> normal_uv, std::vector<std::string>& notes) {
   const PrimitiveReader reader{document, document.model.meshes[where.mesh].primitives[where.primitive],
                                fmt::format("mesh {} primitive {}", where.mesh, where.primitive)};
-  if (reader.primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
+  if (reader.primitive.mode < TINYGLTF_MODE_TRIANGLES || !reader.has(POSITION.name)) return std::nullopt;
 
   Triangles triangles;
   triangles.vertices = read_vertices(reader, notes);
@@ -128,6 +138,7 @@ std::optional<Triangles> read_primitive(const GltfDocument& document, GltfPrimit
   }
   // Tangents without normals mean nothing; the specification has them ignored.
   if (has_normals && reader.has(TANGENT.name)) {
+    note_handedness(reader, triangles, notes);
     note_repairs(reader, repair_tangents(triangles), "tangents", notes);
   } else if (normal_uv) {
     make_tangents(triangles, *normal_uv);

@@ -22,9 +22,9 @@ struct GltfPrimitive {
   const GltfPose* pose = nullptr;  ///< of its skin; null: it has none
 };
 
-/// The triangles of a primitive, or nothing for points and lines. `normal_uv` is the texture coordinate of its
-/// material's normal texture, if it has one: then missing tangents are made. Notes say what was replaced.
-/// Throws Error.
+/// The triangles of a primitive, or nothing for points and lines and without positions. `normal_uv` is the texture
+/// coordinate of its material's normal texture, if it has one: then missing tangents are made. Notes say what was
+/// replaced. Throws Error.
 [[nodiscard]] std::optional<Triangles> read_primitive(const GltfDocument& document, GltfPrimitive where,
                                                       std::optional<std::uint32_t> normal_uv,
                                                       std::vector<std::string>& notes);

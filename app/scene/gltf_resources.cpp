@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -75,11 +76,14 @@ std::string decode_percent(std::string_view text) {
   return decoded;
 }
 
+/// The begin of it, as it may be long.
+std::string_view shown(std::string_view uri) { return uri.substr(0, 60); }
+
 std::vector<std::byte> read_data_uri(const std::string& uri, const GltfOrigin& origin, const std::string& element) {
   const std::size_t comma = uri.find(',');
   const std::string_view head = std::string_view(uri).substr(0, comma);
   if (comma == std::string::npos || !head.ends_with(";base64")) {
-    gltf_fail(origin.file, element, fmt::format("uri begins '{}', expected 'data:TYPE;base64,'", head.substr(0, 60)));
+    gltf_fail(origin.file, element, fmt::format("uri begins '{}', expected 'data:TYPE;base64,'", shown(head)));
   }
   std::optional<std::vector<std::byte>> bytes = decode_base64(std::string_view(uri).substr(comma + 1));
   if (!bytes) gltf_fail(origin.file, element, "the data URI cannot be decoded, expected base64");
@@ -88,17 +92,24 @@ std::vector<std::byte> read_data_uri(const std::string& uri, const GltfOrigin& o
 
 }  // namespace
 
+bool is_data_uri(std::string_view uri) {
+  constexpr std::string_view SCHEME = "data:";
+  // Schemes ignore case.
+  return std::ranges::equal(uri.substr(0, SCHEME.size()), SCHEME,
+                            [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
 std::optional<std::filesystem::path> external_file(const std::string& uri, const GltfOrigin& origin,
                                                    const std::string& element) {
-  if (uri.starts_with("data:")) return std::nullopt;
+  if (is_data_uri(uri)) return std::nullopt;
   const std::filesystem::path relative = decode_percent(uri);
   if (!stays_below(relative) || uri.find("://") != std::string::npos) {
     gltf_fail(origin.file, element,
-              fmt::format("uri is '{}', expected a data URI or a path below the file's own folder", uri));
+              fmt::format("uri is '{}', expected a data URI or a path below the file's own folder", shown(uri)));
   }
   if (origin.folder.empty()) {
     gltf_fail(origin.file, element,
-              fmt::format("uri is '{}', expected a data URI, as the scene does not come from a folder", uri));
+              fmt::format("uri is '{}', expected a data URI, as the scene does not come from a folder", shown(uri)));
   }
   return origin.folder / relative.lexically_normal();
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lamp::app {
@@ -17,6 +18,8 @@ struct GltfOrigin {
   std::string file;
   std::filesystem::path folder;
 };
+
+[[nodiscard]] bool is_data_uri(std::string_view uri);
 
 /// The file that a URI leads to; nothing where it is data. Throws Error unless it lies below the folder.
 [[nodiscard]] std::optional<std::filesystem::path> external_file(const std::string& uri, const GltfOrigin& origin,

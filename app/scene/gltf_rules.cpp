@@ -4,14 +4,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_rules.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "files/json_rules.h"
+#include "scene/gltf_error.h"
 
 namespace lamp::app {
 namespace {
+
+using nlohmann::json;
 
 // Bounds on elements: far above real scenes, low enough that `{},{},{}...` cannot exhaust memory.
 constexpr std::size_t MANY = 1 << 18;
@@ -95,8 +100,10 @@ constexpr auto RULES = std::to_array<Rule>({
 
     {.at = "images/*", .key = "uri", .want = Want::text},
     {.at = "images/*", .key = "bufferView", .want = Want::index, .into = "bufferViews"},
+    {.at = "images/*", .key = "mimeType", .want = Want::text},
     {.at = "images/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
     {.at = "samplers/*", .key = "magFilter", .want = Want::natural, .words = "9728, 9729"},
+    {.at = "samplers/*", .key = "minFilter", .want = Want::natural, .words = "9728, 9729, 9984, 9985, 9986, 9987"},
     {.at = "samplers/*", .key = "wrapS", .want = Want::natural, .words = "10497, 33071, 33648"},
     {.at = "samplers/*", .key = "wrapT", .want = Want::natural, .words = "10497, 33071, 33648"},
     {.at = "textures/*", .key = "sampler", .want = Want::index, .into = "samplers"},
@@ -141,7 +148,10 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = LIGHT, .key = "range", .want = Want::number, .min = POSITIVE},
     {.at = LIGHT, .key = "spot", .want = Want::object, .required = true, .when = "spot"},
     {.at = "extensions/KHR_lights_punctual/lights/*/spot", .key = "innerConeAngle", .want = Want::number, .min = 0},
-    {.at = "extensions/KHR_lights_punctual/lights/*/spot", .key = "outerConeAngle", .want = Want::number, .min = 0},
+    {.at = "extensions/KHR_lights_punctual/lights/*/spot",
+     .key = "outerConeAngle",
+     .want = Want::number,
+     .min = POSITIVE},
 
     {.at = "cameras/*", .key = "type", .want = Want::text, .required = true, .words = "perspective, orthographic"},
     {.at = "cameras/*", .key = "name", .want = Want::text, .size = NAME_BYTES},
@@ -181,13 +191,13 @@ constexpr std::string_view TRANSFORM = "extensions/KHR_texture_transform";
 
 constexpr auto TEXTURE_RULES = std::to_array<Rule>({
     {.key = "index", .want = Want::index, .required = true, .into = "textures"},
-    {.key = "texCoord", .want = Want::natural, .min = 0, .max = 1},
+    {.key = "texCoord", .want = Want::natural, .min = 0, .max = INT_LIMIT},
     {.key = "extensions", .want = Want::object},
     {.at = "extensions", .key = "KHR_texture_transform", .want = Want::object},
     {.at = TRANSFORM, .key = "offset", .want = Want::numbers, .size = 2},
     {.at = TRANSFORM, .key = "rotation", .want = Want::number},
     {.at = TRANSFORM, .key = "scale", .want = Want::numbers, .size = 2},
-    {.at = TRANSFORM, .key = "texCoord", .want = Want::natural, .min = 0, .max = 1},
+    {.at = TRANSFORM, .key = "texCoord", .want = Want::natural, .min = 0, .max = INT_LIMIT},
 });
 
 constexpr auto TEXTURE_PLACES = std::to_array<std::string_view>({
@@ -198,11 +208,42 @@ constexpr auto TEXTURE_PLACES = std::to_array<std::string_view>({
     "materials/*/emissiveTexture",
 });
 
+/// What the format forbids, and a reader would have to guess about.
+void check_pairs(const json& document, const std::string& file) {
+  std::size_t number = 0;
+  for (const json& node : gltf_array(document, "nodes")) {
+    const std::string element = fmt::format("node {}", number++);
+    for (const char* part : {"translation", "rotation", "scale"})
+      if (node.contains("matrix") && node.contains(part))
+        gltf_fail(file, element, fmt::format("has a matrix and a {}, expected one of them", part));
+  }
+}
+
+/// Arrays that must hold something, of every element of an array.
+void check_filled(const json& document, const std::string& file, const char* array, const char* element,
+                  const char* member) {
+  std::size_t number = 0;
+  for (const json& of : gltf_array(document, array)) {
+    if (of[member].empty())
+      gltf_fail(file, fmt::format("{} {}", element, number), fmt::format("has no {}, expected one or more", member));
+    ++number;
+  }
+}
+
 }  // namespace
 
-void check_gltf(const nlohmann::json& document, const std::string& file) {
+void check_gltf(const json& document, const std::string& file) {
   check_rules(document, RULES, file);
   for (const std::string_view place : TEXTURE_PLACES) check_rules(document, TEXTURE_RULES, file, place);
+  check_pairs(document, file);
+  check_filled(document, file, "meshes", "mesh", "primitives");
+  check_filled(document, file, "skins", "skin", "joints");
+}
+
+const json& gltf_array(const json& document, const char* array) {
+  static const json NONE = json::array();
+  const auto found = document.find(array);
+  return found == document.end() ? NONE : *found;
 }
 
 }  // namespace lamp::app

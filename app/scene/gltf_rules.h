@@ -14,4 +14,7 @@ namespace lamp::app {
 /// Throws Error for the first value that breaks a rule, named by its element ("mesh 0 primitive 2").
 void check_gltf(const nlohmann::json& document, const std::string& file);
 
+/// An array of the document, empty where there is none.
+[[nodiscard]] const nlohmann::json& gltf_array(const nlohmann::json& document, const char* array);
+
 }  // namespace lamp::app

@@ -108,7 +108,7 @@ const std::vector<Fault>& faults() {
       {"/bufferViews/0/byteStride", "8", "byteStride of bufferView 0 is 8, expected at least 12, the size of an"},
 
       {"/meshes/0/primitives", "", "mesh 0: primitives is missing, expected an array"},
-      {"/meshes/0/primitives/0/attributes", "{}", "mesh 0 primitive 0: POSITION is missing, expected an attribute"},
+      {"/meshes/0/primitives/0/attributes", "{}", "scene: has no triangles, expected a node with a mesh that has some"},
       {"/meshes/0/primitives/0/attributes/POSITION", "9",
        "mesh 0 primitive 0: attributes POSITION is 9, expected an index into accessors (3"},
       {"/meshes/0/primitives/0/indices", "9", "mesh 0 primitive 0: indices is 9, expected an index into accessors (3"},
@@ -117,7 +117,7 @@ const std::vector<Fault>& faults() {
       {"/meshes/0/primitives/0/mode", "7", "mesh 0 primitive 0: mode is 7, expected one of 0, 1, 2, 3, 4, 5, 6"},
       {"/meshes/0/primitives/0/mode", "1", "scene: has no triangles, expected a node with a mesh that has some"},
       {BASE_COLOR + "/index", "5", "material 0 pbrMetallicRoughness baseColorTexture: index is 5, expected an index"},
-      {BASE_COLOR + "/texCoord", "2", "baseColorTexture: texCoord is 2, expected an integer 0 .. 1"},
+      {BASE_COLOR + "/texCoord", "-1", "baseColorTexture: texCoord is -1, expected an integer 0 .. 2147483647"},
       {"/materials/0/alphaMode", "\"GLASS\"",
        "material 0: alphaMode is \"GLASS\", expected one of OPAQUE, MASK, BLEND"},
       {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[9, 9, 9, 1]",
@@ -131,7 +131,9 @@ const std::vector<Fault>& faults() {
       {"/materials/0/pbrMetallicRoughness/metallicFactor", "2", "metallicFactor is 2, expected a number 0 .. 1"},
       {"/textures/0/source", "1", "texture 0: source is 1, expected an index into images (1 there)"},
       {"/textures/0/sampler", "1", "texture 0: sampler is 1, expected an index into samplers (1 there)"},
+      {"/samplers/0/minFilter", "1", "sampler 0: minFilter is 1, expected one of 9728, 9729, 9984, 9985, 9986, 9987"},
       {"/samplers/0/wrapS", "1", "sampler 0: wrapS is 1, expected one of 10497, 33071, 33648"},
+      {"/images/0/mimeType", "7", "image 0: mimeType is 7, expected a string"},
       {"/images/0/uri", "", "image 0: expected either a uri or a bufferView"},
       {"/images/0/uri", "\"data:image/png;base64,AAAA\"", "image 0: cannot be decoded, expected a PNG or JPEG"},
       {"/images/0/uri", "\"data:image/png;base64,!\"", "image 0: the data URI cannot be decoded, expected base64"},
@@ -144,6 +146,7 @@ const std::vector<Fault>& faults() {
       {"/images/0/uri", "\"%2e%2E/x.png\"", "image 0: uri is '%2e%2E/x.png', expected a data URI or a path below the"},
       {"/images/0/uri", "\"x%00.png\"", "image 0: uri is 'x%00.png', expected a data URI or a path below the file's"},
       {"/images/0/uri", "\"\"", "image 0: uri is '', expected a data URI or a path below the file's own folder"},
+      {"/images/0/uri", '"' + std::string(5000, 'n') + '"', "image 0: uri is '" + std::string(60, 'n') + "', expected"},
       {"/images/0/uri", "\"x.png\"", "image 0: uri is 'x.png', expected a data URI, as the scene does not come from"},
 
       {LIGHTS + "/0/type", "\"area\"", "light 0: type is \"area\", expected one of point, spot, directional"},
@@ -161,6 +164,7 @@ const std::vector<Fault>& faults() {
       {LIGHTS + "/0/color", "[1, -1, 0]", "light 0: color is [1,-1,0], expected 3 numbers >= 0"},
       {LIGHTS + "/1/spot", "", "light 1: spot is missing, expected an object"},
       {LIGHTS + "/1/spot/outerConeAngle", "1.6", "light 1: outerConeAngle is 1.6, expected 0 .. pi/2 radians"},
+      {LIGHTS + "/1/spot/outerConeAngle", "0", "light 1 spot: outerConeAngle is 0, expected a number > 0"},
       {LIGHTS + "/1/spot/innerConeAngle", "0.6",
        "light 1: innerConeAngle is 0.6, expected at most outerConeAngle, 0.5"},
 

@@ -102,6 +102,8 @@ TEST(GltfMaterial, DecodesImagesFromUrisAndBufferViews) {
   }
   builder.document["images"][0] = {{"bufferView", builder.view(png)}, {"mimeType", "image/png"}};
   EXPECT_EQ(load_text(builder.glb()).images.at(0).rgba, expected);
+  builder.document["images"][0] = {{"uri", "DATA:image/png;base64," + std::string(PNG)}};
+  EXPECT_EQ(load(builder).images.at(0).rgba, expected) << "schemes ignore case";
 }
 
 TEST(GltfMaterial, DecodesASourceOnce) {
@@ -158,12 +160,49 @@ TEST(GltfMaterial, NotesTexturesThatPrimitivesHaveNoCoordinatesFor) {
   EXPECT_TRUE(load(builder).notes.empty());
 }
 
-TEST(GltfMaterial, NotesTexturesWithoutAnImageItCanRead) {
-  GltfBuilder builder = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+TEST(GltfMaterial, NotesTexturesWithoutAnImageItCanReadOnce) {
+  const json texture = {{"index", 0}};
+  GltfBuilder builder =
+      with_material({{"pbrMetallicRoughness", {{"baseColorTexture", texture}}}, {"emissiveTexture", texture}});
   builder.document["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+  builder.document["extensionsUsed"] = {"KHR_texture_basisu"};
   const Scene scene = load(builder);
   EXPECT_EQ(scene.materials.at(0).base_color_texture.image, -1);
-  EXPECT_EQ(scene.notes, std::vector<std::string>{"texture 0: no image in a format that is supported, left out"});
+  EXPECT_EQ(scene.notes,
+            (std::vector<std::string>{"extensions that are not supported, left out: KHR_texture_basisu",
+                                      "1 textures left out: they have no image in a format that is supported"}));
+}
+
+TEST(GltfMaterial, LeavesOutTexturesOfFurtherCoordinates) {
+  const json moved = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 3}}}}}};
+  const Scene scene = load(with_material(
+      {{"emissiveTexture", {{"index", 0}, {"texCoord", 2}}}, {"pbrMetallicRoughness", {{"baseColorTexture", moved}}}}));
+  EXPECT_EQ(scene.materials.at(0).emissive_texture.image, -1);
+  EXPECT_EQ(scene.materials.at(0).base_color_texture.image, -1);
+  EXPECT_TRUE(scene.images.empty());
+  EXPECT_EQ(scene.notes, std::vector<std::string>{"2 uses of textures left out: their texCoord is neither 0 nor 1"});
+}
+
+TEST(GltfMaterial, NotesFiltersThatItReplaces) {
+  GltfBuilder builder = with_material({{"emissiveTexture", {{"index", 1}}}, {"normalTexture", {{"index", 1}}}});
+  json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_0"] = builder.floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+  for (const auto& [filter, notes] :
+       {std::pair(9728, 1U), std::pair(9729, 1U), std::pair(9984, 1U), std::pair(9987, 0U)}) {
+    builder.document["samplers"][0]["minFilter"] = filter;
+    EXPECT_EQ(load(builder).notes.size(), notes) << filter;
+  }
+  builder.document["samplers"][0]["minFilter"] = 9985;
+  EXPECT_EQ(load(builder).notes,
+            std::vector<std::string>{
+                "1 samplers have their minFilter replaced: textures become smaller by linear mip levels"});
+}
+
+TEST(GltfMaterial, ReadsLargeWholeNumbersOfTransforms) {
+  const json transform = {{"offset", {3000000000, -3000000000}}};
+  const json moved = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+  EXPECT_EQ(load(with_material({{"emissiveTexture", moved}})).materials.at(0).emissive_texture.offset,
+            glm::vec2(3e9F, -3e9F));
 }
 
 }  // namespace

@@ -95,6 +95,36 @@ TEST(GltfMesh, ReadsSparseAccessorsOverDataAndOverNothing) {
   }
 }
 
+TEST(GltfMesh, ReadsIndicesOverNothing) {
+  GltfBuilder builder = triangle();
+  const int at = builder.view(std::vector<std::uint8_t>{1, 2});
+  const int values = builder.view(std::vector<std::uint16_t>{2, 1});
+  primitive_of(builder)["indices"] =
+      builder.add("accessors", {{"componentType", UNSIGNED_SHORT},
+                                {"count", 3},
+                                {"type", "SCALAR"},
+                                {"sparse",
+                                 {{"count", 2},
+                                  {"indices", {{"bufferView", at}, {"componentType", UNSIGNED_BYTE}}},
+                                  {"values", {{"bufferView", values}}}}}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.vertices.size(), 3U) << "each corner has its own, for lack of normals";
+  EXPECT_EQ(scene.vertices[1].position, glm::vec3(0, 1, 0));
+  EXPECT_EQ(scene.vertices[2].position, glm::vec3(1, 0, 0));
+}
+
+TEST(GltfMesh, TakesTheSignOfAHandednessThatIsNone) {
+  GltfBuilder builder = triangle();
+  json& attributes = primitive_of(builder)["attributes"];
+  attributes["NORMAL"] = builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+  attributes["TANGENT"] = builder.floats({1, 0, 0, -1, 1, 0, 0, -0.5F, 1, 0, 0, 0}, "VEC4", 4);
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.vertices.at(1).tangent.w, -1.0F);
+  EXPECT_EQ(scene.vertices.at(2).tangent.w, 1.0F);
+  EXPECT_EQ(scene.notes,
+            std::vector<std::string>{"mesh 0 primitive 0: 2 tangents with a w that is not 1 or -1: its sign is taken"});
+}
+
 /// The world-space normal of a scene's first triangle, from the order of its corners.
 glm::vec3 facing(const Scene& scene) {
   const lamp::app::Mesh& mesh = scene.meshes.at(scene.instances.at(0).mesh);

@@ -164,6 +164,7 @@ TEST(GltfSkins, SayWhatIsWrongWithASkin) {
   };
   expect_error(with("/nodes/0/skin", 1), "node 0: skin is 1, expected an index into skins (1 there)");
   expect_error(with("/skins/0", json::object()), "skin 0: joints is missing, expected an array of indices into nodes");
+  expect_error(with("/skins/0/joints", json::array()), "skin 0: has no joints, expected one or more");
   expect_error(with("/skins/0/joints/1", 9), "skin 0: joints is [1,9], expected an array of indices into nodes (4 ");
   expect_error(with("/skins/0/inverseBindMatrices", 99), "skin 0: inverseBindMatrices is 99, expected an index into");
   expect_error(with("/skins/0/inverseBindMatrices", 0),

@@ -283,17 +283,68 @@ TEST(Gltf, LeavesOutCamerasThatAScaleOfZeroHides) {
     EXPECT_EQ(camera.world_from_camera, glm::mat4(1.0F)) << camera.name;
 }
 
+TEST(Gltf, TakesWholeNumbersHoweverTheyAreWritten) {
+  std::string text = triangle().gltf();
+  for (const auto& [integer, decimal] :
+       {std::pair<std::string, std::string>{"\"byteLength\":36", "\"byteLength\":36.0"},
+        {"\"scene\":0", "\"scene\":0.0"},
+        {"\"count\":3", "\"count\":0.3e1"},
+        {"\"componentType\":5126", "\"componentType\":5.126E3"},
+        {"\"nodes\":[0]", "\"nodes\":[0.0]"}}) {
+    for (std::size_t at = text.find(integer); at != std::string::npos; at = text.find(integer, at + decimal.size()))
+      text.replace(at, integer.size(), decimal);
+    EXPECT_NE(text.find(decimal), std::string::npos) << decimal;
+  }
+  EXPECT_EQ(load_text(text).vertices.size(), 3U);
+}
+
+TEST(Gltf, NotesExtensionsThatItDoesNotDeclare) {
+  GltfBuilder builder = triangle();
+  builder.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = json::object();
+  builder.document["meshes"][0]["primitives"][0]["extensions"]["KHR_b"] = {{"extensions", {{"KHR_a", 1}}}};
+  builder.document["extensionsUsed"] = {"KHR_b"};
+  EXPECT_EQ(load(builder).notes,
+            std::vector<std::string>{"extensions that are not supported, left out: KHR_b, EXT_mesh_gpu_instancing"});
+}
+
+TEST(Gltf, ReadsWhatFilesOftenHaveAgainstTheFormat) {
+  GltfBuilder builder = triangle();
+  builder.add("materials", {{"emissiveFactor", {0, 2.5, 0}}});
+  builder.add("images", {{"uri", "data:image/png;base64," + std::string(PNG)}, {"mimeType", "image/webp"}});
+  builder.add("images", {{"uri", "data:image/png;base64," + std::string(PNG)}, {"mimeType", "image/ktx2"}});
+  builder.add("textures", {{"source", 0}});
+  builder.root({{"extensions", builder.light({{"type", "point"}, {"color", {1, 3, 1}}})}});
+  const json cone = {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}};
+  builder.root({{"extensions", builder.light({{"type", "spot"}, {"spot", cone}})}});
+  builder.root({{"matrix", {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.materials.at(0).emissive.y, 2.5F);
+  EXPECT_EQ(glm::vec3(scene.lights.at(0).color), glm::vec3(1, 3, 1));
+  EXPECT_EQ(scene.notes,
+            (std::vector<std::string>{"against glTF, but read: 1 materials with an emissiveFactor above 1",
+                                      "against glTF, but read: 1 lights with a color above 1",
+                                      "against glTF, but read: 1 spots whose innerConeAngle is their outerConeAngle",
+                                      "against glTF, but read: 1 nodes with a matrix that shears",
+                                      "against glTF, but read: 1 images whose mimeType is missing or unknown"}));
+}
+
 TEST(Gltf, NotesWhatItLeavesOut) {
   GltfBuilder builder = triangle();
   builder.add("animations", json::object());
   builder.document["meshes"][0]["primitives"][0]["targets"] = json::array({{{"POSITION", 0}}});
   builder.document["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+  builder.document["meshes"][0]["primitives"].push_back({{"attributes", {{"NORMAL", 0}}}});
+  for (const char* name : {"TEXCOORD_2", "COLOR_1", "_MINE", "JOINTS_0"})
+    builder.document["meshes"][0]["primitives"][0]["attributes"][name] = 0;
+  builder.add("scenes", json::object());
   builder.document["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_lights_punctual"};
   const Scene scene = load(builder);
-  EXPECT_EQ(scene.notes, (std::vector<std::string>{
-                             "extensions that are not supported, left out: KHR_materials_clearcoat",
-                             "1 animations left out: the scene stands still", "morph targets of 1 primitives left out",
-                             "1 primitives of points or lines left out"}));
+  EXPECT_EQ(scene.notes,
+            (std::vector<std::string>{
+                "extensions that are not supported, left out: KHR_materials_clearcoat",
+                "1 animations left out: the scene stands still", "1 scenes left out: scene 0 is shown",
+                "morph targets of 1 primitives left out", "attributes of 1 primitives left out: COLOR_1, TEXCOORD_2",
+                "1 primitives of points or lines left out", "1 primitives without POSITION left out"}));
 }
 
 }  // namespace
