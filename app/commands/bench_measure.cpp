@@ -106,6 +106,7 @@ void take_pictures(const MeasureInfo& info, Renderer& renderer, std::list<Candid
     pictures.push_back({.label = full_label(*candidate.entry),
                         .key = key_of(info.group, *candidate.entry),
                         .lighting = &*candidate.lighting,
+                        .still = candidate.still ? &*candidate.still : nullptr,
                         .show = [&] { checker.show(candidate.still_lists.get()); }});
   }
   if (shown.empty()) return;

@@ -61,14 +61,17 @@ struct Shown {
   std::vector<std::uint32_t> counts;  ///< empty: there is no look-up
 };
 
-Shown show(Renderer& renderer, Lighting& lighting, std::uint32_t factor) {
+Shown show(Renderer& renderer, const BenchPicture& of, std::uint32_t factor) {
+  Lighting& lighting = *of.lighting;
   const Targets& targets = renderer.targets();
   const HdrImage image = renderer.render(lighting).image;
   Shown shown{.picture = shrunk(tone_map(image, automatic_exposure(image)), factor)};
   if (lighting.info().path == ShadingPath::standard_deferred) return shown;
   const auto which = lighting.fused() ? vulkan::PlanRunner::Passes::fused : vulkan::PlanRunner::Passes::separate;
   const std::vector<Visit> visits = renderer.visit_all(lighting, which);
-  shown.counts = shrunk(walked_lights(visits), targets.width, targets.height, factor);
+  std::vector<std::uint32_t> counts = walked_lights(visits);
+  if (of.still != nullptr) add_still_walks(*of.still, pixel_points(renderer), counts);
+  shown.counts = shrunk(counts, targets.width, targets.height, factor);
   return shown;
 }
 
@@ -88,7 +91,7 @@ std::vector<nlohmann::json> write_pictures(const std::filesystem::path& folder, 
   std::vector<Shown> all;
   for (const BenchPicture& picture : pictures) {
     picture.show();
-    all.push_back(show(renderer, *picture.lighting, factor));
+    all.push_back(show(renderer, picture, factor));
   }
   const std::uint32_t scale = std::bit_ceil(longest(all));
   std::vector<nlohmann::json> files;

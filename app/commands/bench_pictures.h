@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/groups.h"
+#include "commands/request.h"
 #include "render/renderer.h"
 
 namespace lamp::app {
@@ -18,7 +19,8 @@ struct BenchPicture {
   std::string label;
   std::string key;  ///< of its result, which no other has
   Lighting* lighting = nullptr;
-  std::function<void()> show;  ///< makes the renderer's frame the lighting's
+  const StillSetup* still = nullptr;  ///< null: it has no lists of still lights
+  std::function<void()> show;         ///< makes the renderer's frame the lighting's
 };
 
 /// Writes a picture and a heat map for each into `folder`/pictures, the maps on one scale. Returns for each

@@ -95,6 +95,16 @@ std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits) {
   return counts;
 }
 
+std::vector<gpu::StillPoint> all_pixel_points(Renderer& renderer) {
+  return side_by_side(renderer, [&] { return pixel_points(renderer); });
+}
+
+void add_still_walks(const StillSetup& still, std::span<const gpu::StillPoint> points,
+                     std::vector<std::uint32_t>& walked) {
+  for (std::size_t i = 0; i < walked.size(); ++i)
+    if (walked[i] != SKY_CELL) walked[i] += static_cast<std::uint32_t>(still.lights_at(points[i]).size());
+}
+
 LdrImage heatmap_of(Session& session, std::span<const std::uint32_t> counts, const HeatmapRequest& request) {
   const Targets& targets = session.renderer().targets();
   const std::array<HeatSignal, 2> of_shadows{

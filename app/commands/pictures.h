@@ -12,6 +12,7 @@
 #include "commands/request.h"
 #include "image/image.h"
 #include "render/shaders/shadow_leak_data.h"
+#include "render/still_check.h"
 
 namespace lamp::app {
 
@@ -23,6 +24,11 @@ void for_each_picture(Renderer& renderer, const std::function<void(std::span<con
 
 /// Lights walked at each pixel; SKY_CELL for sky.
 [[nodiscard]] std::vector<std::uint32_t> walked_lights(std::span<const Visit> visits);
+/// As `pixel_points` of a view (render/still_check.h), of several views side by side. The first stays shown.
+[[nodiscard]] std::vector<gpu::StillPoint> all_pixel_points(Renderer& renderer);
+/// Adds the lights that lists of still lights have at these points, one for each pixel.
+void add_still_walks(const StillSetup& still, std::span<const gpu::StillPoint> points,
+                     std::vector<std::uint32_t>& walked);
 
 /// What a heat map counts.
 enum class HeatOf : std::uint8_t {

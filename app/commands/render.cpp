@@ -116,8 +116,9 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   if (stats.mirror)
     for (const std::string& note : stats.mirror->notes) line("note", note);
   if (stats.findings && parse_path(stats.path) != ShadingPath::standard_deferred)
-    line("walked", fmt::format("{} pairs of pixel and light; a pixel's list has {:.1f} lights on average, {} at most",
-                               stats.findings->evaluations, stats.findings->list_mean(), stats.findings->list_max));
+    line("walked", fmt::format("{} pairs of pixel and light{}; a cell's list has {:.1f} lights on average, {} at most",
+                               stats.findings->evaluations, stats.still ? ", besides still lights" : "",
+                               stats.findings->list_mean(), stats.findings->list_max));
   for (const std::string& words : all_overflow_words(stats)) line("overflow", words);
   std::string passes;
   for (const PassTime& pass : stats.rendered.passes)
@@ -206,7 +207,7 @@ void write_maps(const RenderOptions& o, const Drawing& drawing, const Drawn& dra
   if (of == HeatOf::shadow_leaks) return write_leaks(o, drawing, drawn);
   std::vector<std::uint32_t> counts =
       of == HeatOf::lights ? walked_lights(drawn.visits) : shadow_heat(session, drawing.lighting, of);
-  if (session.still() != nullptr && !session.renderer().depth().several()) add_still_walks(session, counts);
+  if (session.still() != nullptr) add_still_walks(*session.still(), all_pixel_points(session.renderer()), counts);
   const std::string title = of == HeatOf::lights
                                 ? fmt::format("{}, {} lights", drawn.stats.method, drawn.stats.lights)
                                 : fmt::format("{} shadow map, {}", of == HeatOf::shadow_age ? "oldest" : "smallest",

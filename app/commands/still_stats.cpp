@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/stats.h"
-#include "render/heatmap.h"
 #include "render/still_tree.h"
 
 namespace lamp::app {
@@ -25,23 +24,6 @@ StillStats still_stats(const StillSetup& still) {
           .build_ms = still.build_ms,
           .lists = still.lists.stats,
           .notes = still.lists.notes};
-}
-
-void add_still_walks(Session& session, std::vector<std::uint32_t>& walked) {
-  const StillSetup& still = *session.still();
-  if (still.tree) {
-    const std::vector<float> depth = session.renderer().read_depth();
-    const View& view = session.renderer().view();
-    for (std::uint32_t i = 0; i < walked.size(); ++i) {
-      if (walked[i] == SKY_CELL) continue;
-      const Vec3 position{DVec3(view.world_position(i % view.width(), i / view.width(), depth[i]))};
-      walked[i] += static_cast<std::uint32_t>(still.tree->lights_at(position).size());
-    }
-    return;
-  }
-  const std::vector<gpu::StillPoint> points = pixel_points(session.renderer());
-  for (std::size_t i = 0; i < walked.size(); ++i)
-    if (points[i].triangle != NO_TRIANGLE) walked[i] += static_cast<std::uint32_t>(still.lights_at(points[i]).size());
 }
 
 std::string still_words(const StillStats& s) {

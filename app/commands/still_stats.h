@@ -24,9 +24,6 @@ struct StillStats {
 };
 [[nodiscard]] StillStats still_stats(const StillSetup& still);
 
-/// Adds the lights that each pixel walks in its triangle's list; of one view, with one sample a pixel.
-void add_still_walks(Session& session, std::vector<std::uint32_t>& walked);
-
 /// "2048 lights: 1.2 MB, 14.9 bytes a triangle; ..."
 [[nodiscard]] std::string still_words(const StillStats& stats);
 [[nodiscard]] nlohmann::json to_json(const StillStats& stats);

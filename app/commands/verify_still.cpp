@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "commands/pictures.h"
 #include "commands/verify_rows.h"
 #include "render/scene_occluders.h"
 #include "system/print.h"
@@ -64,8 +65,11 @@ std::optional<StillStats> check_still_lists(const Request& request, Session& ses
                          .list = [&](const gpu::StillPoint& point) { return still.lights_at(point); },
                          .on_gpu = *session.renderer().still(),
                          .occluders = occluders ? &*occluders : nullptr};
-  std::vector<gpu::StillPoint> pixels =
-      still.tree ? positions_of_pixels(session.renderer()) : points_of_pixels(session.renderer());
+  std::vector<gpu::StillPoint> pixels;
+  for_each_picture(session.renderer(), [&](std::span<const float>) {
+    const std::vector<gpu::StillPoint> more = points_of_pixels(session.renderer());
+    pixels.insert(pixels.end(), more.begin(), more.end());
+  });
   if (occluders && pixels.size() > MOST_SEEN) pixels = thinned(pixels, MOST_SEEN);
   stats.findings.emplace_back("pixels", check_all(check, pixels, "pixels"));
   const std::size_t count = points == 0 ? RANDOM_POINTS : points;

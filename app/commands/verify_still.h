@@ -8,8 +8,8 @@
 
 namespace lamp::app {
 
-/// At the frame's pixels and at `points` random points of all surfaces; 0: 10 000. Nothing where there are no such
-/// lists.
+/// At the pixels of all the frame's pictures and at `points` random points of all surfaces; 0: 10 000. Nothing where
+/// there are no such lists.
 [[nodiscard]] std::optional<StillStats> check_still_lists(const Request& request, Session& session, const Setup& setup,
                                                           std::uint32_t points);
 

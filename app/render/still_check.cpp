@@ -86,26 +86,11 @@ Verdict StillFindings::verdict() const {
   return missed != 0 || unordered != 0 || differing != 0 ? Verdict::failed : Verdict::ok;
 }
 
-std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer) {
-  std::vector<gpu::StillPoint> points = pixel_points(renderer);
-  std::erase_if(points, [](const gpu::StillPoint& point) { return point.triangle == NO_TRIANGLE; });
-  return points;
-}
-
-std::vector<gpu::StillPoint> positions_of_pixels(Renderer& renderer) {
-  const std::vector<float> depth = renderer.draw_depth();
-  const View& view = renderer.view();
-  std::vector<gpu::StillPoint> points;
-  for (std::uint32_t i = 0; i < depth.size(); ++i)
-    if (depth[i] != renderer.depth().sky())
-      points.push_back({.position = Vec3(DVec3(view.world_position(i % view.width(), i / view.width(), depth[i]))),
-                        .triangle = NO_TRIANGLE});
-  return points;
-}
-
 std::vector<gpu::StillPoint> pixel_points(Renderer& renderer) {
-  const std::vector<std::uint32_t> triangles = renderer.read_triangles();
+  renderer.need_surfaces();
   const std::vector<float> depth = renderer.read_depth();
+  const std::vector<std::uint32_t> triangles =
+      renderer.targets().numbered ? renderer.read_triangles() : std::vector<std::uint32_t>(depth.size(), NO_TRIANGLE);
   const View& view = renderer.view();
   std::vector<gpu::StillPoint> points;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -113,6 +98,15 @@ std::vector<gpu::StillPoint> pixel_points(Renderer& renderer) {
     const DVec3 position(view.world_position(i % view.width(), i / view.width(), depth[i]));
     points.push_back({.position = sky ? Vec3{} : Vec3(position), .triangle = sky ? NO_TRIANGLE : triangles[i]});
   }
+  return points;
+}
+
+std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer) {
+  const std::vector<gpu::StillPoint> all = pixel_points(renderer);
+  const std::vector<float> depth = renderer.read_depth();
+  std::vector<gpu::StillPoint> points;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (depth[i] != renderer.depth().sky()) points.push_back(all[i]);
   return points;
 }
 

@@ -13,14 +13,12 @@
 
 namespace lamp::app {
 
-/// Of a pixel that shows none.
+/// Of a pixel that shows none, and of all where a renderer has no lists of triangles.
 inline constexpr std::uint32_t NO_TRIANGLE = ~0U;
 
-/// The point that each pixel shows, row by row, and its triangle: those that deferred shading asks lists with. Of one
-/// view, with one sample a pixel, and of a renderer with lists of triangles.
+/// The point that each pixel of the picture shows, row by row, and its triangle: those that deferred shading asks lists
+/// with.
 [[nodiscard]] std::vector<gpu::StillPoint> pixel_points(Renderer& renderer);
-/// The same of a scene whose triangles have no numbers: NO_TRIANGLE, and the sky left out.
-[[nodiscard]] std::vector<gpu::StillPoint> positions_of_pixels(Renderer& renderer);
 /// Without those of the sky.
 [[nodiscard]] std::vector<gpu::StillPoint> points_of_pixels(Renderer& renderer);
 [[nodiscard]] std::vector<gpu::StillPoint> random_points_on(std::span<const StillTriangle> triangles, std::size_t count,

@@ -1,6 +1,9 @@
 // Lights that stand still on the command line: numbers, checks, and what is wrong in one line.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "cli/cli_test.h"
+#include "image/image.h"
 
 namespace lamp::cli {
 namespace {
@@ -75,6 +78,48 @@ TEST_F(Still, TreesServeDeferredShading) {
   EXPECT_GT(still.at("leaves"), 0);
   ASSERT_EQ(still.at("checks").size(), 2);
   for (const nlohmann::json& check : still.at("checks")) EXPECT_EQ(check.at("verdict"), "ok");
+}
+
+// All lights stand still, so that the method's own lists are empty.
+TEST_F(Still, LightsAreInTheHeatMapOfEveryViewAndOfSamples) {
+  const auto half_has_colours = [](const app::LdrImage& map, std::uint32_t begin) {
+    for (std::uint32_t i = 0; i < map.pixels.size(); ++i)
+      if (i % map.width >= begin && i % map.width < begin + map.width / 2 && map.pixels[i] != map.pixels[begin])
+        return true;
+    return false;
+  };
+  const std::vector<std::pair<Arguments, const char*>> cases{{{"--stereo", "0.064"}, "world-tree"},
+                                                             {{"--stereo", "0.064"}, "triangle-lists"},
+                                                             {{"--depth-samples", "4"}, "world-tree"}};
+  for (const auto& [pictures, lists] : cases) {
+    SCOPED_TRACE(pictures.front() + " " + lists);
+    Arguments render{"render",    "corridor", "--size",        "96x27",      "--lights", "40",
+                     "--still",   "1",        "--still-lists", lists,        "--method", "clustered",
+                     "--heatmap", "heat.png", "--out",         "picture.png"};
+    render.insert(render.end(), pictures.begin(), pictures.end());
+    const std::string words = output_of(render);
+    EXPECT_NE(words.find("walked    0 pairs of pixel and light, besides still lights;"), std::string::npos) << words;
+    const app::LdrImage map = app::read_png(path("heat.png"));
+    EXPECT_TRUE(half_has_colours(map, 0));
+    EXPECT_TRUE(half_has_colours(map, map.width / 2));
+  }
+}
+
+TEST_F(Still, ListsAreCheckedInEveryView) {
+  for (const char* lists : {"world-tree", "triangle-lists"}) {
+    SCOPED_TRACE(lists);
+    const auto points_with = [&](const char* views) {
+      const nlohmann::json row =
+          json_of({"verify", "corridor", "--lights", "40", "--size", "32x18", "--method", "clustered", "--still", "1",
+                   "--still-lists", lists, "--points", "100", "--views", views, "--json"})
+              .at(0);
+      EXPECT_EQ(row.at("still").at("checks").at(0).at("verdict"), "ok");
+      return row.at("still").at("checks").at(0).at("count").get<std::size_t>();
+    };
+    const std::size_t of_one = points_with("1");
+    EXPECT_LE(of_one, 32U * 18U);
+    EXPECT_GT(points_with("4"), 2 * of_one);
+  }
 }
 
 TEST_F(Still, SayWhatIsWrong) {
