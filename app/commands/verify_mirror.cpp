@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/verify_mirror.h"
 
+#include <utility>
+
+#include "commands/pictures.h"
 #include "commands/verify_rows.h"
 #include "system/print.h"
 #include "system/progress.h"
@@ -9,17 +12,22 @@
 namespace lamp::app {
 namespace {
 
-constexpr std::size_t MOST_RAYS = 50'000;  // a few seconds of rays in double precision
+constexpr std::size_t MOST_RAYS = 50'000;  // of all pictures: a few seconds of rays in double precision
 
 }  // namespace
 
 std::optional<MirrorStats> verify_mirror(Session& session, const Setup& setup, Lighting& lighting) {
   Renderer& renderer = session.renderer();
-  if (renderer.mirrored() == nullptr || renderer.depth().several()) return std::nullopt;
-  show_progress("verify mirror rays");
-  static_cast<void>(renderer.render(lighting));
+  if (renderer.mirrored() == nullptr) return std::nullopt;
+  const std::size_t pictures = renderer.all_pictures().size();
+  MirrorFindings findings;
+  for_each_picture(renderer, [&](std::span<const float>) {
+    show_progress("verify mirror rays");
+    static_cast<void>(renderer.render(lighting));
+    findings.add(check_mirror(renderer, session.shaders(), setup.scene, setup.lights, MOST_RAYS / pictures));
+  });
   std::optional<MirrorStats> stats = mirror_stats(renderer.mirrored());
-  stats->findings = check_mirror(renderer, session.shaders(), setup.scene, setup.lights, MOST_RAYS);
+  stats->findings = std::move(findings);
   return stats;
 }
 

@@ -7,8 +7,7 @@
 
 namespace lamp::app {
 
-/// Renders a frame of the session, of one view with one sample a pixel. Nothing where nothing mirrors, or there are
-/// more.
+/// Renders all pictures of the session's frame. Nothing where nothing mirrors.
 [[nodiscard]] std::optional<MirrorStats> verify_mirror(Session& session, const Setup& setup, Lighting& lighting);
 
 void print_mirror(const MirrorStats& stats);

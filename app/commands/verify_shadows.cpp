@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "commands/pictures.h"
 #include "system/progress.h"
 
 namespace lamp::app {
@@ -12,7 +13,7 @@ bool is_cut(Session& session, const Lighting& lighting) { return is_cut(session.
 
 std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup) {
   Renderer& renderer = session.renderer();
-  if (renderer.shadows() == nullptr || renderer.depth().several()) return std::nullopt;
+  if (renderer.shadows() == nullptr) return std::nullopt;
   std::optional<Progress> progress;  // of one part
   std::string part;
   const auto show = [&](const std::string& what, double done) {
@@ -21,7 +22,11 @@ std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& set
     progress->show("verify shadows: " + what, done);
   };
   show_progress("verify shadows");
-  return check_shadows(renderer, session.shaders(), setup.scene, setup.lights, show);
+  ShadowFindings findings;
+  for_each_picture(renderer, [&](std::span<const float>) {
+    findings.add(check_shadows(renderer, session.shaders(), setup.scene, setup.lights, show));
+  });
+  return findings;
 }
 
 }  // namespace lamp::app

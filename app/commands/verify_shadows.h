@@ -12,8 +12,7 @@ namespace lamp::app {
 /// Whether a method's lights are cut by what their shadow maps hold.
 [[nodiscard]] bool is_cut(Session& session, const Lighting& lighting);
 
-/// Held against rays, which need triangles, where a frame has one view, and its depth one sample a pixel. Else, and
-/// without shadows, nothing.
+/// Held against rays, in all the frame's pictures. Without shadows nothing.
 [[nodiscard]] std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& setup);
 
 }  // namespace lamp::app

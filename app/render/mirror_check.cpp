@@ -91,6 +91,18 @@ PointFindings check_lists(Renderer& renderer, const ShaderLibrary& shaders, std:
 
 }  // namespace
 
+void MirrorFindings::add(const MirrorFindings& more) {
+  if (wrong == 0) first_wrong = more.first_wrong;
+  if (lists && more.lists) lists->add(*more.lists, hits);
+  if (!lists) lists = more.lists;
+  rays += more.rays;
+  checked += more.checked;
+  hits += more.hits;
+  wrong += more.wrong;
+  unclear += more.unclear;
+  ended += more.ended;
+}
+
 Verdict MirrorFindings::verdict() const {
   if (wrong != 0) return Verdict::failed;
   const Verdict of_lists = lists ? lists->verdict() : Verdict::ok;
@@ -128,6 +140,7 @@ MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, co
     if (compared[i].answer != MirrorAnswer::wrong) continue;
     if (findings.wrong++ == 0)
       findings.first_wrong =
+          words_of(renderer.shown(), renderer.depth()) +
           fmt::format("pixel {}, {}: {}", pixel % mirror.info().width, pixel / mirror.info().width, compared[i].fault);
   }
   findings.hits = points.size();

@@ -20,11 +20,13 @@ struct MirrorFindings {
   std::string first_wrong;
   std::optional<PointFindings> lists;  ///< of the lights at checked hits, where they are looked up
 
+  /// Of another picture of the frame.
+  void add(const MirrorFindings& more);
   [[nodiscard]] Verdict verdict() const;
   [[nodiscard]] std::string reason() const;  ///< of a verdict that is not ok, one line
 };
 
-/// Of the last frame of a renderer that mirrors; `lights` are the frame's, `most` rays are checked.
+/// Of the last picture of a renderer that mirrors; `lights` are the frame's, `most` rays are checked.
 [[nodiscard]] MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
                                           std::span<const shared::Light> lights, std::size_t most);
 

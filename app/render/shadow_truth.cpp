@@ -115,6 +115,30 @@ void add(ShadowLight& to, Answer answer, const gpu::ShadowAnswer& said) {
 
 }  // namespace
 
+void ShadowLight::add(const ShadowLight& more) {
+  arriving += more.arriving;
+  stopped += more.stopped;
+  leaked += more.leaked;
+  bled += more.bled;
+  lost += more.lost;
+}
+
+void ShadowFindings::add(const ShadowFindings& more) {
+  pairs += more.pairs;
+  unclear += more.unclear;
+  thinned = std::max(thinned, more.thinned);
+  in_shadow += more.in_shadow;
+  dark += more.dark;
+  cut += more.cut;
+  lost += more.lost;
+  has_meshes = has_meshes || more.has_meshes;
+  outside += more.outside;
+  lost_outside += more.lost_outside;
+  all.add(more.all);
+  away.add(more.away);
+  beyond.add(more.beyond);
+}
+
 bool is_cut(const Renderer& renderer, const Lighting& lighting) {
   const Plan& plan = lighting.runner().plan();
   return renderer.shadows() != nullptr && (plan.binds(INPUT_RADIAL) || plan.binds(INPUT_MESHES));

@@ -39,6 +39,7 @@ struct ShadowLight {
   double bled = 0.0;      ///< of the leaked, what is more than the filter's taps would leave if each compared depths
   double lost = 0.0;      ///< of the arriving, what the filter stops: false shadows
 
+  void add(const ShadowLight& more);
   [[nodiscard]] double leaks() const { return stopped > 0.0 ? leaked / stopped : 0.0; }
   [[nodiscard]] double bleeding() const { return stopped > 0.0 ? bled / stopped : 0.0; }
   [[nodiscard]] double false_shadows() const { return arriving > 0.0 ? lost / arriving : 0.0; }
@@ -50,7 +51,7 @@ struct ShadowLight {
 struct ShadowFindings {
   std::uint64_t pairs = 0;
   std::uint64_t unclear = 0;       ///< of them, left out: other ends of the ray give another answer
-  std::uint64_t thinned = 1;       ///< one pair of so many was looked at
+  std::uint64_t thinned = 1;       ///< one pair of so many was looked at; of several pictures the most
   std::uint64_t in_shadow = 0;     ///< by rays
   std::uint64_t dark = 0;          ///< to which the look-up leaves no light
   std::uint64_t cut = 0;           ///< of these, beyond the light's radial bound
@@ -62,6 +63,8 @@ struct ShadowFindings {
   ShadowLight away;    ///< of the pairs away from edges
   ShadowLight beyond;  ///< of the pairs beyond the filter's reach: all texels with a say are as dark or lit as the ray
 
+  /// Of another picture of the frame.
+  void add(const ShadowFindings& more);
   /// Whether cuts lose nothing that the look-up lights.
   [[nodiscard]] bool is_right() const { return lost + lost_outside == 0; }
   /// Part of the stopped light that is beyond the filter's reach, 0 .. 1.
@@ -71,7 +74,7 @@ struct ShadowFindings {
 /// Told what is done now, and how much of that, 0 .. 1.
 using ShadowProgress = std::function<void(const std::string& what, double done)>;
 
-/// Of the renderer's frame, which casts shadows and whose surfaces are drawn anew.
+/// Of the picture that a renderer shows, which casts shadows.
 [[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
                                            std::span<const shared::Light> lights, const ShadowProgress& progress = {});
 

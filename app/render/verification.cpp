@@ -27,6 +27,13 @@ void sort_unique(std::vector<std::uint64_t>& keys) {
 
 }  // namespace
 
+std::string words_of(const FramePicture& picture, const HostDepth& depth) {
+  std::string words;
+  if (depth.views > 1) words += fmt::format("view {}, ", picture.view);
+  if (depth.samples > 1) words += fmt::format("sample {}, ", picture.sample);
+  return words;
+}
+
 double waste_of(std::uint64_t evaluations, std::uint64_t useful) {
   if (useful != 0) return static_cast<double>(evaluations) / static_cast<double>(useful);
   return evaluations == 0 ? 1.0 : std::numeric_limits<double>::infinity();
@@ -88,10 +95,7 @@ void Verification::add(const Truth& truth, std::span<const Visit> visits, const 
 }
 
 std::string Verification::words_of_pixel(const Truth& truth, std::size_t pixel, const FramePicture& of) const {
-  std::string words;
-  if (depth_.views > 1) words += fmt::format("view {}, ", of.view);
-  if (depth_.samples > 1) words += fmt::format("sample {}, ", of.sample);
-  return words + fmt::format("pixel ({}, {})", pixel % width_, truth.first_row + pixel / width_);
+  return words_of(of, depth_) + fmt::format("pixel ({}, {})", pixel % width_, truth.first_row + pixel / width_);
 }
 
 void Verification::add_pixel(const Truth& truth, std::size_t pixel, const Visit& visit, const FramePicture& of) {

@@ -27,6 +27,9 @@ enum class VerifierChoice : std::uint8_t { oracle, gpu, by_pairs };
 inline constexpr std::uint64_t ORACLE_PAIRS = 20'000'000'000;
 [[nodiscard]] Verifier chosen(VerifierChoice choice, std::uint64_t pairs);
 
+/// "view 1, sample 2, ", as far as a frame has several; else empty.
+[[nodiscard]] std::string words_of(const FramePicture& picture, const HostDepth& depth);
+
 /// A pixel whose list lacks lights that reach it.
 struct PixelMisses {
   std::uint32_t pixel = 0;  ///< x + width * y of the picture, in which views stand side by side

@@ -24,6 +24,18 @@ TEST_F(MirrorOption, IsCountedAndChecked) {
   EXPECT_GT(check.at("lists").at("useful"), 0);
 }
 
+TEST_F(MirrorOption, IsCheckedInEveryViewAndSample) {
+  for (const Arguments& pictures : {Arguments{"--stereo", "0.064"}, Arguments{"--depth-samples", "4"}}) {
+    SCOPED_TRACE(pictures.front());
+    Arguments verify{"verify",   "corridor", "--lights", "20",  "--size", "64x36",
+                     "--method", "tiled",    "--mirror", "0.6", "--json"};
+    verify.insert(verify.end(), pictures.begin(), pictures.end());
+    const nlohmann::json mirror = json_of(verify).at(0).at("mirror");
+    EXPECT_EQ(mirror.at("check").at("verdict"), "ok") << mirror.at("check").at("reason");
+    EXPECT_GT(mirror.at("check").at("rays"), mirror.at("rays")) << "those of all pictures";
+  }
+}
+
 TEST_F(MirrorOption, GoesWithProbes) {
   const Outcome run = lamp({"verify", "corridor", "--lights", "100", "--size", "64x36", "--method", "lamplight",
                             "--mirror", "0.6", "--probes", "12", "--json"});
