@@ -40,9 +40,14 @@ struct Side {
 Side measure(const CompareOptions& o, Session& session, const Setup& setup, const MethodChoice& chosen,
              const std::string& word) {
   show_progress(fmt::format("compare: {}", word));
+  Renderer& renderer = session.renderer();
   Lighting lighting = session.lighting(*chosen.method, chosen.options, parse_path(o.request.path));
-  session.renderer().wake(lighting);
-  Rendered rendered = session.renderer().render(lighting);
+  // Both are timed in a first frame of shadows, when all is there that a first use takes.
+  renderer.warm_up(lighting);
+  renderer.restart_shadows();
+  renderer.set_frame(setup.views, setup.lights, setup.decals);
+  renderer.wake(lighting);
+  Rendered rendered = renderer.render(lighting);
   const std::vector<Visit> visits = visit_all(session, lighting);
   HdrImage image = rendered.image;
   Side side{.label = chosen.by_auto ? method_words(chosen) : word,

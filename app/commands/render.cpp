@@ -124,9 +124,10 @@ void print_numbers(const RenderOptions& o, const Stats& stats) {
   for (const PassTime& pass : stats.rendered.passes)
     passes += fmt::format("{}{}{} {:.3f}", passes.empty() ? "" : ", ", pass.host ? "on the CPU: " : "", pass.name,
                           pass.ms_median);
-  line("times", fmt::format("cull {:.3f} ms{}shade {:.3f} ms, frame {:.3f} ms ({})", stats.rendered.cull_ms,
-                            stats.views == 1 ? ", " : " for both eyes; of the left one: ", stats.rendered.shade_ms,
-                            stats.rendered.frame_ms, passes));
+  const bool eyes = stats.views != 1;
+  line("times", fmt::format("cull {:.3f} ms{}, shade {:.3f} ms{}, frame {:.3f} ms{} ({})", stats.rendered.cull_ms,
+                            eyes ? " for both eyes" : "", stats.rendered.shade_ms, eyes ? " for the left one" : "",
+                            stats.rendered.frame_ms, eyes ? " with the left one's picture" : "", passes));
   if (stats.clock && stats.clock->now_mhz) line("clock", words_of(*stats.clock));
   if (stats.still) line("still", still_words(*stats.still));
   if (stats.still)

@@ -55,6 +55,7 @@ Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const 
     renderer.set_views(beside, lights, decals);
     renderer.show({.view = shown});
   };
+  const Shadows::Pending pending = renderer.pending_shadows();
   HdrImage sum;
   for (std::uint32_t i = 1; i < samples; ++i) {
     turn_to(i);
@@ -62,6 +63,7 @@ Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const 
     add(sum, renderer.render(lighting).image);
   }
   turn_to(0);
+  renderer.set_pending_shadows(pending);
   Rendered rendered = renderer.render(lighting, sampling.frames, sampling.warm_up);
   add(sum, std::move(rendered.image));
   for (glm::vec4& pixel : sum.pixels) pixel /= static_cast<float>(samples);
@@ -72,6 +74,7 @@ Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const 
 Rendered render_views(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
                       std::span<const gpu::DecalData> decals, const Sampling& sampling) {
   if (renderer.depth().views == 1) return render_samples(renderer, lighting, lights, decals, sampling);
+  const Shadows::Pending pending = renderer.pending_shadows();
   std::vector<HdrImage> pictures(renderer.depth().views);
   for (std::uint32_t view = renderer.depth().views; --view != 0;) {
     renderer.show({.view = view});
@@ -80,6 +83,7 @@ Rendered render_views(Renderer& renderer, Lighting& lighting, std::span<const sh
             .image;
   }
   renderer.show({});
+  renderer.set_pending_shadows(pending);
   Rendered rendered = render_samples(renderer, lighting, lights, decals, sampling);
   pictures.front() = std::move(rendered.image);
   rendered.image = side_by_side(pictures);

@@ -29,7 +29,7 @@ struct Sampling {
 /// Renders the renderer's frame, the view that is shown: first the samples beside the pixels' centres, then the timed
 /// frames at the centres, whose numbers these are. The picture is the average of all samples. `lights` and `decals` are
 /// the frame's. Where the renderer's depth has several samples a pixel, it is those that are rendered, whatever
-/// `sampling` says, the timed ones last.
+/// `sampling` says, the timed ones last. The first timed frame draws the shadow maps of the frame.
 [[nodiscard]] Rendered render_samples(Renderer& renderer, Lighting& lighting, std::span<const shared::Light> lights,
                                       std::span<const gpu::DecalData> decals, const Sampling& sampling);
 

@@ -50,6 +50,12 @@ double span_ms(std::span<const vulkan::Timestamps::Time> times) {
   return span_ms(times, [](std::string_view) { return true; });
 }
 
+void add_to(PassSums& sums, std::string_view pass, double ms) {
+  auto found = std::ranges::find(sums, pass, &PassSums::value_type::first);
+  if (found == sums.end()) found = sums.insert(sums.end(), {std::string(pass), 0.0});
+  found->second += ms;
+}
+
 void FrameTimes::add_sample(const std::string& pass, bool host, double ms) {
   const auto is_pass = [&](const Samples& samples) { return samples.pass == pass && samples.host == host; };
   auto found = std::ranges::find_if(samples_, is_pass);
@@ -63,11 +69,15 @@ vulkan::Timestamps::PartOf parts_of(const Lighting& lighting, Timing timing) {
 }
 
 void FrameTimes::add(const std::vector<vulkan::Timestamps::Time>& times, const Lighting& lighting) {
-  for (const auto& [pass, ms] : lighting.runner().host_times()) add_sample(std::string(pass), /* host= */ true, ms);
   const bool has_passes = next() == Timing::passes;
   ++added_;
+  PassSums on_host;
+  PassSums on_device;
+  for (const auto& [pass, ms] : lighting.runner().host_times()) add_to(on_host, pass, ms);
   if (has_passes)
-    for (const vulkan::Timestamps::Time& time : times) add_sample(time.pass, /* host= */ false, time.ms());
+    for (const vulkan::Timestamps::Time& time : times) add_to(on_device, time.pass, time.ms());
+  for (const auto& [pass, ms] : on_host) add_sample(pass, /* host= */ true, ms);
+  for (const auto& [pass, ms] : on_device) add_sample(pass, /* host= */ false, ms);
   if (has_passes && takes_turns_) return;
   frames_.push_back({.cull_ms = span_ms(times, [&](std::string_view pass) { return lighting.is_cull_pass(pass); }),
                      .shade_ms = span_ms(times, is_shade_pass),

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lamplight/vulkan.h"
@@ -41,6 +42,11 @@ enum class Timing : std::uint8_t { passes, parts };
 
 /// Which part a pass is of, for `Timestamps`; nothing if every pass is to be told.
 [[nodiscard]] vulkan::Timestamps::PartOf parts_of(const Lighting& lighting, Timing timing);
+
+/// Milliseconds of each pass of a frame, in the order of their first runs.
+using PassSums = std::vector<std::pair<std::string, double>>;
+/// A run of a pass: of several in a frame, as for each view, it takes the sum.
+void add_to(PassSums& sums, std::string_view pass, double ms);
 
 /// Sorts the frames' timestamps by pass and by part.
 class FrameTimes {

@@ -228,7 +228,9 @@ Rendered Renderer::render_frames(Lighting& lighting, std::uint32_t frames, std::
   const std::size_t pixels = std::size_t{targets_->width} * targets_->height;
   const vulkan::Buffer picture = readback_buffer(context_.device(), "picture read-back", pixels * sizeof(glm::vec4));
   FrameTimes times(frames);
+  const Shadows::Pending pending = pending_shadows();
   for (std::uint32_t i = 0; i < frames + warm_up; ++i) {
+    if (i == warm_up) set_pending_shadows(pending);
     const bool last = i + 1 == frames + warm_up;
     const Timing timing = i >= warm_up ? times.next() : Timing::passes;
     submit(&lighting, [&](VkCommandBuffer commands) {
@@ -312,13 +314,13 @@ void Renderer::wake(Lighting& lighting) {
   const double waited_ms = context_.idle_ms();
   if (context_.software() || waited_ms < LONG_WAIT_MS) return;
   const double enough_ms = std::clamp(waited_ms, LEAST_WAKE_MS, MOST_WAKE_MS);
+  const Shadows::Pending pending = pending_shadows();
   for (double ms = 0.0; ms < enough_ms;) ms += span_ms(time_frame(lighting, Timing::parts));
+  set_pending_shadows(pending);
 }
 
 std::vector<vulkan::Timestamps::Time> Renderer::time(Lighting& lighting, Timing timing) {
-  const Shadows::Pending pending = pending_shadows();
   wake(lighting);
-  set_pending_shadows(pending);
   return time_frame(lighting, timing);
 }
 

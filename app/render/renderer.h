@@ -143,7 +143,8 @@ class Renderer {
   [[nodiscard]] const std::vector<View>& views() const { return views_; }
   [[nodiscard]] const FramePicture& shown() const { return shown_; }
 
-  /// Records and submits `warm_up` + `frames` frames; the picture is the last one's.
+  /// Records and submits `warm_up` + `frames` frames; the picture is the last one's. The first timed frame draws
+  /// shadows that are pending, whether or not those before it did.
   [[nodiscard]] Rendered render(Lighting& lighting, std::uint32_t frames = 1, std::uint32_t warm_up = 0);
 
   /// The same of one frame, for pictures that are checked and not timed: surfaces that an earlier frame of this view
@@ -167,11 +168,11 @@ class Renderer {
   void cull_as(Lighting& lighting, const View& other);
 
   /// A GPU that waits for the host lowers its clocks, and what is timed then says nothing. Renders untimed frames for
-  /// about as long as it waited; nothing after a wait of less than 5 ms, and of a software device.
+  /// about as long as it waited; nothing after a wait of less than 5 ms, and of a software device. Shadows that are
+  /// pending stay so.
   void wake(Lighting& lighting);
 
-  /// Records and submits one frame, reads nothing back but its times. Wakes the GPU first, and draws what that drew of
-  /// shadows once more.
+  /// Records and submits one frame, reads nothing back but its times. Wakes the GPU first.
   [[nodiscard]] std::vector<vulkan::Timestamps::Time> time(Lighting& lighting, Timing timing);
 
   /// Culls and shades one frame and reads nothing back: for what a first use alone takes. Surfaces that an earlier

@@ -1,5 +1,7 @@
 // Shadows on the command line: numbers, and what is wrong in one line.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "cli/cli_test.h"
 
 namespace lamp::cli {
@@ -89,6 +91,38 @@ TEST_F(Shadows, OfAFrameWithABudgetVerify) {
   const Outcome outcome = lamp({"verify", "corridor", "--lights", "30", "--size", "48x27", "--shadows", "hard",
                                 "--shadow-budget", "30000", "--method", "lamplight"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+}
+
+TEST_F(Shadows, AreHeldAgainstRaysInEveryViewAndSample) {
+  const auto pairs_with = [&](const Arguments& pictures) {
+    Arguments verify{"verify", "corridor",  "--lights", "60",     "--range",  "6:9",      "--size",
+                     "32x18",  "--shadows", "hard",     "--json", "--method", "clustered"};
+    verify.insert(verify.end(), pictures.begin(), pictures.end());
+    return json_of(verify).at(0).at("shadows").at("truth").at("pairs").get<std::size_t>();
+  };
+  const std::size_t of_one = pairs_with({});
+  EXPECT_GT(pairs_with({"--views", "2"}), of_one);
+  EXPECT_GT(pairs_with({"--depth-samples", "4"}), 2 * of_one);
+}
+
+std::size_t times_of(const nlohmann::json& stats, const std::string& pass) {
+  return static_cast<std::size_t>(std::ranges::count(
+      stats.at("passes"), pass, [](const nlohmann::json& p) { return p.at("name").get<std::string>(); }));
+}
+
+// Warm-up and samples before it draw them too.
+TEST_F(Shadows, AreDrawnInTheFrameThatIsTimed) {
+  for (const char* samples : {"1", "2"})
+    for (const nlohmann::json& stats :
+         json_of({"render", "corridor", "--lights", "8", "--size", "32x18", "--method", "tiled", "--shadows", "hard",
+                  "--samples", samples, "--frames", "10..11", "--json"})) {
+      EXPECT_GT(stats.at("shadows").at("redrawn"), 0);
+      EXPECT_EQ(times_of(stats, "shadow maps"), 1U) << stats.at("passes");
+    }
+  const nlohmann::json both = json_of(
+      {"compare", "tiled", "all", "corridor", "--lights", "8", "--size", "32x18", "--shadows", "hard", "--json"});
+  for (const char* side : {"a", "b"})
+    EXPECT_EQ(times_of(both.at(side), "shadow maps"), 1U) << both.at(side).at("passes");
 }
 
 TEST_F(Shadows, SayWhatIsWrong) {

@@ -95,5 +95,13 @@ TEST(BenchStatistics, ASpanHoldsTheGapsBetweenItsPasses) {
   EXPECT_EQ(span_ms(times, [](std::string_view) { return false; }), 0.0);
 }
 
+TEST(BenchStatistics, APassIsAllOfItsRunsInAFrame) {
+  PassSums sums;
+  for (const auto& [pass, ms] :
+       {std::pair("clear", 1.0), {"cluster count", 2.0}, {"cluster count", 4.0}, {"clear", 8.0}})
+    add_to(sums, pass, ms);
+  EXPECT_EQ(sums, (PassSums{{"clear", 9.0}, {"cluster count", 6.0}}));
+}
+
 }  // namespace
 }  // namespace lamp::app
