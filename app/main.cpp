@@ -73,6 +73,7 @@ Exit run(int argc, char** argv) {
   for (const auto& [name, command] : commands) {
     if (!app.got_subcommand(name)) continue;
     lamp::app::check_repeats(*app.get_subcommand(name));
+    lamp::app::check_values(*app.get_subcommand(name));
     lamp::app::check_pairs(*app.get_subcommand(name));
     return command();
   }

@@ -55,7 +55,10 @@ MethodChoice AutoMethod::choose(Renderer& renderer, const AutoFrame& frame) {
 std::vector<MethodChoice> chosen_methods(Session& session, const Setup& setup, const Request& request,
                                          std::span<const std::string> names, bool json) {
   MethodChoice automatic;
-  if (request.explain || std::ranges::any_of(names, [](const std::string& name) { return is_auto(name); })) {
+  const bool asks =
+      request.explain || std::ranges::any_of(names, [](const std::string& name) { return is_auto(name); });
+  check_calibration(request.calibration, asks);
+  if (asks) {
     AutoMethod chooser(session.context(), session.shaders(), request.calibration);
     automatic = chooser.choose(session.renderer(), {.scene = setup.scene,
                                                     .view = setup.view,

@@ -14,9 +14,11 @@
 #include "bench/embedded_files.h"
 #include "bench/regret.h"
 #include "bench/results.h"
+#include "commands/bench_candidate.h"
 #include "commands/bench_folder.h"
 #include "commands/bench_input.h"
 #include "commands/bench_measure.h"
+#include "commands/calibration.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/pictures.h"
@@ -54,6 +56,7 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   Request r = o.request;
   if (scene.captured && !r.size_given)
     r.size = fmt::format("{}x{}", scene.captured->view.width(), scene.captured->view.height());
+  check_generated(r, scene);
   if (scene.captured && !r.lights_given) r.lights = 0;
   Series series;
   series.name = "scene";
@@ -236,6 +239,7 @@ Exit bench(const BenchOptions& o) {
     throw Error(fmt::format("{}: --max-lights and --max-size leave out all of its {} configurations", o.request.scene,
                             expansion.left_out));
   check_groups(from_suite ? o.request.scene : "", groups);
+  check_calibration(o.request.calibration, o.request.explain || std::ranges::any_of(groups, has_auto));
   tell_verifier(o, groups);
   json results = results_of(o, device.context().row(), suite);
   const fs::path folder = o.out;
@@ -358,7 +362,6 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   // While the line is parsed, before pairs of options are looked at: a suite takes neither of a pair.
   command->parse_complete_callback([o, command] { refuse_with_suite(*command, o->request.scene); });
   return [o] {
-    if (o->out.empty()) throw Error("--out '': expected the name of a folder");
     if (!o->max_size.empty() && pixels_of(o->max_size) == 0)
       throw Error(
           fmt::format("--max-size '{}': expected WIDTHxHEIGHT, both at least 1, such as 1920x1080", o->max_size));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 
 #include "bench/calibration_file.h"
@@ -30,6 +31,12 @@ KnownCalibration built_in_calibration() {
 }
 
 }  // namespace
+
+void check_calibration(const std::string& named, bool is_read) {
+  const char* variable = std::getenv(CALIBRATION_VARIABLE);
+  if (is_read || named.empty() || (variable != nullptr && named == variable)) return;
+  throw Error(fmt::format("--calibration {}: is of auto alone; expected --method auto or --explain too", named));
+}
 
 KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders, const std::string& named) {
   const DeviceRow& row = context.row();

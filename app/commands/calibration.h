@@ -10,6 +10,10 @@
 
 namespace lamp::app {
 
+inline constexpr const char* CALIBRATION_VARIABLE = "LAMPLIGHT_CALIBRATION";
+/// Throws Error for a typed `--calibration` where nothing goes by it. A variable of the environment may stay.
+void check_calibration(const std::string& named, bool is_read);
+
 /// Measures every candidate on a small built-in scene: seconds on a GPU, most of them compilation; longer on a software
 /// device.
 [[nodiscard]] Calibration measure_calibration(Context& context, const ShaderLibrary& shaders);

@@ -123,6 +123,12 @@ void check_repeats(const CLI::App& command) {
     if (!repeats(*option) && option->count() > 1) throw given_twice(*option);
 }
 
+void check_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_lnames().empty() && std::ranges::find(option->results(), "") != option->results().end())
+      throw Error(fmt::format("{} '': expected a value", option->get_name()));
+}
+
 Error parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App& command = parsed.empty() ? app : *parsed.front();

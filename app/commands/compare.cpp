@@ -102,6 +102,7 @@ void print_side(const Side& side) {
 }
 
 Exit compare_panels(const CompareOptions& o) {
+  check_calibration(o.request.calibration, /* is_read= */ false);
   if (!o.b.empty()) throw Error(fmt::format("compare --panels: takes one scene, got '{}' too", o.b));
   Request request = o.request;
   if (!o.a.empty()) request.scene = o.a;

@@ -16,24 +16,6 @@ namespace {
 
 bool is_off(const CLI::Option& option) { return option.results().size() == 1 && option.results().front() == "off"; }
 
-/// A state that lamp-view saved may have shadows. With `--shadows off` the others may stay where they are, but a method
-/// that cuts by shadows would be another than its name says.
-void check_shadow_options(const CLI::App& command) {
-  if (command.get_option_no_throw("--shadows") == nullptr) return;
-  const std::string filter = value_of(command, "--shadows");
-  const bool unknown = filter.empty() && is_given(command, "--state");
-  if (!unknown && filter.empty())
-    for (const CLI::Option* option : command.get_options())
-      if (option->count() != 0 && option->get_group() == "Shadows")
-        throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option->get_name()));
-  if (is_given(command, "--shadow-blur") && (filter == "hard" || filter == "pcf"))
-    throw Error(
-        fmt::format("--shadow-blur: blurs vsm and evsm, and --shadows {} is filtered where it is looked up", filter));
-  if (unknown || (!filter.empty() && filter != "off") || !is_given(command, "--option")) return;
-  if (const auto cut = cut_by_shadows(command.get_option("--option")->results()))
-    throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", *cut));
-}
-
 /// Four methods and a table of tests, which are always the same.
 void check_panel_options(const CLI::App& command) {
   constexpr std::array DO_NOTHING{"--grow",         "--explain", "--path",         "--probes-show",
@@ -80,6 +62,20 @@ void check_point_options(const CLI::App& command) {
 
 }  // namespace
 
+void check_shadow_options(const CLI::App& command, std::string_view filter, std::span<const std::string> options) {
+  const bool off = filter == "off";
+  if (off && !is_given(command, "--shadows"))
+    for (const CLI::Option* option : command.get_options())
+      if (option->count() != 0 && option->get_group() == "Shadows")
+        throw Error(fmt::format("{}: no light casts a shadow; expected --shadows FILTER too", option->get_name()));
+  if (is_given(command, "--shadow-blur") && (filter == "hard" || filter == "pcf"))
+    throw Error(
+        fmt::format("--shadow-blur: blurs vsm and evsm, and --shadows {} is filtered where it is looked up", filter));
+  if (!off) return;
+  if (const auto cut = cut_by_shadows(options))
+    throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", *cut));
+}
+
 void check_pairs(const CLI::App& command) {
   for (const char* option : {"--frame", "--frames"}) {
     if (!is_given(command, "--camera") || !is_given(command, option)) continue;
@@ -89,7 +85,12 @@ void check_pairs(const CLI::App& command) {
       throw Error(fmt::format("{} {}: has the camera of the flight; expected no --camera", option, value));
   }
   check_point_options(command);
-  check_shadow_options(command);
+  const bool casts = command.get_option_no_throw("--shadows") != nullptr;
+  if (casts && !is_given(command, "--state")) {  // which the command looks into
+    const std::string filter = is_given(command, "--shadows") ? value_of(command, "--shadows") : "off";
+    const CLI::Option* options = command.get_option_no_throw("--option");
+    check_shadow_options(command, filter, options == nullptr ? std::vector<std::string>() : options->results());
+  }
   check_panel_options(command);
   check_numbers_and_places(command);
   check_samples(command);

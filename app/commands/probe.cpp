@@ -11,6 +11,7 @@
 #include "commands/commands.h"
 #include "commands/pictures.h"
 #include "commands/request.h"
+#include "commands/stats.h"
 #include "render/probe_capture.h"
 #include "render/probe_panorama.h"
 #include "system/print.h"
@@ -70,6 +71,7 @@ Exit probe(const ProbeOptions& o) {
   write_output(o.out, [&](const auto& file) { write_png(file, picture); });
   print_out("probe     at ({:.2f}, {:.2f}, {:.2f}), {} lights: {}\n", position.x, position.y, position.z, lights,
             setup.lights_note);
+  if (const auto shadows = shadow_stats(capture.shadows())) print_out("shadows   {}\n", shadow_words(*shadows));
   if (atlas.clipped() != 0)
     print_out("clipped   {} texels are brighter than {}\n", atlas.clipped(), gpu::PROBE_BRIGHTEST);
   print_out("picture   {}\n", o.out);
@@ -82,11 +84,13 @@ Run add_probe(CLI::App& app) {
   CLI::App* command = app.add_subcommand("probe", "Write what a reflection probe sees, sharp and rough");
   auto o = std::make_shared<ProbeOptions>();
   add_scene_options(*command, o->request);
+  add_brdf_option(*command, o->request);
   command->add_option("--at", o->at, "where the probe is, in metres; default: where the camera is")
       ->type_name("X Y Z")
       ->group("View")
       ->expected(3);
   add_shadow_options(*command, o->request);
+  command->remove_option(command->get_option("--shadow-budget"));  // a capture draws all of its maps
   add_out_option(*command, o->out, "write the picture to this file, .png");
   command->footer(
       "Examples:\n"

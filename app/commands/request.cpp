@@ -81,19 +81,19 @@ PlaceLights light_placement(const Request& request, const Scene& scene) {
           .frames = scene.flight ? scene.flight->frames : 300};
 }
 
-/// To a capture lights are added only when a number of them is asked for.
+}  // namespace
+
 void check_generated(const Request& request, const Scene& scene) {
   if (!scene.captured || request.lights_given) return;
-  const char* about = !request.range.empty()             ? "--range"
-                      : request.spots != Request().spots ? "--spots"
-                      : request.still != Request().still ? "--still"
-                                                         : nullptr;
-  if (about != nullptr)
+  const std::string_view about = !request.about_generated.empty()   ? request.about_generated
+                                 : !request.range.empty()           ? "--range"
+                                 : request.spots != Request().spots ? "--spots"
+                                 : request.still != Request().still ? "--still"
+                                                                    : "";
+  if (!about.empty())
     throw Error(fmt::format("{}: no light is generated beside those of the capture {}; expected --lights N too", about,
                             request.scene));
 }
-
-}  // namespace
 
 void check_scene_lights(const Request& request, const Scene& scene) {
   if (const auto error = check_shown_lights(scene.lights)) throw Error(scene.name + ": " + error->text());

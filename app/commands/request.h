@@ -35,7 +35,8 @@ struct Request {
   std::string size = "1280x720";
   bool size_given = false;  ///< on the command line: a capture has its own
   std::uint32_t lights = 4096;
-  bool lights_given = false;  ///< on the command line: to a capture, lights are added when asked for
+  bool lights_given = false;         ///< on the command line: to a capture, lights are added when asked for
+  std::string_view about_generated;  ///< first option on the command line that speaks of generated lights
   float spots = 0.5F;
   std::string range;                     ///< "MIN:MAX" or "inf", empty: automatic
   std::uint32_t decals = 0;              ///< the scene's own, then generated ones
@@ -87,7 +88,9 @@ void add_option_option(CLI::App& command, Request& request);
 void add_depth_options(CLI::App& command, Request& request);
 /// Adds `--stereo`.
 void add_stereo_option(CLI::App& command, Request& request);
-/// Adds `--path`.
+/// Adds `--brdf`.
+void add_brdf_option(CLI::App& command, Request& request);
+/// Adds `--path` and `--brdf`.
 void add_path_option(CLI::App& command, Request& request);
 /// Adds `--grow`.
 void add_grow_option(CLI::App& command, Request& request);
@@ -174,6 +177,8 @@ struct MovingLights {
 [[nodiscard]] std::vector<gpu::DecalData> requested_decals(const Request& request, const Scene& scene);
 /// The probes as they are made. Throws Error for a capture, and for probes that none can be.
 [[nodiscard]] std::vector<Probe> requested_probes(const Request& request, const Scene& scene);
+/// To a capture lights are added only where a number of them is asked for. Throws Error for what else is said of them.
+void check_generated(const Request& request, const Scene& scene);
 /// The scene's lights and the generated ones are few enough, and as lights must be.
 void check_scene_lights(const Request& request, const Scene& scene);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "commands/calibration.h"
 #include "commands/command_line.h"
 #include "commands/request.h"
 #include "system/print.h"
@@ -14,6 +15,11 @@ namespace lamp::app {
 namespace {
 
 void add_light_options(CLI::App& command, Request& r) {
+  const auto note = [&r](const char* option) {
+    return [&r, option](const std::string&) {
+      if (r.about_generated.empty()) r.about_generated = option;
+    };
+  };
   command.add_option("--lights", r.lights, "number of lights to generate, besides the scene's own; for a capture 0")
       ->check(whole_number(0, MAX_LIGHTS))
       ->each([&r](const std::string&) { r.lights_given = true; })
@@ -22,6 +28,7 @@ void add_light_options(CLI::App& command, Request& r) {
       ->capture_default_str();
   command.add_option("--spots", r.spots, "part of the generated lights that are spots, 0 to 1")
       ->check(number_between(0.0, 1.0))
+      ->each(note("--spots"))
       ->type_name("PART")
       ->group("Lights")
       ->capture_default_str();
@@ -29,6 +36,7 @@ void add_light_options(CLI::App& command, Request& r) {
       .add_option("--still", r.still,
                   "part of the generated lights that stand still in a flight, 0 to 1; lights of the scene do anyway")
       ->check(number_between(0.0, 1.0))
+      ->each(note("--still"))
       ->type_name("PART")
       ->group("Lights")
       ->capture_default_str();
@@ -36,12 +44,14 @@ void add_light_options(CLI::App& command, Request& r) {
       .add_option("--range", r.range,
                   "range of the generated lights in metres, MIN:MAX or one number; inf: they have none and reach "
                   "everything; default: such that about 24 of them reach a point")
+      ->each(note("--range"))
       ->type_name("MIN:MAX")
       ->group("Lights");
   command
       .add_option("--seed", r.seed,
                   "seed of the generated lights, decals and probes; the same seed gives the same picture")
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->each(note("--seed"))
       ->type_name("N")
       ->group("Lights")
       ->capture_default_str();
@@ -71,10 +81,6 @@ void add_camera_options(CLI::App& command, Request& r) {
       ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N")
       ->group("View");
-  command.add_option("--brdf", r.brdf, "how surfaces reflect: ggx or blinn-phong")
-      ->type_name("NAME")
-      ->group("View")
-      ->capture_default_str();
 }
 
 void add_device_options(CLI::App& command, Request& r) {
@@ -176,7 +182,15 @@ void add_stereo_option(CLI::App& command, Request& r) {
       ->group("View");
 }
 
+void add_brdf_option(CLI::App& command, Request& r) {
+  command.add_option("--brdf", r.brdf, "how surfaces reflect: ggx or blinn-phong")
+      ->type_name("NAME")
+      ->group("View")
+      ->capture_default_str();
+}
+
 void add_path_option(CLI::App& command, Request& r) {
+  add_brdf_option(command, r);
   command.add_option("--path", r.path, "how pixels are shaded: forward, tiled-deferred, deferred or standard-deferred")
       ->type_name("NAME")
       ->group("Method")
@@ -195,7 +209,7 @@ void add_auto_options(CLI::App& command, Request& r) {
       .add_option("--calibration", r.calibration,
                   "file of measured costs for auto, or measure: measure them now; default: measured once for each GPU "
                   "and kept in the user's cache folder")
-      ->envname("LAMPLIGHT_CALIBRATION")
+      ->envname(CALIBRATION_VARIABLE)
       ->type_name("FILE")
       ->group("Method");
 }

@@ -377,6 +377,7 @@ Run add_verify(CLI::App& app) {
       "Exit code 1: a method failed. 4: none failed, but one could not be checked on this device.");
   return [o] {
     if (o->at_points.points == 0 || o->request.still_lists != "off") return verify(*o);
+    if (o->request.about_generated == "--seed") o->request.about_generated = {};  // it is of the points, too
     PointsRequest of = o->at_points;
     of.methods = o->methods;
     of.json = o->json;

@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "commands/calibration.h"
 #include "commands/command_line.h"
 #include "commands/pictures.h"
 #include "commands/verify_rows.h"
@@ -183,6 +184,7 @@ void add_points_option(CLI::App& command, PointsRequest& of) {
 }
 
 Exit verify_points(const Request& request, const PointsRequest& of) {
+  check_calibration(request.calibration, /* is_read= */ false);
   const std::vector<Asked> chosen = methods_at_points(request, of);
   constexpr std::string_view PICTURES[] = {".png"};
   if (!of.cut.empty()) check_output("--cut", of.cut, PICTURES);

@@ -74,7 +74,7 @@ void add_state_option(CLI::App& command, ViewState& state) {
       .add_option_function<std::string>(
           "--state",
           [&state, read](const std::string& file) {
-            state = load_state(file);
+            state = load_state(file, state);
             *read = state.request;
           },
           "begin with the state that lamp-view saved in this file; other options change it")

@@ -115,7 +115,8 @@ void fit_to_size(ViewState& state, glm::uvec2 from);
 /// Sets what the object has; the rest stays as it was. Throws Error: `name` (of the file), the element, what was
 /// expected; then the state is as it was.
 void read_state(ViewState& state, const nlohmann::json& json, const std::string& name);
-[[nodiscard]] ViewState load_state(const std::filesystem::path& file);
+/// A state's file. What it does not say is that of `state`.
+[[nodiscard]] ViewState load_state(const std::filesystem::path& file, ViewState state = {});
 void save_state(const std::filesystem::path& file, const ViewState& state);
 
 /// As `make_setup` of the request, with the lights that were changed.

@@ -257,6 +257,10 @@ class Reader {
     camera.near_m = c.real("near");
     camera.far_m = c.real("far");
     camera.orthographic = c.has("half_height");
+    const bool ahead = camera.near_m > 0.0F && camera.far_m >= 0.0F;
+    if (!camera.orthographic && !ahead)
+      c.fail(fmt::format("near is {} and far {}, expected near > 0 m, and far beyond it or 0, without end",
+                         camera.near_m, camera.far_m));
     if (camera.orthographic)
       camera.half_height = c.real("half_height");
     else
@@ -354,7 +358,7 @@ void read_state(ViewState& state, const nlohmann::json& json, const std::string&
   state = std::move(read);
 }
 
-ViewState load_state(const std::filesystem::path& file) {
+ViewState load_state(const std::filesystem::path& file, ViewState state) {
   const std::string name = file.string();
   const std::vector<std::byte> bytes =
       read_file(file, {.expected = "a state that lamp-view saved", .most_bytes = std::uint64_t{1} << 26});
@@ -362,7 +366,6 @@ ViewState load_state(const std::filesystem::path& file) {
   const JsonObject object{.json = json, .file = name, .element = ""};
   if (!json.is_object()) object.fail(fmt::format("is {}, expected an object", shown(json)));
   static_cast<void>(object.whole("version", VERSION, VERSION));
-  ViewState state;
   read_state(state, json, name);
   return state;
 }

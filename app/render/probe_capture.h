@@ -41,6 +41,9 @@ class ProbeCapture {
   /// Draws the faces, and fills the slot's block. Waits for it.
   void capture(const glm::vec3& position, const ProbeAtlas& atlas, std::uint32_t slot);
 
+  /// Of the last capture; null: no light casts any.
+  [[nodiscard]] const Shadows* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
+
   /// How often lights were culled since the beginning.
   [[nodiscard]] std::uint32_t culls() const { return culls_; }
 

@@ -93,6 +93,13 @@ TEST_F(Auto, ItsRegretStandsInTheResults) {
 TEST_F(Auto, RefusesWhatMakesNoSense) {
   expect_error(BAD_INPUT, small({"render", "--option", "tile=8"}), {"--option", "auto chooses its own", "--method"});
   expect_error(BAD_INPUT, small({"render", "--calibration", "nowhere.json"}), {"--calibration 'nowhere.json'"});
+  const std::vector<Arguments> without{{"render", "--method", "tiled"}, {"verify"},
+                                       {"compare", "tiled", "all"},     {"compare", "--panels"},
+                                       {"verify", "--points", "9"},     {"bench", "plane", "--method", "tiled"}};
+  for (Arguments command : without) {
+    command.insert(command.end(), {"--lights", "8", "--calibration", "nowhere.json"});
+    expect_error(BAD_INPUT, command, {"--calibration nowhere.json: is of auto alone", "expected --method auto"});
+  }
   write("bad.json", R"({"format": "lamplight-calibration", "version": 99})");
   expect_error(BAD_INPUT, small({"render", "--calibration", "bad.json"}),
                {"--calibration 'bad.json'", "version: expected 5, got 99"});

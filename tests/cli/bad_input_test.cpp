@@ -63,6 +63,17 @@ TEST_F(BadInput, NamesOptionsThatWouldDoNothing) {
   expect_error(BAD_INPUT, {"render", "plane", "--size", "65537x1"}, {"--size '65537x1'", "65536"});
 }
 
+// Which is not the same as an option that is not given.
+TEST_F(BadInput, EmptyValues) {
+  for (const char* option : {"--heatmap", "--overlay", "--stats", "--out", "--range", "--frames", "--camera", "--size",
+                             "--device", "--shader-dir", "--calibration", "--shadows", "--option"})
+    expect_error(BAD_INPUT, {"render", "plane", option, ""}, {option, " '': expected a value"});
+  for (const char* option : {"--out", "--cut"})
+    expect_error(BAD_INPUT, {"verify", "plane", "--points", "9", option, ""}, {option, " '': expected a value"});
+  for (const char* command : {"bench", "capture"})
+    expect_error(BAD_INPUT, {command, "plane", "--out", ""}, {"--out '': expected a value"});
+}
+
 TEST_F(BadInput, OptionsOfAMethod) {
   const Arguments tiled{"render", "--method", "tiled", "--option"};
   const auto with = [&](const std::string& setting) {
@@ -86,7 +97,7 @@ TEST_F(BadInput, OptionsOfAMethod) {
 }
 
 TEST_F(BadInput, Sizes) {
-  for (const char* size : {"0x0", "0x8", "8x0", "8", "x", "", "8x8x8", "-8x8", "8.5x8", "99999999999x8", "garbage"})
+  for (const char* size : {"0x0", "0x8", "8x0", "8", "x", "8x8x8", "-8x8", "8.5x8", "99999999999x8", "garbage"})
     expect_error(BAD_INPUT, {"render", "--size", size}, {"--size '" + std::string(size) + "'", "WIDTHxHEIGHT"});
   expect_error(BAD_INPUT, {"render", "plane", "--lights", "1", "--size", "65000x10"},
                {"size 65000x10", "pixels a side on this device"});
@@ -241,7 +252,7 @@ TEST_F(BadInput, OutputsThatCannotBeWritten) {
   expect_error(BAD_INPUT, {"render", "--stats", "file/stats.json"}, {"--stats 'file/stats.json'", "not a folder"});
   expect_error(BAD_INPUT, {"compare", "all", "tiled", "--out", "file/lamp.png"}, {"--out", "not a folder"});
   expect_error(BAD_INPUT, {"render", "--out", "folder.png"}, {"--out 'folder.png'", "is a folder"});
-  for (const char* name : {"lamp", "lamp.jpg", "lamp.png.txt", ".png", ""})
+  for (const char* name : {"lamp", "lamp.jpg", "lamp.png.txt", ".png"})
     expect_error(BAD_INPUT, {"render", "--out", name}, {"--out '" + std::string(name) + "'", ".png or .exr"});
   expect_error(BAD_INPUT, {"compare", "all", "tiled", "--out", "a.exr"}, {"--out 'a.exr'", "ends in .png"});
   expect_error(BAD_INPUT, {"render", "--heatmap", "heat.jpg"}, {"--heatmap 'heat.jpg'", "ends in .png"});

@@ -66,6 +66,14 @@ TEST_F(Capture, TakesMoreLightsWhenAsked) {
   const nlohmann::json more = json_of({"verify", "frame", "--lights", "20", "--method", "clustered", "--json"});
   EXPECT_EQ(more[0].at("lights"), 20 + 8 + 1);
   EXPECT_EQ(more[0].at("missed"), 0);
+  const std::vector<Arguments> of_generated{{"--seed", "2"}, {"--spots", "0.5"}, {"--still", "0"}, {"--range", "1:2"}};
+  for (const Arguments& option : of_generated) {
+    Arguments alone{"render", "frame"};
+    alone.insert(alone.end(), option.begin(), option.end());
+    expect_error(BAD_INPUT, alone, {option.front(), "no light is generated", "expected --lights N too"});
+  }
+  expect_error(BAD_INPUT, {"bench", "frame", "--seed", "2"}, {"--seed", "expected --lights N too"});
+  expect_error(BAD_INPUT, {"capture", "plane", "--out", "x", "--brdf", "ggx"}, {"option '--brdf'"});
 }
 
 TEST_F(Capture, KeepsDecalsInItsSurfaces) {
@@ -115,7 +123,6 @@ TEST_F(Capture, HasNothingThatCastsAShadow) {
 
 TEST_F(Capture, FoldersThatCannotBeWritten) {
   expect_error(BAD_INPUT, {"capture", "plane"}, {"--out", "required"});
-  expect_error(BAD_INPUT, {"capture", "plane", "--out", ""}, {"--out ''", "expected the name of a folder"});
   expect_error(BAD_INPUT, {"capture", "plane", "--out", "x", "--lights-as", "csv"}, {"--lights-as 'csv'", "json, npy"});
   write("file", "mine");
   expect_error(BAD_INPUT, {"capture", "plane", "--out", "file"}, {"--out 'file'", "is a file, expected a folder"});

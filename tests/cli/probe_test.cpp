@@ -14,9 +14,12 @@ TEST_F(Probe, WritesWhatIsSeenFromAPlace) {
   const app::LdrImage picture = app::read_png(path("probe.png"));
   EXPECT_EQ(picture.width, 640U);
   EXPECT_GT(picture.height, 900U);
-  (void)output_of({"probe", "corridor", "--at", "0.5", "1.6", "0.5", "--lights", "64", "--shadows", "hard", "--out",
-                   "shadows.png"});
+  const std::string shadows = output_of({"probe", "corridor", "--at", "0.5", "1.6", "0.5", "--lights", "64",
+                                         "--shadows", "hard", "--atlas", "64", "--out", "shadows.png"});
   EXPECT_NE(read("shadows.png"), read("probe.png"));
+  EXPECT_NE(shadows.find("\nshadows   hard: "), std::string::npos) << shadows;
+  EXPECT_NE(shadows.find(" fit nowhere"), std::string::npos) << shadows;
+  expect_error(BAD_INPUT, {"probe", "--shadows", "hard", "--shadow-budget", "1"}, {"option '--shadow-budget'"});
 }
 
 TEST_F(Probe, AreCapturedBeforeAPictureAndWithinABudgetAfterwards) {

@@ -9,8 +9,8 @@ using StateTest = CliTest;
 
 constexpr const char* STATE = R"({"version": 1, "scene": "plane", "size": "48x27", "lights": 40, "seed": 3,
   "method": "tiled", "options": {"tile": "32"}, "exposure": "0.5"})";
-const Arguments OPTIONS{"render",   "plane", "--size",   "48x27",   "--lights",   "40",  "--seed",    "3",
-                        "--method", "tiled", "--option", "tile=32", "--exposure", "0.5", "--samples", "1"};
+const Arguments OPTIONS{"render", "plane",    "--size", "48x27",    "--lights", "40",         "--seed",
+                        "3",      "--method", "tiled",  "--option", "tile=32",  "--exposure", "0.5"};
 
 Arguments with(Arguments arguments, const Arguments& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -22,6 +22,8 @@ TEST_F(StateTest, MakesThePictureOfTheSameOptions) {
   static_cast<void>(output_of({"render", "--state", "state.json", "-o", "state.exr"}));
   static_cast<void>(output_of(with(OPTIONS, {"-o", "options.exr"})));
   EXPECT_EQ(read("state.exr"), read("options.exr"));
+  static_cast<void>(output_of({"render", "--state", "state.json", "--samples", "1", "-o", "one.exr"}));
+  EXPECT_NE(read("state.exr"), read("one.exr")) << "what a state does not say is the default";
 }
 
 TEST_F(StateTest, IsChangedByOptions) {
@@ -104,6 +106,10 @@ TEST_F(StateTest, SaysWhatIsWrong) {
       {R"({"version": 1, "projection": "round"})", "projection"},
       {R"({"version": 1, "picked": [1.5, 2]})", "picked is [1.5,2], expected two whole numbers"},
       {R"({"version": 1, "free_camera": {"eye": [0, 0]}})", "free_camera: eye has 2 elements"},
+      {R"({"version": 1, "free_camera": {"eye": [0, 0, 0], "yaw": 0, "pitch": 0, "near": 0, "far": 0, "fov_y": 1}})",
+       "free_camera: near is 0 and far 0, expected near > 0 m"},
+      {R"({"version": 1, "free_camera": {"eye": [0, 0, 0], "yaw": 0, "pitch": 0, "near": 0.1, "far": -1, "fov_y": 1}})",
+       "free_camera: near is 0.1 and far -1, expected near > 0 m"},
       {R"({"version": 1, "edits": [{"light": 0, "type": "sun"}]})", "edits 0: type is \"sun\", expected point or spot"},
       {R"({"version": 1, "against": {"method": "nil"}})", "method"},
   };
@@ -112,6 +118,18 @@ TEST_F(StateTest, SaysWhatIsWrong) {
     expect_error(BAD_INPUT, {"render", "--state", "bad.json"}, {"bad.json: ", says});
   }
   expect_error(BAD_INPUT, {"render", "--state", "missing.json"}, {"missing.json"});
+}
+
+// As without a state, options of shadows need some.
+TEST_F(StateTest, MayHaveNoShadowsThatOptionsAreOf) {
+  write("cut.json", R"({"version": 1, "lights": 16, "method": "lamplight", "options": {"occlusion": "radial"}})");
+  expect_error(BAD_INPUT, {"render", "--state", "cut.json"}, {"occlusion=radial", "expected --shadows FILTER too"});
+  write("none.json", R"({"version": 1, "lights": 16})");
+  for (const Arguments& option : {Arguments{"--atlas", "1024"}, Arguments{"--shadow-blur", "lines"}})
+    expect_error(BAD_INPUT, with({"render", "--state", "none.json"}, option),
+                 {option.front(), "expected --shadows FILTER too"});
+  write("hard.json", R"({"version": 1, "lights": 16, "shadows": "hard"})");
+  expect_error(BAD_INPUT, {"render", "--state", "hard.json", "--shadow-blur", "lines"}, {"--shadow-blur", "vsm"});
 }
 
 TEST_F(StateTest, NamesALightThatIsNotThere) {

@@ -97,6 +97,7 @@ Exit run(int argc, char** argv) {
     return Exit::done;
   }
   check_repeats(app);
+  check_values(app);
   check_state(o.state);
   if (o.headless && o.script.empty()) throw Error("--headless: nobody sees that screen, expected --script with it");
   const ContextInfo::Validation validation = o.validate ? ContextInfo::Validation::on : ContextInfo::Validation::off;
