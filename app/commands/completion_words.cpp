@@ -75,11 +75,20 @@ Words split(std::string_view line) {
   return words;
 }
 
+/// "--method=tiled" as two words.
+Words values_apart(const Words& words) {
+  Words apart;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+    apart.push_back(word.substr(0, equals));
+    if (equals != std::string::npos) apart.push_back(word.substr(equals + 1));
+  }
+  return apart;
+}
+
 const CLI::Option* option_of(const CLI::App& command, const std::string& word) {
   return word.starts_with("-") ? command.get_option_no_throw(word) : nullptr;
 }
-
-bool takes_value(const CLI::Option* option) { return option != nullptr && option->get_items_expected_max() > 0; }
 
 /// The command's words, and where in them the one that is being typed stands.
 struct Typed {
@@ -87,22 +96,35 @@ struct Typed {
   std::span<const std::string> before;
   std::string last;
 
+  [[nodiscard]] bool has(std::string_view word) const { return std::ranges::find(before, word) != before.end(); }
   /// What an option was given; empty: nothing.
   [[nodiscard]] std::string value_of(std::string_view option) const {
     const auto found = std::ranges::find(before, option);
     return found == before.end() || found + 1 == before.end() ? std::string() : *(found + 1);
   }
-  /// Arguments that belong to no option, before the last word.
-  [[nodiscard]] std::size_t arguments() const {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const CLI::Option* option = option_of(command, before[i]);
-      if (takes_value(option)) ++i;
-      if (option == nullptr && !before[i].starts_with("-")) ++count;
-    }
-    return count;
-  }
 };
+
+/// The option that the last word is a value of, if it is one; and how many words before belong to no option.
+struct Place {
+  const CLI::Option* option = nullptr;
+  std::size_t arguments = 0;
+};
+
+Place place_of(const Typed& typed) {
+  Place place;
+  int values = 0;  // that are still to come of the option
+  for (const std::string& word : typed.before) {
+    if (values != 0) {
+      --values;
+      continue;
+    }
+    place.option = option_of(typed.command, word);
+    values = place.option == nullptr ? 0 : place.option->get_items_expected_min();
+    if (place.option == nullptr && !word.starts_with("-")) ++place.arguments;
+  }
+  if (values == 0) place.option = nullptr;
+  return place;
+}
 
 /// The values of an option or argument, by its name; none: they are no names.
 Words values_of(const Typed& typed, const std::string& name) {
@@ -113,9 +135,10 @@ Words values_of(const Typed& typed, const std::string& name) {
     for (const std::string& suite : suite_names()) words.push_back(suite);
     return words;
   }
+  if (typed.has("--panels") && (name == "a" || name == "b")) return name == "a" ? scene_words() : Words{};
   if (name == "a" || name == "b") return method_word_words(typed.last);
   if (name == "--method") return method_words();
-  if (name == "name" && typed.before.front() == "methods") return method_words();
+  if (name == "name" && (typed.has("methods") || typed.has("pipelines"))) return method_words();
   if (name == "--option") return setting_words(typed.value_of("--method"), typed.last);
   if (name == "--path") return copied(path_names());
   if (name == "--brdf") return copied(brdf_names());
@@ -159,19 +182,21 @@ std::string argument_name(const CLI::App& command, std::size_t place) {
 }
 
 Words in_command(const CLI::App& app, const Typed& typed) {
-  const CLI::Option* option = typed.before.empty() ? nullptr : option_of(typed.command, typed.before.back());
-  if (takes_value(option)) return values_of(typed, typed.before.back());
+  const Place place = place_of(typed);
+  if (place.option != nullptr) return values_of(typed, place.option->get_name());
   if (typed.last.starts_with("-")) return option_words(typed.command);
-  const std::string argument = argument_name(typed.command, typed.arguments());
+  const std::string argument = argument_name(typed.command, place.arguments);
   return argument == "command" ? command_words(app) : values_of(typed, argument);
 }
 
 }  // namespace
 
 std::vector<std::string> completions(const CLI::App& app, std::string_view line) {
-  Words words = split(line);
+  Words words = values_apart(split(line));
   if (words.empty()) return {};
+  const std::string typed = split(line).back();
   const std::string last = words.back();
+  const std::string option = typed.substr(0, typed.size() - last.size());  // "--method=", or nothing
   words.pop_back();
   Words found;
   if (words.empty()) {
@@ -180,6 +205,7 @@ std::vector<std::string> completions(const CLI::App& app, std::string_view line)
     found = in_command(app, {.command = *command, .before = std::span(words).subspan(1), .last = last});
   }
   std::erase_if(found, [&](const std::string& word) { return !word.starts_with(last); });
+  for (std::string& word : found) word.insert(0, option);
   return found;
 }
 

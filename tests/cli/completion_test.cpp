@@ -51,6 +51,15 @@ TEST_F(Completion, OfValues) {
   expect_words("lamp list sui", {"suites"});
   expect_words("lamp list methods tiled-b", {"tiled-bits"});
   expect_words("lamp bench stewart-f", {"stewart-flight"});
+  expect_words("lamp render --method=tiled-b", {"--method=tiled-bits"});
+  expect_words("lamp render --method=tiled --option ti", {"tile="});
+  expect_words("lamp render --method=tiled --option=tile=1", {"--option=tile=16"});
+  expect_words("lamp list pipelines tiled-b", {"tiled-bits"});
+  expect_words("lamp compare --panels pos", {"posts"});
+  expect_words("lamp compare --panels tig", {});
+  expect_words("lamp compare --panels posts ", {});
+  expect_words("lamp probe --at 1 ", {});
+  expect_words("lamp probe --at 1 2 -3 atr", {"atrium"});
   expect_words("lamp render --out lam", {});  // a file: the shell's own
 }
 
@@ -72,6 +81,7 @@ TEST_F(Completion, InBash) {
   };
   EXPECT_EQ(replies("lamp rend"), "render\n");
   EXPECT_EQ(replies("lamp render --method tiled --option tile=1"), "16\n");
+  EXPECT_EQ(replies("lamp render --method=tiled-b"), "tiled-bits\n");
   EXPECT_EQ(replies("lamp compare tiled:tile=3"), "32\n");
 }
 
