@@ -65,11 +65,11 @@ void check_side(const CompareOptions& o, const std::string& typed, const MethodW
   try {
     check_request(request, word.method);
   } catch (const Error& error) {
-    throw Error(fmt::format("compare {}: {}", typed, error.what()));
+    throw Error(fmt::format("compare '{}': {}", typed, error.what()));
   }
   if (const auto cut = cut_by_shadows(word.options); cut && request.shadows.filter == "off")
     throw Error(
-        fmt::format("compare {}: {} cuts lights by their shadow maps; expected --shadows FILTER too", typed, *cut));
+        fmt::format("compare '{}': {} cuts lights by their shadow maps; expected --shadows FILTER too", typed, *cut));
 }
 
 /// The two methods, as options ask for them.
@@ -81,6 +81,16 @@ std::vector<MethodChoice> chosen_sides(const CompareOptions& o, Session& session
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (!chosen[i].by_auto) chosen[i].options = words[i].options;
   return chosen;
+}
+
+/// Of a picture: options that both have tell nothing apart.
+std::string title_of(const MethodChoice& side, const MethodChoice& other) {
+  std::string title(side.method->name);
+  const std::size_t bare = title.size();
+  for (const std::string& option : side.options)
+    if (side.method != other.method || std::ranges::find(other.options, option) == other.options.end())
+      title += (title.size() == bare ? ":" : ",") + option;
+  return title;
 }
 
 /// Lights that one walks and the other does not, pixel by pixel.
@@ -127,9 +137,10 @@ Exit compare(const CompareOptions& o) {
   const auto map = [&](std::span<const std::uint32_t> counts, const std::string& title) {
     return heatmap_of(session, counts, {.title = title, .scale_max = scale});
   };
-  const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, a.label),
-                               map(b.counts, b.label),
-                               map(differences(a, b), fmt::format("{} - {}", a.label, b.label))};
+  const std::string titles[] = {title_of(chosen[0], chosen[1]), title_of(chosen[1], chosen[0])};
+  const LdrImage pictures[] = {tone_map(a.image, automatic_exposure(a.image)), map(a.counts, titles[0]),
+                               map(b.counts, titles[1]),
+                               map(differences(a, b), fmt::format("|{} - {}|", titles[0], titles[1]))};
   const LdrImage row = side_by_side(pictures);
   show_progress("");
   write_output(o.out, [&](const auto& file) { write_png(file, row); });
@@ -144,6 +155,7 @@ Exit compare(const CompareOptions& o) {
             "overflowed", "cull ms", "shade ms");
   print_side(a);
   print_side(b);
+  write_out("mean, longest: lights of a cell's list\n");
   print_out("largest difference of the pictures: {:.3g}\npicture: {}\n", difference, o.out);
   return Exit::done;
 }

@@ -67,7 +67,8 @@ void print_method(const Method& m) {
 void print_methods() {
   for (const Method& m : methods()) print_method(m);
   write_out(
-      "unordered: its lists come in another order every time. approximate: it may miss lights, as its source does.\n"
+      "unordered: its lists need not ascend, so that a picture may differ from brute force's in the last bits of its "
+      "sums. approximate: it may miss lights, as its source does.\n"
       "`lamp list methods NAME` shows a method's options. --method auto, the default, takes the method that is "
       "expected "
       "to be fastest (docs/auto.md).\n");

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "commands/stats.h"
+
 namespace lamp::app {
 namespace {
 
@@ -52,7 +54,7 @@ std::string mirror_words(const MirrorStats& stats) {
   if (stats.counts.ended != 0)
     words += fmt::format("; the device ended the search of {}, which see the sky", stats.counts.ended);
   if (stats.overflowed_cells != 0)
-    words += fmt::format("; {} cells did not fit, and their hits walk every light", stats.overflowed_cells);
+    words += fmt::format("; {} did not fit, whose hits walk every light", cell_words(stats.overflowed_cells));
   return words;
 }
 

@@ -125,12 +125,19 @@ std::optional<float> parse_exposure(const std::string& text) {
   float value = 0.0F;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !(value > 0.0F) || !std::isfinite(value))
-    throw Error(fmt::format("--exposure '{}': expected auto or a factor above 0", text));
+    throw Error(fmt::format("--exposure '{}': expected auto or a finite factor above 0", text));
   return value;
 }
 
+std::string extension_of(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& letter : extension)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return extension;
+}
+
 void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions) {
-  if (std::ranges::find(extensions, fs::path(file).extension().string()) == extensions.end())
+  if (std::ranges::find(extensions, extension_of(file)) == extensions.end())
     throw Error(fmt::format("{} '{}': expected a name that ends in {}", option, file, fmt::join(extensions, " or ")));
   try {
     const fs::path path = fs::absolute(followed(file));

@@ -64,6 +64,8 @@ struct HeatmapRequest {
 /// "auto" (nothing) or a factor > 0.
 [[nodiscard]] std::optional<float> parse_exposure(const std::string& text);
 
+/// With its dot, in small letters.
+[[nodiscard]] std::string extension_of(const std::filesystem::path& file);
 /// Throws Error, naming the option, unless `file` ends in one of the extensions and looks as if it can be written.
 /// Asked before long work begins; makes nothing.
 void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions);

@@ -40,7 +40,7 @@ struct RenderOptions {
 };
 
 void write_picture(const std::filesystem::path& file, const HdrImage& image, const LdrImage& toned) {
-  if (file.extension() == ".exr")
+  if (extension_of(file) == ".exr")
     write_exr(file, image);
   else
     write_png(file, toned);
@@ -143,7 +143,7 @@ void print_frame(const Stats& stats, std::uint32_t frame, const std::string& fil
   line(fmt::format("frame {}", frame),
        fmt::format("cull {:.3f} ms, shade {:.3f} ms, frame {:.3f} ms{}: {}", stats.rendered.cull_ms,
                    stats.rendered.shade_ms, stats.rendered.frame_ms,
-                   overflowed == 0 ? "" : fmt::format(", {} cells did not fit", overflowed), file));
+                   overflowed == 0 ? "" : fmt::format(", {} did not fit", cell_words(overflowed)), file));
   if (stats.shadows) line("  shadows", shadow_words(*stats.shadows));
 }
 

@@ -64,14 +64,16 @@ std::string words_of(std::span<const std::pair<std::string, std::string>> settin
   return words;
 }
 
+std::string cell_words(std::uint64_t count) { return fmt::format("{} cell{}", count, count == 1 ? "" : "s"); }
+
 std::string overflow_words(const Stats& stats) {
-  return fmt::format("{} cells did not fit and walked more lights{}{}", stats.rendered.counters.overflowed_cells,
+  return fmt::format("{} did not fit and walked more lights{}{}", cell_words(stats.rendered.counters.overflowed_cells),
                      stats.fits_with.empty() ? "" : "; there is room with ", words_of(stats.fits_with));
 }
 
 std::string overflow_words(const TransparentStats& stats) {
-  return fmt::format("of transparent surfaces' own lists {} cells did not fit and walked more lights{}",
-                     stats.overflowed_cells, stats.can_grow ? "; --grow makes room" : "");
+  return fmt::format("of transparent surfaces' own lists {} did not fit and walked more lights{}",
+                     cell_words(stats.overflowed_cells), stats.can_grow ? "; --grow makes room" : "");
 }
 
 std::uint32_t overflowed_cells(const Stats& stats) {

@@ -91,6 +91,8 @@ void set_walked(Stats& stats, std::span<const Visit> visits);
 /// "mean_cells=3, mean_capacity=40".
 [[nodiscard]] std::string words_of(std::span<const std::pair<std::string, std::string>> settings);
 
+/// "1 cell", "3 cells".
+[[nodiscard]] std::string cell_words(std::uint64_t count);
 /// "3 cells did not fit and walked more lights; there is room with mean_capacity=40". Of a frame with overflow.
 [[nodiscard]] std::string overflow_words(const Stats& stats);
 /// "of transparent surfaces' own lists 3 cells did not fit and walked more lights; --grow makes room". Likewise.

@@ -373,7 +373,7 @@ Run add_verify(CLI::App& app) {
       "  lamp verify blocks --method tiled --option tile=8 --projection orthographic\n"
       "waste: lights walked for each that reaches its pixel. excess: list length over the lights that reach the cell.\n"
       "Either is inf (null in JSON) where lights are walked and none of them reaches its pixel.\n"
-      "difference: from brute force's picture.\n"
+      "mean, longest: lights of a cell's list. difference: from brute force's picture.\n"
       "Exit code 1: a method failed. 4: none failed, but one could not be checked on this device.");
   return [o] {
     if (o->at_points.points == 0 || o->request.still_lists != "off") return verify(*o);

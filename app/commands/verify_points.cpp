@@ -151,8 +151,8 @@ void print_rows(const Request& request, const Context& context, const Setup& set
     if (i != 0 && rows[i].method == rows[i - 1].method) continue;
     for (const std::string& note : rows[i].notes) print_out("note: {}: {}\n", rows[i].method, note);
     if (rows[i].overflowed != 0)
-      print_out("{}: {} cells did not fit, and their points walk every light: give it more room (lamp list methods)\n",
-                rows[i].method, rows[i].overflowed);
+      print_out("{}: {} did not fit, whose points walk every light: give it more room (lamp list methods)\n",
+                rows[i].method, cell_words(rows[i].overflowed));
   }
   if (std::ranges::any_of(rows, [](const PointRow& row) { return row.points == 0; }))
     print_out("none: {} has no surface there\n", request.scene);
@@ -236,6 +236,7 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
     print_rows(request, context, setup, rows);
   }
   if (!of.cut.empty()) write_output(of.cut, [&](const auto& file) { write_png(file, stacked(cuts)); });
+  if (!of.cut.empty() && !of.json) print_out("picture: {}\n", of.cut);
   return exit_of(worst);
 }
 

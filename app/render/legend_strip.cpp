@@ -22,9 +22,10 @@ void LegendStrip::rect(std::int32_t x, std::int32_t font_y, glm::ivec2 size, glm
 }
 
 std::string fitting(std::string text, std::int32_t room, std::int32_t scale) {
+  constexpr std::string_view LEFT_OUT = "..";
   if (text_width(text, scale) <= room) return text;
-  while (!text.empty() && text_width(text + "..", scale) > room) text.pop_back();
-  return text + "..";
+  while (!text.empty() && text_width(text + std::string(LEFT_OUT), scale) > room) text.erase(text.size() / 2, 1);
+  return text.insert((text.size() + 1) / 2, LEFT_OUT);
 }
 
 std::int32_t legend_scale(std::uint32_t width) { return static_cast<std::int32_t>(1 + width / 640); }

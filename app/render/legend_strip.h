@@ -40,7 +40,7 @@ struct LegendStrip {
 /// Pixels of a line.
 [[nodiscard]] std::int32_t text_width(std::string_view text, std::int32_t scale);
 
-/// As much of it as there is room for, with ".." where some is left out.
+/// As much of it as there is room for, with ".." in the middle where some is left out.
 [[nodiscard]] std::string fitting(std::string text, std::int32_t room, std::int32_t scale);
 
 }  // namespace lamp::app

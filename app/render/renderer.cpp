@@ -22,7 +22,11 @@ std::unique_ptr<Targets> make_targets(const vulkan::Device& device, std::uint32_
   const std::uint32_t limit = device.traits.max_image_size;
   if (width == 0 || height == 0 || width > limit || height > limit)
     throw Error(fmt::format("size {}x{}: expected 1 to {} pixels a side on this device", width, height, limit));
-  return std::make_unique<Targets>(device, width, height);
+  try {
+    return std::make_unique<Targets>(device, width, height);
+  } catch (const Error& error) {
+    throw Error(fmt::format("size {}x{}: {}; expected a smaller picture", width, height, error.what()), error.exit());
+  }
 }
 
 void add_counts(Rendered& rendered, const Lighting& lighting) {

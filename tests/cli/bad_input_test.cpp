@@ -90,8 +90,8 @@ TEST_F(BadInput, OptionsOfAMethod) {
   expect_error(BAD_INPUT, {"compare", "tiled"}, {"names of two methods"});
   expect_error(BAD_INPUT, {"compare", "all", "tiled:tle=8"}, {"option 'tle'", "has the options tile, "});
   expect_error(BAD_INPUT, {"compare", "tiled:tile=5", "all"},
-               {"compare tiled:tile=5: ", "option tile: '5'", "8, 16, 32"});
-  expect_error(BAD_INPUT, {"compare", "tiled:", "all"}, {"option ''", "expected KEY=VALUE"});
+               {"compare 'tiled:tile=5': ", "option tile: '5'", "8, 16, 32"});
+  expect_error(BAD_INPUT, {"compare", "tiled:", "all"}, {"compare 'tiled:': option ''", "expected KEY=VALUE"});
   expect_error(BAD_INPUT, {"compare", "tiled:tile=8,tile=16", "all"}, {"tile: is given twice"});
   expect_error(BAD_INPUT, {"compare", "auto:tile=8", "all"}, {"method 'auto:tile=8'", "chooses its own options"});
 }
@@ -123,9 +123,9 @@ TEST_F(BadInput, Numbers) {
   for (const char* spots : {"-0.5", "2", "many"})
     expect_error(BAD_INPUT, {"render", std::string("--spots=") + spots}, {"--spots"});
   expect_error(BAD_INPUT, {"render", "plane", "--spots", "nan"}, {"spots", "nan"});
-  for (const char* exposure : {"0", "-1", "nan", "bright"})
+  for (const char* exposure : {"0", "-1", "nan", "inf", "bright"})
     expect_error(BAD_INPUT, {"render", std::string("--exposure=") + exposure},
-                 {"--exposure '" + std::string(exposure) + "'", "auto or a factor"});
+                 {"--exposure '" + std::string(exposure) + "'", "auto or a finite factor"});
 }
 
 // The flight is closed: a frame behind its last would be one of the same frames.

@@ -281,6 +281,15 @@ TEST_F(Outputs, CompareTakesOptionsOfEachMethod) {
   EXPECT_NE(table.find("\ntiled:tile=8 "), std::string::npos) << table;
 }
 
+TEST_F(Outputs, AnEndingMayBeInCapitals) {
+  for (const char* file : {"a.PNG", "b.png", "c.EXR", "d.exr"}) (void)output_of(small({"render", "--out", file}));
+  EXPECT_EQ(read("a.PNG"), read("b.png"));
+  EXPECT_EQ(read("c.EXR"), read("d.exr"));
+  const std::string words =
+      output_of({"verify", "plane", "--points", "9", "--lights", "8", "--method", "world-cells", "--cut", "cut.PNG"});
+  EXPECT_NE(words.find("\npicture: cut.PNG\n"), std::string::npos) << words;
+}
+
 TEST_F(Outputs, SameSeedSamePicture) {
   for (const char* file : {"a.png", "b.png"}) (void)output_of(small({"render", "--seed", "7", "--out", file}));
   (void)output_of(small({"render", "--seed", "8", "--out", "c.png"}));

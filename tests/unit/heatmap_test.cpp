@@ -10,6 +10,7 @@
 #include <set>
 
 #include "render/heatmap_legend.h"
+#include "render/legend_strip.h"
 
 namespace lamp::app {
 namespace {
@@ -31,6 +32,15 @@ std::vector<glm::u8vec4> legend(const LdrImage& image, std::uint32_t map_height)
 LdrImage draw(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> counts,
               const std::string& title = "tiled", std::uint32_t scale_max = 0) {
   return draw_heatmap({.width = width, .height = height, .counts = counts, .scale_max = scale_max, .title = title});
+}
+
+// The ends of a title tell methods and their options apart.
+TEST(Legend, TitlesAreCutInTheMiddle) {
+  const std::string title = "tiled - clustered";
+  EXPECT_EQ(fitting(title, text_width(title, 2), 2), title);
+  EXPECT_EQ(fitting(title, text_width(title, 2) - 1, 2), "tiled -..ustered");
+  EXPECT_EQ(fitting(title, text_width("tile..red", 1), 1), "tile..red");
+  EXPECT_EQ(fitting(title, 0, 1), "..");
 }
 
 TEST(HeatColor, MoreLightsAreLighter) {
