@@ -109,10 +109,11 @@ TEST_F(Bench, AMethodWhoseOutputIsWrongGetsNoTime) {
   }
   const std::string lookup = "tree/lib/shaders/lookup/parts/cluster_lists.glsl";
   std::string text = read(lookup);
-  const std::string whole = "if (range.y != NO_RANGE) return walk_from(first, first + range.y, NO_WORD);";
+  const std::string whole = "if (range.y != NO_RANGE) return walk_from(first, first + range.y, LOOKUP_NO_WORD);";
   const std::size_t at = text.find(whole);
   ASSERT_NE(at, std::string::npos);
-  write(lookup, text.replace(at, whole.size(), "if (range.y != NO_RANGE) return walk_from(first, first, NO_WORD);"));
+  write(lookup,
+        text.replace(at, whole.size(), "if (range.y != NO_RANGE) return walk_from(first, first, LOOKUP_NO_WORD);"));
   write_suite("[8]");
   Arguments broken = MINE;
   broken.insert(broken.end(), {"--shader-dir", "tree"});
