@@ -16,7 +16,6 @@ namespace lamp::app {
 namespace {
 
 constexpr std::uint32_t VERSION = 1;
-constexpr float LARGEST = std::numeric_limits<float>::max();
 constexpr std::string_view POINT = "point";
 constexpr std::string_view SPOT = "spot";
 
