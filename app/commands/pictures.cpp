@@ -16,6 +16,7 @@
 #include "render/heatmap.h"
 #include "render/shadow_heat.h"
 #include "render/shadow_leaks.h"
+#include "system/letter_case.h"
 #include "system/temporary.h"
 
 namespace lamp::app {
@@ -131,8 +132,7 @@ std::optional<float> parse_exposure(const std::string& text) {
 
 std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
-  for (char& letter : extension)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  std::ranges::transform(extension, extension.begin(), small_letter);
   return extension;
 }
 

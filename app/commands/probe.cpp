@@ -89,8 +89,7 @@ Run add_probe(CLI::App& app) {
       ->type_name("X Y Z")
       ->group("View")
       ->expected(3);
-  add_shadow_options(*command, o->request);
-  command->remove_option(command->get_option("--shadow-budget"));  // a capture draws all of its maps
+  add_shadow_map_options(*command, o->request);  // a capture draws all of its maps
   add_out_option(*command, o->out, "write the picture to this file, .png");
   command->footer(
       "Examples:\n"

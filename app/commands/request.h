@@ -96,8 +96,9 @@ void add_path_option(CLI::App& command, Request& request);
 void add_grow_option(CLI::App& command, Request& request);
 /// Adds `--explain` and `--calibration`.
 void add_auto_options(CLI::App& command, Request& request);
-/// Adds `--shadows` and what goes with it.
+/// Adds `--shadows` and what goes with it; the second without `--shadow-budget`.
 void add_shadow_options(CLI::App& command, Request& request);
+void add_shadow_map_options(CLI::App& command, Request& request);
 /// Adds `--mirror` and `--mirror-lists`.
 void add_mirror_options(CLI::App& command, Request& request);
 void add_moving_flag(CLI::App& command, Request& request);

@@ -89,18 +89,22 @@ void check_shadow_choice(const Request& request) {
 }
 
 void add_shadow_options(CLI::App& command, Request& r) {
+  add_shadow_map_options(command, r);
+  command
+      .add_option("--shadow-budget", r.shadows.budget,
+                  "texels of shadow maps that are drawn in a frame, or all; what waits is counted")
+      ->type_name("TEXELS")
+      ->group("Shadows")
+      ->capture_default_str();
+}
+
+void add_shadow_map_options(CLI::App& command, Request& r) {
   command.add_option("--shadows", r.shadows.filter, "how shadows are filtered: off, hard, pcf, vsm or evsm")
       ->type_name("FILTER")
       ->group("Shadows")
       ->capture_default_str();
   command.add_option("--shadow-lights", r.shadows.lights, "how many lights cast shadows, the first so many, or all")
       ->type_name("N")
-      ->group("Shadows")
-      ->capture_default_str();
-  command
-      .add_option("--shadow-budget", r.shadows.budget,
-                  "texels of shadow maps that are drawn in a frame, or all; what waits is counted")
-      ->type_name("TEXELS")
       ->group("Shadows")
       ->capture_default_str();
   command

@@ -20,11 +20,12 @@ std::optional<MirrorStats> verify_mirror(Session& session, const Setup& setup, L
   Renderer& renderer = session.renderer();
   if (renderer.mirrored() == nullptr) return std::nullopt;
   const std::size_t pictures = renderer.all_pictures().size();
+  const MirrorReference reference(setup.scene, renderer.mirrored()->scene().bvh());
   MirrorFindings findings;
   for_each_picture(renderer, [&](std::span<const float>) {
     show_progress("verify mirror rays");
     static_cast<void>(renderer.render(lighting));
-    findings.add(check_mirror(renderer, session.shaders(), setup.scene, setup.lights, MOST_RAYS / pictures));
+    findings.add(check_mirror(renderer, session.shaders(), reference, setup.lights, MOST_RAYS / pictures));
   });
   std::optional<MirrorStats> stats = mirror_stats(renderer.mirrored());
   stats->findings = std::move(findings);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands/pictures.h"
+#include "render/scene_occluders.h"
 #include "system/progress.h"
 
 namespace lamp::app {
@@ -22,9 +23,10 @@ std::optional<ShadowFindings> shadow_findings(Session& session, const Setup& set
     progress->show("verify shadows: " + what, done);
   };
   show_progress("verify shadows");
+  const Occluders occluders = scene_occluders(setup.scene);
   ShadowFindings findings;
   for_each_picture(renderer, [&](std::span<const float>) {
-    findings.add(check_shadows(renderer, session.shaders(), setup.scene, setup.lights, show));
+    findings.add(check_shadows(renderer, session.shaders(), occluders, setup.lights, show));
   });
   return findings;
 }

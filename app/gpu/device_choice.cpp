@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "error.h"
+#include "system/letter_case.h"
 
 namespace lamp::app {
 namespace {
@@ -39,8 +40,7 @@ bool matches(std::string_view wanted, std::size_t index, const DeviceRow& row) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
   if (error == std::errc{} && end == wanted.data() + wanted.size()) return number == index;
-  const auto same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
-  return !std::ranges::search(row.name, wanted, same).empty();
+  return !std::ranges::search(row.name, wanted, {}, small_letter, small_letter).empty();
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "oracle/points.h"
-#include "render/mirror_reference.h"
 
 namespace lamp::app {
 namespace {
@@ -116,7 +115,7 @@ std::string MirrorFindings::reason() const {
   return ended == 0 ? "" : fmt::format("the device ended the search of {} mirror rays before its end", ended);
 }
 
-MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
+MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, const MirrorReference& reference,
                             std::span<const shared::Light> lights, std::size_t most) {
   const MirrorPass& mirror = *renderer.mirrored();
   const std::size_t pixels = std::size_t{mirror.info().width} * mirror.info().height;
@@ -127,7 +126,6 @@ MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, co
   const std::vector<std::size_t> chosen = chosen_pixels(frame, most, findings);
   findings.checked = chosen.size();
   std::vector<MirrorCompared> compared(chosen.size());
-  const MirrorReference reference(scene, mirror.scene().bvh());
   tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
     const std::size_t pixel = chosen[i];
     compared[i] = reference.compare(frame.rays[pixel], frame.hits[pixel], glm::vec3(frame.surfaces[pixel].position));

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "render/mirror_reference.h"
 #include "render/point_check.h"
 #include "render/renderer.h"
 
@@ -26,8 +27,10 @@ struct MirrorFindings {
   [[nodiscard]] std::string reason() const;  ///< of a verdict that is not ok, one line
 };
 
-/// Of the last picture of a renderer that mirrors; `lights` are the frame's, `most` rays are checked.
-[[nodiscard]] MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
-                                          std::span<const shared::Light> lights, std::size_t most);
+/// Of the last picture of a renderer that mirrors; the reference is of its scene, `lights` are the frame's, `most` rays
+/// are checked.
+[[nodiscard]] MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders,
+                                          const MirrorReference& reference, std::span<const shared::Light> lights,
+                                          std::size_t most);
 
 }  // namespace lamp::app

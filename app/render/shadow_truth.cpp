@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "render/scene_occluders.h"
 #include "render/shadow_pairs.h"
 #include "render/verification.h"
 
@@ -170,7 +169,7 @@ Truth lit_truth(Renderer& renderer, const ShaderLibrary& shaders, const Truth& t
   return lit;
 }
 
-ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
+ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Occluders& occluders,
                              std::span<const shared::Light> lights, const ShadowProgress& progress) {
   renderer.need_surfaces();
   const View& view = renderer.view();
@@ -189,7 +188,6 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
                        .has_meshes = renderer.shadows()->reach(ShadowReach::Kind::meshes) != nullptr};
   if (pairs.empty()) return found;
   const std::vector<gpu::ShadowAnswer> looked_up = ask_shadows(renderer, shaders, pairs, ShadowAsked::texels);
-  const Occluders occluders = scene_occluders(scene);
   std::vector<Answers> answers(pairs.size());
   for (std::size_t first = 0; first < pairs.size(); first += TRACED_PAIRS) {
     const std::size_t end = std::min(first + TRACED_PAIRS, pairs.size());

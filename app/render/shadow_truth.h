@@ -74,8 +74,8 @@ struct ShadowFindings {
 /// Told what is done now, and how much of that, 0 .. 1.
 using ShadowProgress = std::function<void(const std::string& what, double done)>;
 
-/// Of the picture that a renderer shows, which casts shadows.
-[[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Scene& scene,
+/// Of the picture that a renderer shows, which casts shadows; the occluders are its scene's.
+[[nodiscard]] ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, const Occluders& occluders,
                                            std::span<const shared::Light> lights, const ShadowProgress& progress = {});
 
 /// Whether a method's lights are cut by what their shadow maps hold.

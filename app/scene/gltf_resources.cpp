@@ -13,6 +13,7 @@
 
 #include "files/read_file.h"
 #include "scene/gltf_error.h"
+#include "system/letter_case.h"
 
 namespace lamp::app {
 namespace {
@@ -94,9 +95,7 @@ std::vector<std::byte> read_data_uri(const std::string& uri, const GltfOrigin& o
 
 bool is_data_uri(std::string_view uri) {
   constexpr std::string_view SCHEME = "data:";
-  // Schemes ignore case.
-  return std::ranges::equal(uri.substr(0, SCHEME.size()), SCHEME,
-                            [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+  return std::ranges::equal(uri.substr(0, SCHEME.size()), SCHEME, {}, small_letter);  // schemes ignore case
 }
 
 std::optional<std::filesystem::path> external_file(const std::string& uri, const GltfOrigin& origin,

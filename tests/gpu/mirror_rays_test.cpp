@@ -31,7 +31,8 @@ class MirrorRays : public GpuTest {
                        .height = HEIGHT,
                        .light_capacity = 1});
     static_cast<void>(renderer.render(lighting));
-    return check_mirror(renderer, shader_library(), scene.scene, {}, std::size_t{WIDTH} * HEIGHT);
+    const MirrorReference reference(scene.scene, renderer.mirrored()->scene().bvh());
+    return check_mirror(renderer, shader_library(), reference, {}, std::size_t{WIDTH} * HEIGHT);
   }
 };
 

@@ -59,6 +59,10 @@ class Mirror : public GpuTest {
   }
 };
 
+MirrorReference reference_of(const Renderer& renderer, const Scene& scene) {
+  return {scene, renderer.mirrored()->scene().bvh()};
+}
+
 class MirrorInScene : public Mirror, public ::testing::WithParamInterface<std::string_view> {};
 
 /// Instances, masked leaves, glass, back faces; far from the eye, too.
@@ -68,7 +72,8 @@ TEST_P(MirrorInScene, RaysMeetWhatTheReferenceMeets) {
   const Shown shown{.gpu = scene.gpu, .view = view, .lights = test_lights(scene.air, view, {.count = COUNT})};
   const std::unique_ptr<Renderer> renderer = renderer_of(shown);
   static_cast<void>(picture(*renderer, shown));
-  const MirrorFindings found = check_mirror(*renderer, shader_library(), scene.scene, shown.lights, 4000);
+  const MirrorFindings found =
+      check_mirror(*renderer, shader_library(), reference_of(*renderer, scene.scene), shown.lights, 4000);
   EXPECT_EQ(found.reason(), "");
   EXPECT_GT(found.checked, 1000U);
   EXPECT_GT(found.hits, found.checked / 4);
@@ -167,7 +172,8 @@ TEST_F(Mirror, ShowsWhatIsPlacedFlatOrTiny) {
     const Shown shown{.gpu = scene.gpu, .view = view, .lights = lights};
     const std::unique_ptr<Renderer> renderer = renderer_of(shown);
     EXPECT_LT(max_abs_difference(picture(*renderer, shown), expected), 1e-3F);
-    const MirrorFindings found = check_mirror(*renderer, shader_library(), scene.scene, lights, 4000);
+    const MirrorFindings found =
+        check_mirror(*renderer, shader_library(), reference_of(*renderer, scene.scene), lights, 4000);
     EXPECT_EQ(found.reason(), "");
     EXPECT_GT(found.hits, 0U);
   }

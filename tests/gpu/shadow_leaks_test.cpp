@@ -5,6 +5,7 @@
 #include "gpu/hall.h"
 #include "gpu/test_scenes.h"
 #include "render/kept_rays.h"
+#include "render/scene_occluders.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
 
@@ -50,7 +51,9 @@ class Shadowed {
     rays_.move();
     renderer_.set_frame(view_of(scene_.scene().cameras.front(), WIDTH, HEIGHT, "perspective"), lights_);
   }
-  [[nodiscard]] ShadowFindings truth() { return check_shadows(renderer_, shader_library(), scene_.scene(), lights_); }
+  [[nodiscard]] ShadowFindings truth() {
+    return check_shadows(renderer_, shader_library(), scene_occluders(scene_.scene()), lights_);
+  }
   [[nodiscard]] std::string why_not() const { return why_no_leaks(renderer_, *lighting_, scene_.scene()); }
 
  private:

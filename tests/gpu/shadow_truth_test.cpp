@@ -4,6 +4,7 @@
 
 #include "gpu/hall.h"
 #include "gpu/test_scenes.h"
+#include "render/scene_occluders.h"
 #include "render/shadow_pairs.h"
 #include "scene/flight.h"
 #include "scene/place_lights.h"
@@ -30,7 +31,7 @@ ShadowFindings findings(const ShadowSettings& settings, const ShadowProgress& pr
   info.options = take(resolve_options(*info.method, {}));
   Lighting lighting(test_context().device(), shader_library(), info);
   static_cast<void>(renderer.render(lighting));  // draws the maps
-  return check_shadows(renderer, shader_library(), scene.scene, lights, progress);
+  return check_shadows(renderer, shader_library(), scene_occluders(scene.scene), lights, progress);
 }
 
 TEST_F(GpuTest, WithoutMapsAllThatRaysStopLeaks) {

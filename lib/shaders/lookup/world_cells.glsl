@@ -22,11 +22,8 @@ LOOKUP_VIEW_WORDS(4, LOOKUP_LEVELS_VIEW);
 
 void lookup_prepare() {}
 
-// Levels whose cells a walk keeps in registers; lists of further ones are searched for each light anew.
-LAMP_CONST LOOKUP_STREAMS = 4u;
-
 struct Walk {
-  LookupStream streams[LOOKUP_STREAMS];
+  LookupStream streams[WORLD_STREAMS];
   uint further;        // bit l: level l has no stream,
   uint further_light;  // and this is the next of such levels
   vec3 position;
@@ -52,7 +49,7 @@ uint lookup_further(Walk walk, uint light) {
 
 Walk world_walk_begin(uint view, vec3 position) {
   Walk walk;
-  LAMP_UNROLL for (uint i = 0u; i < LOOKUP_STREAMS; ++i) {
+  LAMP_UNROLL for (uint i = 0u; i < WORLD_STREAMS; ++i) {
     walk.streams[i].light = LOOKUP_NO_LIGHT;
     walk.streams[i].place = 0u;
     walk.streams[i].left = 0u;
@@ -77,10 +74,10 @@ Walk world_walk_begin(uint view, vec3 position) {
     LookupStream stream = lookup_stream(view, place, bucket, 0u);
     lookup_advance(view, stream);
     if (stream.light == LOOKUP_NO_LIGHT) continue;
-    if (used == LOOKUP_STREAMS) walk.further |= 1u << level;
-    LAMP_UNROLL for (uint i = 0u; i < LOOKUP_STREAMS; ++i)
+    if (used == WORLD_STREAMS) walk.further |= 1u << level;
+    LAMP_UNROLL for (uint i = 0u; i < WORLD_STREAMS; ++i)
       if (used == i) walk.streams[i] = stream;
-    used = min(used + 1u, LOOKUP_STREAMS);
+    used = min(used + 1u, WORLD_STREAMS);
   }
   if (walk.further != 0u) walk.further_light = lookup_further(walk, 0u);
   return walk;
@@ -94,7 +91,7 @@ bool world_walk_next(inout Walk walk, out uint light) {
   do {
     LookupStream stream = walk.streams[0];
     uint which = 0u;
-    LAMP_UNROLL for (uint i = 1u; i < LOOKUP_STREAMS; ++i)
+    LAMP_UNROLL for (uint i = 1u; i < WORLD_STREAMS; ++i)
       if (walk.streams[i].light < stream.light) {
         stream = walk.streams[i];
         which = i;
@@ -103,7 +100,7 @@ bool world_walk_next(inout Walk walk, out uint light) {
     if (light == LOOKUP_NO_LIGHT) return false;
     if (light == walk.further_light) walk.further_light = lookup_further(walk, light + 1u);
     if (light == stream.light) lookup_advance(walk.view, stream);
-    LAMP_UNROLL for (uint i = 0u; i < LOOKUP_STREAMS; ++i)
+    LAMP_UNROLL for (uint i = 0u; i < WORLD_STREAMS; ++i)
       if (which == i) walk.streams[i] = stream;
   } while (light == walk.last);
   walk.last = light;

@@ -22,7 +22,6 @@ namespace {
 // place is kept, which are searched by halving for each of their lights.
 constexpr std::uint32_t ROUNDS_A_LIGHT = 8;
 constexpr std::uint32_t ROUNDS_A_SEARCH = 3;  // besides those of the halving
-constexpr std::uint32_t KEPT_LEVELS = 4;      // LOOKUP_STREAMS of lookup/world_cells.glsl
 
 using shared::BRICK_CELLS;
 using shared::BRICK_SLICES;
@@ -276,7 +275,8 @@ void note_rounds(const Problem& problem, Plan& plan) {
   if (rounds == ~0U) return;
   plan.lookup.most_walked = rounds / ROUNDS_A_LIGHT;
   const auto search = static_cast<std::uint32_t>(std::bit_width(problem.light_capacity)) + ROUNDS_A_SEARCH;
-  const std::uint32_t of_all_levels = rounds / (ROUNDS_A_LIGHT + (shared::WORLD_LEVELS + 1 - KEPT_LEVELS) * search);
+  const std::uint32_t of_all_levels =
+      rounds / (ROUNDS_A_LIGHT + (shared::WORLD_LEVELS + 1 - shared::WORLD_STREAMS) * search);
   if (problem.light_capacity <= of_all_levels) return;
   plan.notes.push_back("a point that walks more than " + std::to_string(of_all_levels) +
                        " lights of more than four levels, whose ranges differ 16 times and more, can lose some: the "

@@ -21,6 +21,7 @@ LAMP_CONST SLICE_HALVES = 3u;
 LAMP_CONST WORLD_LEVELS = 20u;
 LAMP_CONST WORLD_EVERYTHING = WORLD_LEVELS;  // the level of the brick that is the whole world
 LAMP_CONST WORLD_LEAST = 5u;                 // 2^-5 m to 2^14 m
+LAMP_CONST WORLD_STREAMS = 4u;               // levels whose cells a walk keeps in registers; it searches further ones
 
 // Farthest brick from the origin, in bricks: rounding widens a light's sphere so that none is listed farther out.
 LAMP_CONST_FLOAT WORLD_FARTHEST = 4194304.0f;

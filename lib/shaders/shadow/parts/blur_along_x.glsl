@@ -9,15 +9,12 @@ const int TURN_ROWS = 4;
 
 void blur_block(BlurBlock block) {
   const Strip strip = strip_of(block, THREADS);
-  const int column = int(gl_LocalInvocationIndex) % strip.size.x;
-  const int part = int(gl_LocalInvocationIndex) / strip.size.x;
-  const int end = end_row(strip, part);
+  Column column = column_of(strip);
   const int turns = (strip.rows + strip.residues - 1) / strip.residues;
-  ivec2 place = ivec2(strip.first.x + column, first_row(strip, part));
   Loads loads = first_loads(block, strip, 0);
   for (int turn = 0; turn * TURN_ROWS < turns; ++turn) {
     share(block, strip, turn, loads);
-    for (int row = 0; row < TURN_ROWS; ++row, place.y += strip.residues)
-      if (place.y < end) blur_store(block, place, along_x(strip, part, column, turn, row));
+    for (int row = 0; row < TURN_ROWS; ++row, column.place.y += strip.residues)
+      if (column.place.y < column.end) blur_store(block, column.place, along_x(strip, column, turn, row));
   }
 }

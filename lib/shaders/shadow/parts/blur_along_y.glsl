@@ -10,19 +10,14 @@ const int AHEAD = 2;  // rows that are asked for before the first of them is wai
 
 void blur_block(BlurBlock block) {
   const Strip strip = strip_of_columns(block);
-  const int column = int(gl_LocalInvocationIndex) % strip.size.x;
-  const int part = int(gl_LocalInvocationIndex) / strip.size.x;
-  const int end = end_row(strip, part);
-  const int turns = turns_of(strip);
-  ivec2 place = ivec2(strip.first.x + column, first_row(strip, part) - 2 * strip.reach);
-  ColumnSums sums = no_sums();
-  for (int first = 0; first < turns; first += AHEAD) {
+  ColumnSums sums = begin_sums(strip);
+  for (int first = 0; first < sums.turns; first += AHEAD) {
     BLUR_VECTOR texels[AHEAD];
     [[unroll]] for (int i = 0; i < AHEAD; ++i) {
-      const ivec2 texel = place + ivec2(0, strip.reach + i * strip.residues);
+      const ivec2 texel = sums.column.place + ivec2(0, strip.reach + i * strip.residues);
       texels[i] = BLUR_VECTOR(SHADOW_TEXEL(shadow_moments, shadow_texel_of(block.square, texel)));
     }
-    [[unroll]] for (int i = 0; i < AHEAD; ++i, place.y += strip.residues)
-      if (first + i < turns) add_row(block, strip, place, end, first + i, texels[i], sums);
+    [[unroll]] for (int i = 0; i < AHEAD; ++i)
+      if (first + i < sums.turns) add_row(block, strip, first + i, texels[i], sums);
   }
 }

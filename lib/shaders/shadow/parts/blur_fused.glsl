@@ -11,16 +11,11 @@ const int THREADS = 192;
 
 void blur_block(BlurBlock block) {
   const Strip strip = strip_of_columns(block);
-  const int column = int(gl_LocalInvocationIndex) % strip.size.x;
-  const int part = int(gl_LocalInvocationIndex) / strip.size.x;
-  const int end = end_row(strip, part);
-  const int turns = turns_of(strip);
-  ivec2 place = ivec2(strip.first.x + column, first_row(strip, part) - 2 * strip.reach);
-  ColumnSums sums = no_sums();
+  ColumnSums sums = begin_sums(strip);
   Loads loads = first_loads(block, strip, strip.reach);
-  for (int turn = 0; turn * TURN_ROWS < turns; ++turn) {
+  for (int turn = 0; turn * TURN_ROWS < sums.turns; ++turn) {
     share(block, strip, turn, loads);
-    for (int row = 0; row < TURN_ROWS; ++row, place.y += strip.residues)
-      add_row(block, strip, place, end, turn * TURN_ROWS + row, along_x(strip, part, column, turn, row), sums);
+    for (int row = 0; row < TURN_ROWS; ++row)
+      add_row(block, strip, turn * TURN_ROWS + row, along_x(strip, sums.column, turn, row), sums);
   }
 }

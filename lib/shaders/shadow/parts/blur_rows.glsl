@@ -62,7 +62,7 @@ BLUR_VECTOR nine_taps(int turn, int first, int step) {
 }
 
 // `row`: of the part's, in this turn. Nearly all squares have a step of 3: known, it needs no additions.
-BLUR_VECTOR along_x(Strip strip, int part, int column, int turn, int row) {
-  const int first = (part * TURN_ROWS + row) * wide_of(strip) + column;
+BLUR_VECTOR along_x(Strip strip, Column column, int turn, int row) {
+  const int first = (column.part * TURN_ROWS + row) * wide_of(strip) + column.x;
   return strip.step == 3 ? nine_taps(turn, first, 3) : nine_taps(turn, first, strip.step);
 }

@@ -21,6 +21,14 @@ struct Strip {
   int rows;      // of a slice, which `residues` parts have
 };
 
+// What of a strip is a thread's.
+struct Column {
+  int x;        // in the strip
+  int part;
+  ivec2 place;  // of the square: where it begins
+  int end;      // behind the last row of its part
+};
+
 // With so many parts that take turns with rows, or all of them.
 Strip strip_of(BlurBlock block, int most_residues) {
   const int side = block.square.side;
@@ -42,9 +50,13 @@ int first_row(Strip strip, int part) {
   return strip.first.y + part / strip.residues * strip.rows + part % strip.residues;
 }
 
-// Behind the last row of a part.
-int end_row(Strip strip, int part) {
-  return strip.first.y + min((part / strip.residues + 1) * strip.rows, strip.size.y);
+Column column_of(Strip strip) {
+  Column column;
+  column.x = int(gl_LocalInvocationIndex) % strip.size.x;
+  column.part = int(gl_LocalInvocationIndex) / strip.size.x;
+  column.place = ivec2(strip.first.x + column.x, first_row(strip, column.part));
+  column.end = strip.first.y + min((column.part / strip.residues + 1) * strip.rows, strip.size.y);
+  return column;
 }
 
 #endif
