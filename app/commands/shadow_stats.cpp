@@ -47,6 +47,7 @@ std::string cut_words(const ShadowFindings& truth) {
   std::string words =
       fmt::format("{} of {} pairs that maps leave dark are beyond the light's radial bound, and {} that they light",
                   truth.cut, truth.dark, truth.lost);
+  words += fmt::format("; of those whose light is behind the surface, {} of {}", truth.cut_behind, truth.behind);
   if (truth.has_meshes)
     words += fmt::format("; {} and {} are outside the light's mesh", truth.outside, truth.lost_outside);
   return words;
@@ -78,6 +79,8 @@ nlohmann::json to_json(const ShadowStats& shadows) {
                      {"dark", truth->dark},
                      {"cut", truth->cut},
                      {"lost", truth->lost},
+                     {"behind", truth->behind},
+                     {"cut_behind", truth->cut_behind},
                      {"outside", truth->outside},
                      {"lost_outside", truth->lost_outside},
                      {"verdict", name_of(truth->is_right() ? Verdict::ok : Verdict::failed)},

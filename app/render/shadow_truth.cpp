@@ -130,6 +130,8 @@ void ShadowFindings::add(const ShadowFindings& more) {
   dark += more.dark;
   cut += more.cut;
   lost += more.lost;
+  behind += more.behind;
+  cut_behind += more.cut_behind;
   has_meshes = has_meshes || more.has_meshes;
   outside += more.outside;
   lost_outside += more.lost_outside;
@@ -198,17 +200,20 @@ ShadowFindings check_shadows(Renderer& renderer, const ShaderLibrary& shaders, c
     if (progress) progress("rays", static_cast<double>(end) / static_cast<double>(pairs.size()));
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double light = double{looked_up[i].light};
-    if (!(light > 0.0)) continue;  // it faces away
-    ++found.pairs;
     const bool is_dark = looked_up[i].share == 0.0F;
     const bool is_cut = looked_up[i].reached == 0;
+    const bool is_out = looked_up[i].held == 0;
+    found.lost += !is_dark && is_cut ? 1 : 0;
+    found.lost_outside += !is_dark && is_out ? 1 : 0;
+    if (!(looked_up[i].light > 0.0F)) {
+      ++found.behind;
+      found.cut_behind += is_cut ? 1 : 0;
+      continue;
+    }
+    ++found.pairs;
     found.dark += is_dark ? 1 : 0;
     found.cut += is_dark && is_cut ? 1 : 0;
-    found.lost += !is_dark && is_cut ? 1 : 0;
-    const bool is_out = looked_up[i].held == 0;
     found.outside += is_dark && is_out ? 1 : 0;
-    found.lost_outside += !is_dark && is_out ? 1 : 0;
     if (answers[i].own == Answer::unclear) {
       ++found.unclear;
       continue;

@@ -47,7 +47,7 @@ struct ShadowLight {
   friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
 
-/// Of pairs of pixel and light whose light reaches the pixel and faces it.
+/// Of pairs of pixel and light whose light reaches the pixel and faces it, where nothing else is said.
 struct ShadowFindings {
   std::uint64_t pairs = 0;
   std::uint64_t unclear = 0;       ///< of them, left out: other ends of the ray give another answer
@@ -55,10 +55,12 @@ struct ShadowFindings {
   std::uint64_t in_shadow = 0;     ///< by rays
   std::uint64_t dark = 0;          ///< to which the look-up leaves no light
   std::uint64_t cut = 0;           ///< of these, beyond the light's radial bound
-  std::uint64_t lost = 0;          ///< beyond the bound although the look-up lights them: a fault
+  std::uint64_t lost = 0;          ///< beyond the bound although the look-up lights them, from behind as well: a fault
+  std::uint64_t behind = 0;        ///< pairs whose light is behind the surface, which maps nearly always leave dark
+  std::uint64_t cut_behind = 0;    ///< of these, beyond the light's radial bound
   bool has_meshes = false;         ///< a method was cut by them
   std::uint64_t outside = 0;       ///< of the dark, outside the light's mesh
-  std::uint64_t lost_outside = 0;  ///< outside the mesh although the look-up lights them: a fault
+  std::uint64_t lost_outside = 0;  ///< likewise, outside the mesh
   ShadowLight all;
   ShadowLight away;    ///< of the pairs away from edges
   ShadowLight beyond;  ///< of the pairs beyond the filter's reach: all texels with a say are as dark or lit as the ray

@@ -82,6 +82,8 @@ TEST_F(GpuTest, ShadowsAreNearTheTruth) {
       EXPECT_EQ(found.lost, 0U) << "radial bounds cut what is lit";
       EXPECT_GT(found.dark, 100U);
       EXPECT_LE(found.cut, found.dark);
+      EXPECT_GT(found.behind, 100U);
+      EXPECT_LE(found.cut_behind, found.behind);
       if (filter == ShadowFilter::vsm) vsm_bleeding = found.beyond.leaks();
       if (filter == ShadowFilter::evsm) {
         EXPECT_LE(found.beyond.leaks(), 0.25 * vsm_bleeding);
