@@ -27,6 +27,9 @@ class SourceTree : public ::testing::Test {
     }
   }
   ~SourceTree() override { setenv("PATH", path_.c_str(), 1); }
+  void SetUp() override {
+    if (std::system("glslc --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "glslc is not installed here";
+  }
   SourceTree(const SourceTree&) = delete;
   SourceTree& operator=(const SourceTree&) = delete;
 
