@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "gpu/dispatch.h"
-#include "gpu/random_cases.h"
 #include "gpu/shaders/shadow_case.h"
 #include "lamplight/light.h"
 #include "lamplight/shadow_atlas.h"
+#include "random.h"
 #include "render/shadow_reach.h"
 
 namespace lamp::app {
+
+using test::Random;
 
 constexpr std::uint32_t LIT_ATLAS = 512;
 constexpr std::uint32_t LIT_CASES = 64 * 2048;

@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "gpu/dispatch.h"
-#include "gpu/random_cases.h"
 #include "gpu/shaders/shadow_case.h"
 #include "lamplight/light.h"
 #include "lamplight/shadow_atlas.h"
+#include "random.h"
 
 namespace lamp::app {
 namespace {
+
+using test::Random;
 
 using shared::ShadowCase;
 using shared::ShadowMap;

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <random>
+
+#include "random.h"
 
 namespace {
 
@@ -21,19 +22,13 @@ using lamp::TubeLight;
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
-class Random {
- public:
-  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  glm::dvec3 direction() {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
-  }
-  /// At most `most` away from the origin: one axis in three lies at 0.
-  glm::vec3 position(double most) { return glm::vec3(in(0.0, most) * direction()); }
+using Random = lamp::test::RandomDoubles;
 
- private:
-  std::mt19937 engine_{7};
-};
+/// At most `most` away from the origin: one axis in three lies at 0.
+glm::vec3 position(Random& random, double most) {
+  const double away = random.in(0.0, most);
+  return glm::vec3(away * random.direction());
+}
 
 /// Whether the light reaches a point, by the contract of a result; nearly on its border counts as inside.
 bool reaches(const Light& light, const glm::dvec3& point) {
@@ -67,11 +62,11 @@ void expect_reached(const Light& light, const std::function<glm::dvec3()>& surfa
 }
 
 TEST(AreaLights, RectanglesReachWhatTheirLightsReach) {
-  Random random;
+  Random random(7);
   for (int round = 0; round < 100; ++round) {
     const glm::dvec3 x = random.in(0.0, 3.0) * random.direction();
     const glm::dvec3 y = random.in(0.1, 3.0) * glm::normalize(glm::cross(x, random.direction()));
-    const RectangleLight shape{.center = random.position(round % 2 == 0 ? 10.0 : 1e4),
+    const RectangleLight shape{.center = position(random, round % 2 == 0 ? 10.0 : 1e4),
                                .half_x = glm::vec3(x),
                                .half_y = glm::vec3(y),
                                .faces = round % 3 == 0 ? Faces::both : Faces::front};
@@ -96,9 +91,9 @@ TEST(AreaLights, RectanglesReachWhatTheirLightsReach) {
 }
 
 TEST(AreaLights, DiscsReachWhatTheirLightsReach) {
-  Random random;
+  Random random(7);
   for (int round = 0; round < 100; ++round) {
-    const DiscLight shape{.center = random.position(round % 2 == 0 ? 10.0 : 1e4),
+    const DiscLight shape{.center = position(random, round % 2 == 0 ? 10.0 : 1e4),
                           .normal = glm::vec3(random.in(0.1, 5.0) * random.direction()),
                           .radius = static_cast<float>(random.in(0.0, 3.0)),
                           .faces = round % 3 == 0 ? Faces::both : Faces::front};
@@ -116,11 +111,11 @@ TEST(AreaLights, DiscsReachWhatTheirLightsReach) {
 }
 
 TEST(AreaLights, TubesReachWhatTheirLightsReach) {
-  Random random;
+  Random random(7);
   for (int round = 0; round < 100; ++round) {
-    const glm::vec3 from = random.position(round % 2 == 0 ? 10.0 : 1e4);
+    const glm::vec3 from = position(random, round % 2 == 0 ? 10.0 : 1e4);
     const TubeLight shape{.from = from,
-                          .to = from + random.position(5.0),
+                          .to = from + position(random, 5.0),
                           .radius = round % 4 == 0 ? 0.0F : static_cast<float>(random.in(0.0, 0.5))};
     const auto range = static_cast<float>(random.in(0.01, 20.0));
     const glm::dvec3 axis = glm::dvec3(shape.to) - glm::dvec3(shape.from);

@@ -8,26 +8,19 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
-#include <random>
 
 #include "oracle/reference.h"
+#include "random.h"
 
 namespace {
 
 using lamp::Reach;
 using lamp::shared::OrientedBox;
 
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  float between(float low, float high) { return std::uniform_real_distribution(low, high)(engine_); }
-  /// Sizes of all orders of magnitude.
-  float size(float low, float high) { return std::exp(between(std::log(low), std::log(high))); }
-  glm::vec3 vector(float half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+using lamp::test::Random;
 
- private:
-  std::mt19937 engine_;
-};
+/// Sizes of all orders of magnitude.
+float size(Random& random, float low, float high) { return std::exp(random.in(std::log(low), std::log(high))); }
 
 OrientedBox oriented(const glm::vec3& center, const glm::quat& turn, const glm::vec3& half) {
   const glm::mat3 axes = glm::mat3_cast(glm::normalize(turn));
@@ -35,9 +28,9 @@ OrientedBox oriented(const glm::vec3& center, const glm::quat& turn, const glm::
 }
 
 OrientedBox random_box(Random& random) {
-  const glm::quat turn(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  const glm::quat turn(random.in(-1, 1), random.in(-1, 1), random.in(-1, 1), random.in(-1, 1));
   return oriented(random.vector(50.0F), turn,
-                  {random.size(0.01F, 20.0F), random.size(0.01F, 20.0F), random.size(0.01F, 20.0F)});
+                  {size(random, 0.01F, 20.0F), size(random, 0.01F, 20.0F), size(random, 0.01F, 20.0F)});
 }
 
 TEST(Entities, LightsFirstThenBoxes) {
@@ -162,9 +155,9 @@ TEST(Truth, BoxesFollowTheLights) {
       lamp::View::create(90, 70, lamp::perspective(lamp::symmetric_window(1.1, 1.5), 0.05, lamp::INFINITE_FAR), pose)
           .value();
   std::vector<float> depth(std::size_t{90} * 70);
-  for (float& d : depth) d = random.between(0.0F, 1.0F) < 0.1F ? 0.0F : 0.05F / random.between(4.0F, 12.0F);
+  for (float& d : depth) d = random.in(0.0F, 1.0F) < 0.1F ? 0.0F : 0.05F / random.in(4.0F, 12.0F);
   std::vector<lamp::Light> lights(40);
-  for (lamp::Light& light : lights) light = {.position = random.vector(6.0F), .range = random.between(0.5F, 4.0F)};
+  for (lamp::Light& light : lights) light = {.position = random.vector(6.0F), .range = random.in(0.5F, 4.0F)};
   const std::vector<lamp::shared::Light> packed = lamp::pack(lights);
   std::vector<OrientedBox> boxes(60);
   for (OrientedBox& box : boxes) {

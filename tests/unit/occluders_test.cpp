@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "random.h"
 
 namespace {
 
@@ -12,17 +12,10 @@ using lamp::Occluders;
 using lamp::Ray;
 using lamp::Triangle;
 
-class Random {
- public:
-  double in(double low, double high) { return std::uniform_real_distribution(low, high)(engine_); }
-  glm::dvec3 vector(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
-
- private:
-  std::mt19937 engine_{4};
-};
+using Random = lamp::test::RandomDoubles;
 
 TEST(Occluders, HierarchySkipsNothing) {
-  Random random;
+  Random random(4);
   for (const double far_away : {0.0, 1e6}) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 700; ++i) {

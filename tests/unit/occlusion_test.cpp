@@ -10,10 +10,10 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "oracle/occluders.h"
+#include "random.h"
 #include "scene/builtin.h"
 #include "scene/still_triangles.h"
 
@@ -27,19 +27,7 @@ using lamp::Vec3;
 
 constexpr double INF = std::numeric_limits<double>::infinity();
 
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double in(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  glm::dvec3 vector(double half) {
-    const double x = in(-half, half);
-    const double y = in(-half, half);
-    return {x, y, in(-half, half)};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using Random = lamp::test::RandomDoubles;
 
 using Triangles = std::vector<OccluderTriangle>;
 

@@ -8,8 +8,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <vector>
+
+#include "random.h"
 
 namespace {
 
@@ -118,32 +119,19 @@ TEST(BruteForceTruth, OnePixelByHand) {
   EXPECT_EQ(truth.boundary_pairs, 1U);
 }
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
-  glm::vec3 vector(double extent) {
-    return {(*this)(-extent, extent), (*this)(-extent, extent), (*this)(-extent, extent)};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using Random = lamp::test::RandomDoubles;
 
 Light random_light(Random& random) {
   Light light;
-  light.position = random.vector(12.0);
+  light.position = glm::vec3(random.vector(12.0));
   const std::uint32_t kind = random.below(20);
-  light.range = static_cast<float>(std::exp(random(std::log(0.05), std::log(8.0))));
+  light.range = static_cast<float>(std::exp(random.in(std::log(0.05), std::log(8.0))));
   if (kind == 0) light.range = 0.0F;
   if (kind == 1) light.range = INFINITE;
   if (random.below(2) == 0) return light;
   light.type = LightType::spot;
-  light.direction = random.vector(1.0) + glm::vec3(0.0F, 1e-3F, 0.0F);
-  light.outer_angle = static_cast<float>(random(0.5, 90.0) * DEGREE);
+  light.direction = glm::vec3(random.vector(1.0)) + glm::vec3(0.0F, 1e-3F, 0.0F);
+  light.outer_angle = static_cast<float>(random.in(0.5, 90.0) * DEGREE);
   if (kind == 2) light.outer_angle = 0.0F;
   if (kind == 3) light.outer_angle = std::numbers::pi_v<float> / 2.0F;
   return light;
@@ -152,7 +140,7 @@ Light random_light(Random& random) {
 // Depth of steps and slopes, with sky between them.
 std::vector<float> random_depth(Random& random, const View& view) {
   std::vector<float> depth(std::size_t{view.width()} * view.height());
-  const double step = random(3.0, 40.0);
+  const double step = random.in(3.0, 40.0);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const std::size_t row = i / view.width();
     const double x = static_cast<double>(i % view.width());

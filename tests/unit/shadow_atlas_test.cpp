@@ -10,10 +10,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <numbers>
-#include <random>
 #include <set>
 
 #include "lamplight/light.h"
+#include "random.h"
 
 namespace {
 
@@ -26,15 +26,7 @@ using lamp::ShadowFrameInfo;
 using lamp::View;
 namespace shared = lamp::shared;
 
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  float in(float low, float high) { return std::uniform_real_distribution(low, high)(engine_); }
-  glm::vec3 vector(float half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
-
- private:
-  std::mt19937 engine_;
-};
+using lamp::test::Random;
 
 View view_from(const glm::dvec3& eye, const glm::dvec3& target = glm::dvec3(0.0)) {
   return View::create(1280, 720, lamp::perspective(lamp::symmetric_window(1.0, 16.0 / 9.0), 0.05, lamp::INFINITE_FAR),
