@@ -22,10 +22,10 @@ using lamp::TubeLight;
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
-using Random = lamp::test::RandomDoubles;
+using lamp::test::RandomDoubles;
 
 /// At most `most` away from the origin: one axis in three lies at 0.
-glm::vec3 position(Random& random, double most) {
+glm::vec3 position(RandomDoubles& random, double most) {
   const double away = random.in(0.0, most);
   return glm::vec3(away * random.direction());
 }
@@ -49,7 +49,7 @@ void expect_inside(const Light& light, const glm::dvec3& point) {
 /// Points within the range of a point of the surface, on the side of the normal if the front alone shines: (0, 0, 0)
 /// for both. `farthest`: of all that is reached.
 void expect_reached(const Light& light, const std::function<glm::dvec3()>& surface, const glm::dvec3& normal,
-                    double range, double farthest, Random& random) {
+                    double range, double farthest, RandomDoubles& random) {
   for (int i = 0; i < 200; ++i) {
     glm::dvec3 way = random.direction();
     if (glm::dot(way, normal) < 0.0) way = -way;
@@ -62,7 +62,7 @@ void expect_reached(const Light& light, const std::function<glm::dvec3()>& surfa
 }
 
 TEST(AreaLights, RectanglesReachWhatTheirLightsReach) {
-  Random random(7);
+  RandomDoubles random(7);
   for (int round = 0; round < 100; ++round) {
     const glm::dvec3 x = random.in(0.0, 3.0) * random.direction();
     const glm::dvec3 y = random.in(0.1, 3.0) * glm::normalize(glm::cross(x, random.direction()));
@@ -91,7 +91,7 @@ TEST(AreaLights, RectanglesReachWhatTheirLightsReach) {
 }
 
 TEST(AreaLights, DiscsReachWhatTheirLightsReach) {
-  Random random(7);
+  RandomDoubles random(7);
   for (int round = 0; round < 100; ++round) {
     const DiscLight shape{.center = position(random, round % 2 == 0 ? 10.0 : 1e4),
                           .normal = glm::vec3(random.in(0.1, 5.0) * random.direction()),
@@ -111,7 +111,7 @@ TEST(AreaLights, DiscsReachWhatTheirLightsReach) {
 }
 
 TEST(AreaLights, TubesReachWhatTheirLightsReach) {
-  Random random(7);
+  RandomDoubles random(7);
   for (int round = 0; round < 100; ++round) {
     const glm::vec3 from = position(random, round % 2 == 0 ? 10.0 : 1e4);
     const TubeLight shape{.from = from,

@@ -12,10 +12,10 @@ using lamp::Occluders;
 using lamp::Ray;
 using lamp::Triangle;
 
-using Random = lamp::test::RandomDoubles;
+using lamp::test::RandomDoubles;
 
 TEST(Occluders, HierarchySkipsNothing) {
-  Random random(4);
+  RandomDoubles random(4);
   for (const double far_away : {0.0, 1e6}) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 700; ++i) {

@@ -27,7 +27,7 @@ using lamp::Vec3;
 
 constexpr double INF = std::numeric_limits<double>::infinity();
 
-using Random = lamp::test::RandomDoubles;
+using lamp::test::RandomDoubles;
 
 using Triangles = std::vector<OccluderTriangle>;
 
@@ -53,7 +53,7 @@ Triangles wall(double half, double z, int n = 1) {
 }
 
 /// Random sizes, slopes and places; some in planes of the axes, some meshes of neighbours that share corners.
-Triangles random_triangles(Random& random, double far_away) {
+Triangles random_triangles(RandomDoubles& random, double far_away) {
   Triangles triangles;
   for (int i = 0; i < 60; ++i) {
     const glm::dvec3 at = random.vector(8.0) + far_away;
@@ -73,7 +73,7 @@ Triangles random_triangles(Random& random, double far_away) {
 }
 
 /// A point of the hull, by weights that are often at a corner or an edge.
-glm::dvec3 point_of(Random& random, const std::vector<DVec3>& corners) {
+glm::dvec3 point_of(RandomDoubles& random, const std::vector<DVec3>& corners) {
   double sum = 0.0;
   glm::dvec3 point(0.0);
   for (const DVec3& corner : corners) {
@@ -91,7 +91,7 @@ std::vector<DVec3> box_corners(const glm::dvec3& min, const glm::dvec3& max) {
 }
 
 /// Of so many points of a hull that is said to be hidden, those that a ray reaches.
-int reached(Random& random, const lamp::Occluders& rays, const glm::dvec3& light, const std::vector<DVec3>& hull,
+int reached(RandomDoubles& random, const lamp::Occluders& rays, const glm::dvec3& light, const std::vector<DVec3>& hull,
             int points) {
   int lit = 0;
   for (int i = 0; i < points; ++i) {
@@ -104,7 +104,7 @@ int reached(Random& random, const lamp::Occluders& rays, const glm::dvec3& light
 }
 
 TEST(OcclusionMap, NothingThatItHidesIsLit) {
-  Random random(31);
+  RandomDoubles random(31);
   int hidden = 0;
   for (int round = 0; round < 300; ++round) {
     const double far_away = round % 4 == 3 ? 1e4 : 0.0;
@@ -218,7 +218,7 @@ TEST(OcclusionMap, HidesMostOfTheRoomsBehindWalls) {
   const StillOccluders occluders(triangles);
   const lamp::Occluders rays = rays_against(triangles);
   EXPECT_LT(occluders.polygons(), triangles.size() * 3 / 4);
-  Random random(5);
+  RandomDoubles random(5);
   int dark = 0;
   int hidden = 0;
   for (int l = 0; l < 40; ++l) {

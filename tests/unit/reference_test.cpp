@@ -119,9 +119,9 @@ TEST(BruteForceTruth, OnePixelByHand) {
   EXPECT_EQ(truth.boundary_pairs, 1U);
 }
 
-using Random = lamp::test::RandomDoubles;
+using lamp::test::RandomDoubles;
 
-Light random_light(Random& random) {
+Light random_light(RandomDoubles& random) {
   Light light;
   light.position = glm::vec3(random.vector(12.0));
   const std::uint32_t kind = random.below(20);
@@ -138,7 +138,7 @@ Light random_light(Random& random) {
 }
 
 // Depth of steps and slopes, with sky between them.
-std::vector<float> random_depth(Random& random, const View& view) {
+std::vector<float> random_depth(RandomDoubles& random, const View& view) {
   std::vector<float> depth(std::size_t{view.width()} * view.height());
   const double step = random.in(3.0, 40.0);
   for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -161,7 +161,7 @@ void expect_same(const lamp::Truth& fast, const lamp::Truth& slow) {
 }
 
 TEST(Truth, EqualsBruteForceOnRandomPictures) {
-  Random random(20240607);
+  RandomDoubles random(20240607);
   const std::vector<glm::dmat4> projections{
       lamp::perspective(lamp::symmetric_window(1.1, 1.5), 0.05, lamp::INFINITE_FAR),
       lamp::perspective({.left = -0.2, .right = 1.0, .bottom = -0.3, .top = 0.6}, 0.1, 100.0),
@@ -200,7 +200,7 @@ TEST(Truth, CountsTheBoundaryAsBruteForceDoes) {
 }
 
 TEST(Truth, AnswersForSomeRows) {
-  Random random(7);
+  RandomDoubles random(7);
   const View view = test_view(90, 70, lamp::perspective(lamp::symmetric_window(1.1, 1.5), 0.05, lamp::INFINITE_FAR));
   const std::vector<float> depth = random_depth(random, view);
   std::vector<Light> lights(100);

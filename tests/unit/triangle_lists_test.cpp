@@ -21,9 +21,9 @@ using lamp::StillTriangle;
 using lamp::TriangleLists;
 using lamp::TriangleListsInfo;
 
-using Random = lamp::test::RandomDoubles;
+using lamp::test::RandomDoubles;
 
-std::vector<lamp::shared::Light> random_lights(Random& random, int count, double half, double range) {
+std::vector<lamp::shared::Light> random_lights(RandomDoubles& random, int count, double half, double range) {
   std::vector<Light> lights;
   for (int i = 0; i < count; ++i) {
     Light light;
@@ -41,7 +41,7 @@ StillTriangle triangle_of(const glm::dvec3& a, const glm::dvec3& b, const glm::d
   return {.corners = {lamp::DVec3(a), lamp::DVec3(b), lamp::DVec3(c)}};
 }
 
-glm::dvec3 point_on(Random& random, const StillTriangle& t) {
+glm::dvec3 point_on(RandomDoubles& random, const StillTriangle& t) {
   double u = random.in(0.0, 1.0);
   double v = random.in(0.0, 1.0);
   if (u + v > 1.0) {
@@ -59,7 +59,7 @@ TriangleLists made(const TriangleListsInfo& info) {
 }
 
 /// Lights that surely reach positions on and near triangles are listed there; lists ascend. The mean length of lists.
-double expect_complete(const TriangleListsInfo& info, const TriangleLists& lists, Random& random, int points) {
+double expect_complete(const TriangleListsInfo& info, const TriangleLists& lists, RandomDoubles& random, int points) {
   double walked = 0.0;
   for (int i = 0; i < points; ++i) {
     const auto t = static_cast<std::uint32_t>(random.in(0.0, static_cast<double>(info.triangles.size()) - 1e-9));
@@ -77,7 +77,7 @@ double expect_complete(const TriangleListsInfo& info, const TriangleLists& lists
   return walked / points;
 }
 
-std::vector<StillTriangle> random_triangles(Random& random) {
+std::vector<StillTriangle> random_triangles(RandomDoubles& random) {
   std::vector<StillTriangle> triangles;
   for (int i = 0; i < 300; ++i) {
     const glm::dvec3 a = random.vector(10.0);
@@ -90,7 +90,7 @@ std::vector<StillTriangle> random_triangles(Random& random) {
 }
 
 TEST(TriangleLists, MissNothing) {
-  Random random(5);
+  RandomDoubles random(5);
   const std::vector<lamp::shared::Light> lights = random_lights(random, 400, 11.0, 3.0);
   const std::vector<StillTriangle> triangles = random_triangles(random);
   for (const float slack : {0.0F, 0.02F})
@@ -101,7 +101,7 @@ TEST(TriangleLists, MissNothing) {
 }
 
 TEST(TriangleLists, PatchesWasteLess) {
-  Random random(6);
+  RandomDoubles random(6);
   const std::vector<lamp::shared::Light> lights = random_lights(random, 600, 11.0, 2.0);
   const std::vector<StillTriangle> triangles{triangle_of({-10, 0, -10}, {10, 0.5, -10}, {-10, 0, 10})};
   double before = 1e9;
@@ -155,7 +155,7 @@ TEST(TriangleLists, LightsBehindShadeNothing) {
 
 /// Of a plane that is cut and of small triangles that share lists.
 TEST(TriangleLists, NeighboursShare) {
-  Random random(7);
+  RandomDoubles random(7);
   const std::vector<lamp::shared::Light> lights = random_lights(random, 400, 10.0, 4.0);
   std::vector<StillTriangle> triangles;
   for (int x = 0; x < 200; ++x)
@@ -175,7 +175,7 @@ TEST(TriangleLists, NeighboursShare) {
 }
 
 TEST(TriangleLists, BudgetsCoarsenAndSaySo) {
-  Random random(8);
+  RandomDoubles random(8);
   const std::vector<lamp::shared::Light> lights = random_lights(random, 300, 10.0, 2.0);
   std::vector<StillTriangle> triangles = random_triangles(random);
   TriangleListsInfo info{.triangles = triangles, .lights = lights};
@@ -198,7 +198,7 @@ TEST(TriangleLists, BudgetsCoarsenAndSaySo) {
 /// What is hidden is asked for with points around all positions, and is not listed.
 TEST(TriangleLists, HiddenLightsAreLeftOut) {
   const std::vector<StillTriangle> triangles{triangle_of({0, 0, 0}, {0, 0, 8}, {8, 0, 0})};
-  Random random(9);
+  RandomDoubles random(9);
   const std::vector<lamp::shared::Light> lights = random_lights(random, 100, 8.0, 6.0);
   TriangleListsInfo info{.triangles = triangles, .lights = lights, .slack_m = 0.01F};
   // A wall at x = 2, without end: lights on this side do not see the other.
@@ -224,7 +224,7 @@ TEST(TriangleLists, OddInputIsDefined) {
   const std::vector<StillTriangle> no_triangles;
   EXPECT_EQ(made({.triangles = no_triangles, .lights = none}).bytes(), 8U);
 
-  Random random(10);
+  RandomDoubles random(10);
   std::vector<lamp::shared::Light> lights = random_lights(random, 64, 5.0, 2.0);
   lights[0].range = 0.0F;
   lights[2].range = std::numeric_limits<float>::infinity();
@@ -257,7 +257,7 @@ TEST(TriangleLists, OddInputIsDefined) {
 }
 
 TEST(TriangleLists, WrongInputIsNamed) {
-  Random random(11);
+  RandomDoubles random(11);
   std::vector<lamp::shared::Light> lights = random_lights(random, 4, 5.0, 2.0);
   std::vector<StillTriangle> triangles{triangle_of({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
   const auto text = [&](TriangleListsInfo info) {
