@@ -87,7 +87,7 @@ std::vector<std::vector<Triangle>> triangles_of(const ShadowReach& reach, std::u
 
 /// Of each light; none of one that has no mesh.
 std::vector<std::optional<Held>> held_by_meshes(const LitLights& lit, ShadowFilter filter) {
-  Random random(7);
+  test::Random random(7);
   const auto count = static_cast<std::uint32_t>(lit.lights.size());
   const std::vector<ShadowCase> cases = some_lit_cases(lit, random);
   const GpuImage atlas = depth_image(LIT_ATLAS, LIT_ATLAS, some_wall_depths(random));
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Of, LightMeshes, ::testing::Values(ShadowFilter::hard, 
                          [](const auto& test) { return test.param == ShadowFilter::hard ? "hard" : "pcf"; });
 
 TEST_F(GpuTest, LightMeshesAreClosedAndSmall) {
-  Random random(9);
+  test::Random random(9);
   const LitLights lit = some_lit_lights(ShadowFilter::hard);
   const GpuImage atlas = depth_image(LIT_ATLAS, LIT_ATLAS, some_wall_depths(random));
   const ShadowReach reach = reach_of(ShadowReach::Kind::meshes, lit, atlas, ShadowFilter::hard);

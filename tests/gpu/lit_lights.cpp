@@ -56,7 +56,7 @@ LitLights large_lit_light(ShadowFilter filter) {
   return lit;
 }
 
-std::vector<float> some_wall_depths(Random& random) {
+std::vector<float> some_wall_depths(test::Random& random) {
   std::vector<float> depths(std::size_t{LIT_ATLAS} * LIT_ATLAS);
   for (std::uint32_t y = 0; y < LIT_ATLAS; ++y)
     for (std::uint32_t x = 0; x < LIT_ATLAS; ++x) {
@@ -67,7 +67,7 @@ std::vector<float> some_wall_depths(Random& random) {
   return depths;
 }
 
-std::vector<shared::ShadowCase> some_lit_cases(const LitLights& lit, Random& random) {
+std::vector<shared::ShadowCase> some_lit_cases(const LitLights& lit, test::Random& random) {
   std::vector<shared::ShadowCase> cases(LIT_CASES);
   for (shared::ShadowCase& c : cases) {
     c.light = random.below(static_cast<std::uint32_t>(lit.maps.size()));

@@ -13,8 +13,6 @@
 
 namespace lamp::app {
 
-using test::Random;
-
 constexpr std::uint32_t LIT_ATLAS = 512;
 constexpr std::uint32_t LIT_CASES = 64 * 2048;
 
@@ -30,9 +28,9 @@ struct LitLights {
 /// A map with more large blocks than a work group of few threads holds at once.
 [[nodiscard]] LitLights large_lit_light(ShadowFilter filter);
 /// Walls at some metres that are whole over several cells, with holes and what stands before them.
-[[nodiscard]] std::vector<float> some_wall_depths(Random& random);
+[[nodiscard]] std::vector<float> some_wall_depths(test::Random& random);
 /// Around where the walls are.
-[[nodiscard]] std::vector<shared::ShadowCase> some_lit_cases(const LitLights& lit, Random& random);
+[[nodiscard]] std::vector<shared::ShadowCase> some_lit_cases(const LitLights& lit, test::Random& random);
 
 /// What shadow_of says of each case.
 [[nodiscard]] std::vector<float> shadows_of(const std::vector<shared::ShadowCase>& cases, const LitLights& lit,

@@ -12,8 +12,6 @@
 namespace lamp::app {
 namespace {
 
-using test::Random;
-
 using shared::ShadowCase;
 using shared::ShadowMap;
 
@@ -44,7 +42,7 @@ std::vector<ShadowMap> some_maps(ShadowFilter filter) {
           ShadowMap{}};
 }
 
-std::vector<ShadowCase> some_cases(std::span<const ShadowMap> maps, Random& random) {
+std::vector<ShadowCase> some_cases(std::span<const ShadowMap> maps, test::Random& random) {
   std::vector<ShadowCase> cases(CASES);
   for (ShadowCase& c : cases) {
     c.light = random.below(static_cast<std::uint32_t>(maps.size()));
@@ -57,7 +55,7 @@ std::vector<ShadowCase> some_cases(std::span<const ShadowMap> maps, Random& rand
 }
 
 /// Depths at which about half of the cases are lit, smooth over some texels.
-std::vector<float> some_depths(Random& random) {
+std::vector<float> some_depths(test::Random& random) {
   std::vector<float> depths(std::size_t{ATLAS} * ATLAS);
   for (std::uint32_t y = 0; y < ATLAS; ++y)
     for (std::uint32_t x = 0; x < ATLAS; ++x)
@@ -69,7 +67,7 @@ std::vector<float> some_depths(Random& random) {
 
 /// Moments of depths that are smooth from texel to texel, as a blur leaves them: mean and mean square, of plain depths
 /// or of both warps.
-std::vector<glm::vec4> some_moments(ShadowFilter filter, Random& random) {
+std::vector<glm::vec4> some_moments(ShadowFilter filter, test::Random& random) {
   std::vector<glm::vec4> moments(std::size_t{ATLAS} * ATLAS);
   for (std::uint32_t i = 0; i < moments.size(); ++i) {
     const auto x = static_cast<float>(i % ATLAS);
@@ -213,7 +211,7 @@ class Reference {
 class ShadowLookUp : public GpuTest, public ::testing::WithParamInterface<ShadowFilter> {};
 
 TEST_P(ShadowLookUp, IsThatOfTheCpuInBothLanguages) {
-  Random random(3);
+  test::Random random(3);
   const std::vector<ShadowMap> maps = some_maps(GetParam());
   const std::vector<ShadowCase> cases = some_cases(maps, random);
   const std::vector<float> depths = some_depths(random);

@@ -23,7 +23,7 @@ std::vector<Words> bounds_in(const vulkan::Buffer& buffer, std::size_t count) {
 class ShadowRadialBounds : public GpuTest, public ::testing::WithParamInterface<ShadowFilter> {};
 
 TEST_P(ShadowRadialBounds, HoldEverythingThatIsLit) {
-  Random random(5);
+  test::Random random(5);
   const LitLights lit = some_lit_lights(GetParam());
   const auto count = static_cast<std::uint32_t>(lit.lights.size());
   const std::vector<ShadowCase> cases = some_lit_cases(lit, random);
@@ -67,7 +67,7 @@ void append(LitLights& to, const LitLights& from) {
 
 /// Of the few lights that a device has to spare for, several groups make one bound, of more threads each.
 TEST_P(ShadowRadialBounds, AreTheSameHoweverManyGroupsMakeThem) {
-  Random random(6);
+  test::Random random(6);
   LitLights few = some_lit_lights(GetParam());
   append(few, large_lit_light(GetParam()));
   LitLights many;

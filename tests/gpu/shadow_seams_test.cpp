@@ -17,7 +17,7 @@ constexpr float MOST_ASIDE = 1.6F;
 
 class ShadowSeams : public GpuTest, public ::testing::WithParamInterface<std::tuple<PointShadows, ShadowFilter>> {};
 
-std::vector<Light> lights_over_a_plane(Random& random) {
+std::vector<Light> lights_over_a_plane(test::Random& random) {
   std::vector<Light> lights;
   for (int i = 0; i < 12; ++i)
     lights.push_back(
@@ -25,7 +25,7 @@ std::vector<Light> lights_over_a_plane(Random& random) {
   return lights;
 }
 
-std::vector<shared::ShadowCase> cases_on_the_plane(const std::vector<Light>& lights, Random& random) {
+std::vector<shared::ShadowCase> cases_on_the_plane(const std::vector<Light>& lights, test::Random& random) {
   std::vector<shared::ShadowCase> cases(LIT_CASES);
   for (shared::ShadowCase& c : cases) {
     c.light = random.below(static_cast<std::uint32_t>(lights.size()));
@@ -41,7 +41,7 @@ std::vector<shared::ShadowCase> cases_on_the_plane(const std::vector<Light>& lig
 
 TEST_P(ShadowSeams, APlaneCastsNoShadowOnItself) {
   const auto [points, filter] = GetParam();
-  Random random(3);
+  test::Random random(3);
   const TestScene& scene = builtin_test_scene("plane");
   const View view = view_of(scene.scene.cameras.front(), 480, 270, "camera");
   const std::vector<Light> lights = lights_over_a_plane(random);

@@ -16,8 +16,6 @@
 namespace lamp::app {
 namespace {
 
-using test::Random;
-
 struct Met {
   double at = std::numeric_limits<double>::infinity();
   std::uint32_t instance = 0;     ///< the scene's
@@ -107,7 +105,7 @@ Met first_of_all(const Scene& scene, const TestRay& ray) {
   return met;
 }
 
-glm::mat4 placed(Random& random, float far_away) {
+glm::mat4 placed(test::Random& random, float far_away) {
   glm::mat4 m(1.0F);
   for (int axis = 0; axis < 3; ++axis) m[axis] = glm::vec4(random.vector(1.5F), 0.0F);
   m[3] = glm::vec4(random.vector(12.0F) + far_away, 1.0F);
@@ -115,7 +113,7 @@ glm::mat4 placed(Random& random, float far_away) {
 }
 
 /// Meshes of scattered triangles, some flat, one of glass; instances turned, stretched and mirrored.
-Scene scattered(Random& random, float far_away, std::uint32_t meshes, std::uint32_t instances,
+Scene scattered(test::Random& random, float far_away, std::uint32_t meshes, std::uint32_t instances,
                 std::uint32_t triangles) {
   Scene scene;
   scene.materials = {Material{}, Material{.alpha_mode = AlphaMode::blend}};
@@ -139,7 +137,7 @@ Scene scattered(Random& random, float far_away, std::uint32_t meshes, std::uint3
   return scene;
 }
 
-void expect_same_hits(const Scene& scene, const Bvh& bvh, Random& random, float far_away) {
+void expect_same_hits(const Scene& scene, const Bvh& bvh, test::Random& random, float far_away) {
   Walk walk(bvh);
   int hits = 0;
   for (int i = 0; i < 600; ++i) {
@@ -196,7 +194,7 @@ TEST(Bvh, HoldsEveryTriangleOnceForEachMesh) {
 }
 
 TEST(Bvh, SkipsNothingThatALoopMeets) {
-  Random random(7);
+  test::Random random(7);
   for (const float far_away : {0.0F, 3e4F}) {
     const Scene scene = scattered(random, far_away, 5, 40, 60);
     expect_same_hits(scene, make_bvh(scene), random, far_away);
@@ -204,7 +202,7 @@ TEST(Bvh, SkipsNothingThatALoopMeets) {
 }
 
 TEST(Bvh, FollowsInstancesThatMove) {
-  Random random(7);
+  test::Random random(7);
   Scene scene = scattered(random, 0.0F, 5, 40, 60);
   Bvh bvh = make_bvh(scene);
   const auto lower = [&] {
@@ -221,7 +219,7 @@ TEST(Bvh, FollowsInstancesThatMove) {
 }
 
 TEST(Bvh, BuildsAnewWhatAMatrixFlattens) {
-  Random random(7);
+  test::Random random(7);
   Scene scene = scattered(random, 0.0F, 3, 12, 30);
   Bvh bvh = make_bvh(scene);
   scene.instances[0].world_from_object[1] = glm::vec4(0.0F);  // flat

@@ -17,17 +17,17 @@ namespace {
 using lamp::Reach;
 using lamp::shared::OrientedBox;
 
-using lamp::test::Random;
-
 /// Sizes of all orders of magnitude.
-float size(Random& random, float low, float high) { return std::exp(random.in(std::log(low), std::log(high))); }
+float size(lamp::test::Random& random, float low, float high) {
+  return std::exp(random.in(std::log(low), std::log(high)));
+}
 
 OrientedBox oriented(const glm::vec3& center, const glm::quat& turn, const glm::vec3& half) {
   const glm::mat3 axes = glm::mat3_cast(glm::normalize(turn));
   return {.center = center, .axis_x = axes[0], .axis_y = axes[1], .axis_z = axes[2], .half_extents = half};
 }
 
-OrientedBox random_box(Random& random) {
+OrientedBox random_box(lamp::test::Random& random) {
   const glm::quat turn(random.in(-1, 1), random.in(-1, 1), random.in(-1, 1), random.in(-1, 1));
   return oriented(random.vector(50.0F), turn,
                   {size(random, 0.01F, 20.0F), size(random, 0.01F, 20.0F), size(random, 0.01F, 20.0F)});
@@ -41,7 +41,7 @@ TEST(Entities, LightsFirstThenBoxes) {
   EXPECT_EQ(ids.boxes.end, 10U);
   EXPECT_EQ(ids.boxes.count(), 3U);
 
-  Random random(1);
+  lamp::test::Random random(1);
   const std::vector<lamp::shared::Light> lights(2, lamp::shared::Light{.range = 5.0F});
   const std::vector<OrientedBox> boxes{random_box(random)};
   const std::vector<lamp::shared::Light> records = lamp::entity_records(lights, boxes);
@@ -55,7 +55,7 @@ TEST(Entities, LightsFirstThenBoxes) {
 // 200 000 random boxes: no corner, and no position inside, lies outside the sphere that stands for the box; and the
 // sphere is no larger than it must be.
 TEST(Entities, TheSphereEnclosesTheBox) {
-  Random random(20240611);
+  lamp::test::Random random(20240611);
   for (int round = 0; round < 200000; ++round) {
     const OrientedBox box = random_box(random);
     const lamp::shared::Light record = lamp::bounding_light(box);
@@ -78,7 +78,7 @@ TEST(Entities, TheSphereEnclosesTheBox) {
 // What the record tells of the shape encloses the box or the ellipsoid, also of axes that are mirrored or as far from
 // right angles as is taken, and hardly more.
 TEST(Entities, TheRecordTellsTheShape) {
-  Random random(20261126);
+  lamp::test::Random random(20261126);
   for (int round = 0; round < 100000; ++round) {
     OrientedBox box = random_box(random);
     if (round % 3 == 0) box.axis_z = -glm::vec3(box.axis_z);
@@ -107,7 +107,7 @@ TEST(Entities, TheRecordTellsTheShape) {
 }
 
 TEST(Entities, BoxesAreChecked) {
-  Random random(3);
+  lamp::test::Random random(3);
   const OrientedBox good = random_box(random);
   const auto message = [&](const OrientedBox& bad) {
     const auto error = lamp::check_boxes(std::vector{good, bad});
@@ -149,7 +149,7 @@ TEST(Reach, BoxAlongEachOfItsAxes) {
 
 // Lights and boxes in one question, and boxes alone with ids of their own, by both oracles.
 TEST(Truth, BoxesFollowTheLights) {
-  Random random(11);
+  lamp::test::Random random(11);
   const glm::dmat4 pose = glm::lookAt(glm::dvec3(2.0, 3.0, 9.0), glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0));
   const lamp::View view =
       lamp::View::create(90, 70, lamp::perspective(lamp::symmetric_window(1.1, 1.5), 0.05, lamp::INFINITE_FAR), pose)

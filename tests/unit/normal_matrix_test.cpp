@@ -14,9 +14,7 @@
 namespace lamp::app {
 namespace {
 
-using test::Random;
-
-glm::mat4 turn_of(Random& random) {
+glm::mat4 turn_of(test::Random& random) {
   const float angle = random.in(-3.0F, 3.0F);
   return glm::rotate(glm::mat4(1.0F), angle, random.direction());
 }
@@ -27,7 +25,7 @@ bool is_usable(const glm::vec3& normal) {
 }
 
 TEST(NormalMatrix, IsAMultipleOfTheTransposedInverse) {
-  Random random(5);
+  test::Random random(5);
   for (int i = 0; i < 200; ++i) {
     const glm::mat4 m(glm::mat3(random.vector(1.0F), random.vector(1.0F), random.vector(1.0F)));
     const glm::dmat3 inverse = glm::transpose(glm::inverse(glm::dmat3(m)));
@@ -39,7 +37,7 @@ TEST(NormalMatrix, IsAMultipleOfTheTransposedInverse) {
 }
 
 TEST(NormalMatrix, DoesNotDependOnTheSizeOfWhatIsPlaced) {
-  Random random(5);
+  test::Random random(5);
   for (const float size : {1e-38F, 1e-20F, 1e-15F, 1e-13F, 1e15F}) {
     const glm::mat4 turn = turn_of(random);
     const glm::vec3 normal = glm::normalize(random.vector(1.0F));
@@ -53,7 +51,7 @@ TEST(NormalMatrix, DoesNotDependOnTheSizeOfWhatIsPlaced) {
 /// The side of a triangle that is drawn is the one whose normal it shows, also where rounding alone says whether a
 /// matrix mirrors: the loader turns the triangles round where it does.
 TEST(NormalMatrix, OfAFlatMeshPointsOutOfItsFronts) {
-  Random random(5);
+  test::Random random(5);
   for (int i = 0; i < 500; ++i) {
     const glm::mat4 m = glm::scale(turn_of(random), glm::vec3(2.0F, i % 2 == 0 ? 1.0F : -1.0F, 0.0F)) * turn_of(random);
     const std::array<glm::vec3, 3> corners{random.vector(1.0F), random.vector(1.0F), random.vector(1.0F)};
@@ -67,7 +65,7 @@ TEST(NormalMatrix, OfAFlatMeshPointsOutOfItsFronts) {
 }
 
 TEST(NormalMatrix, OfAnyMatrixIsFiniteAndLeavesNoNormalZero) {
-  Random random(5);
+  test::Random random(5);
   const glm::vec3 scales[] = {{1, 1, 0},     {0, 1, 1},          {1, 0, 0},          {0, 0, 0},
                               {1, -1, 0},    {0, -1, 0},         {1, 1e-25F, 1},     {1e-38F, 0, 1},
                               {1e15F, 0, 1}, {1e15F, 1e-38F, 0}, {-1e15F, 1, 1e-20F}};

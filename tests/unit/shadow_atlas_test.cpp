@@ -26,8 +26,6 @@ using lamp::ShadowFrameInfo;
 using lamp::View;
 namespace shared = lamp::shared;
 
-using lamp::test::Random;
-
 View view_from(const glm::dvec3& eye, const glm::dvec3& target = glm::dvec3(0.0)) {
   return View::create(1280, 720, lamp::perspective(lamp::symmetric_window(1.0, 16.0 / 9.0), 0.05, lamp::INFINITE_FAR),
                       glm::lookAt(eye, target, glm::dvec3(0.0, 1.0, 0.0)))
@@ -35,7 +33,7 @@ View view_from(const glm::dvec3& eye, const glm::dvec3& target = glm::dvec3(0.0)
 }
 
 std::vector<shared::Light> random_lights(std::size_t count, std::uint32_t seed, float spots = 0.5F) {
-  Random random(seed);
+  lamp::test::Random random(seed);
   std::vector<Light> lights;
   for (std::size_t i = 0; i < count; ++i)
     lights.push_back({.type = random.in(0.0F, 1.0F) < spots ? LightType::spot : LightType::point,
@@ -96,7 +94,7 @@ TEST(ShadowAtlas, HoldsForMovingLightsAndCameras) {
       const ShadowAtlasInfo info{.size = size, .light_capacity = 128, .points = points};
       ShadowAtlas atlas = make(info);
       std::vector<shared::Light> lights = random_lights(100, size);
-      Random random(7);
+      lamp::test::Random random(7);
       for (int i = 0; i < 60; ++i) {
         for (std::size_t k = 0; k < lights.size(); k += 3)
           lights[k].position = glm::vec3(lights[k].position) + random.vector(0.3F);
@@ -176,7 +174,7 @@ TEST(ShadowAtlas, LightsThatComeLaterGetTheirShadowWithinAFewFrames) {
   ShadowAtlas atlas = make(info);
   const View view = view_from({0.0, 30.0, 30.0});
   std::vector<shared::Light> lights;
-  Random random(5);
+  lamp::test::Random random(5);
   for (int round = 0; round < 10; ++round) {
     for (int i = 0; i < 100; ++i) lights.push_back(spot_at(random.vector(5.0F)));
     constexpr std::uint64_t BUDGET = 64 * 1024;

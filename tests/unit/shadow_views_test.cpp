@@ -20,8 +20,6 @@ using lamp::ShadowPlace;
 using lamp::View;
 namespace shared = lamp::shared;
 
-using lamp::test::Random;
-
 constexpr std::uint32_t ATLAS = 1024;
 
 /// Squares side by side from (16, 32) on.
@@ -90,7 +88,7 @@ int drawn_at(const shared::ShadowMap& map, const glm::vec3& point) {
 }
 
 TEST(ShadowViews, DrawWhereTheLookUpLooks) {
-  Random random(1);
+  lamp::test::Random random(1);
   for (const lamp::PointShadows points : {lamp::PointShadows::faces, lamp::PointShadows::octahedron}) {
     for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::pcf, ShadowFilter::vsm}) {
       const ShadowAtlasInfo info{.size = ATLAS, .points = points, .filter = filter};
@@ -107,7 +105,7 @@ TEST(ShadowViews, DrawWhereTheLookUpLooks) {
 }
 
 TEST(ShadowViews, SpotsDrawAllOfTheirCone) {
-  Random random(1);
+  lamp::test::Random random(1);
   for (int round = 0; round < 60; ++round) {
     const float half_angle = random.in(0.01F, std::numbers::pi_v<float> / 2.0F);
     const shared::Light light = lamp::pack(Light{.type = LightType::spot,
@@ -134,7 +132,7 @@ TEST(ShadowViews, SpotsDrawAllOfTheirCone) {
 }
 
 TEST(ShadowViews, FacesHaveTheirBorder) {
-  Random random(1);
+  lamp::test::Random random(1);
   for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::pcf, ShadowFilter::vsm, ShadowFilter::evsm}) {
     for (std::uint32_t side = 16; side <= 512; side *= 2) {
       const auto border = static_cast<float>(lamp::shadow_border(filter, side));
@@ -168,7 +166,7 @@ std::vector<View> views_of_all_kinds() {
 }
 
 TEST(ShadowViews, WhatIsInThePictureIsSeen) {
-  Random random(1);
+  lamp::test::Random random(1);
   for (const View& view : views_of_all_kinds()) {
     for (int i = 0; i < 2000; ++i) {
       const glm::dvec3 point =
