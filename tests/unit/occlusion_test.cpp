@@ -29,22 +29,22 @@ constexpr double INF = std::numeric_limits<double>::infinity();
 
 using lamp::test::RandomDoubles;
 
-using Triangles = std::vector<OccluderTriangle>;
+using TriangleCorners = std::vector<OccluderTriangle>;
 
-lamp::Occluders rays_against(const Triangles& triangles) {
+lamp::Occluders rays_against(const TriangleCorners& triangles) {
   std::vector<lamp::Triangle> all;
   for (const OccluderTriangle& t : triangles) all.push_back({{glm::dvec3(t[0]), glm::dvec3(t[1]), glm::dvec3(t[2])}});
   return lamp::Occluders(std::move(all));
 }
 
-void add_quad(Triangles& to, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+void add_quad(TriangleCorners& to, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   to.push_back({DVec3(a), DVec3(b), DVec3(c)});
   to.push_back({DVec3(a), DVec3(c), DVec3(d)});
 }
 
 /// A wall in the plane z = `z`, of n x n squares.
-Triangles wall(double half, double z, int n = 1) {
-  Triangles triangles;
+TriangleCorners wall(double half, double z, int n = 1) {
+  TriangleCorners triangles;
   const auto at = [&](int i) { return half * (2.0 * i / n - 1.0); };
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x)
@@ -53,8 +53,8 @@ Triangles wall(double half, double z, int n = 1) {
 }
 
 /// Random sizes, slopes and places; some in planes of the axes, some meshes of neighbours that share corners.
-Triangles random_triangles(RandomDoubles& random, double far_away) {
-  Triangles triangles;
+TriangleCorners random_triangles(RandomDoubles& random, double far_away) {
+  TriangleCorners triangles;
   for (int i = 0; i < 60; ++i) {
     const glm::dvec3 at = random.vector(8.0) + far_away;
     glm::dvec3 flat(1.0);
@@ -108,7 +108,7 @@ TEST(OcclusionMap, NothingThatItHidesIsLit) {
   int hidden = 0;
   for (int round = 0; round < 300; ++round) {
     const double far_away = round % 4 == 3 ? 1e4 : 0.0;
-    const Triangles triangles = random_triangles(random, far_away);
+    const TriangleCorners triangles = random_triangles(random, far_away);
     const StillOccluders occluders(triangles);
     const lamp::Occluders rays = rays_against(triangles);
     const Vec3 light(glm::vec3(random.vector(8.0) + far_away));
@@ -149,7 +149,7 @@ TEST(OcclusionMap, HidesWhatLiesBehindAWallAndNothingElse) {
 
 TEST(OcclusionMap, ATriangleOnAWallIsNotHiddenByIt) {
   for (const double far_away : {0.0, 300.0}) {
-    Triangles triangles;
+    TriangleCorners triangles;
     add_quad(triangles, glm::dvec3(-9, 1, -7) + far_away, glm::dvec3(9, 1.5, -7) + far_away,
              glm::dvec3(9, 2.5, 7) + far_away, glm::dvec3(-9, 2, 7) + far_away);
     const OcclusionMap map =
@@ -169,28 +169,28 @@ TEST(OcclusionMap, ATriangleOnAWallIsNotHiddenByIt) {
 TEST(StillOccluders, MergeWhatLiesInAPlane) {
   EXPECT_EQ(StillOccluders(wall(10.0, 1.0)).polygons(), 1U);
   EXPECT_EQ(StillOccluders(wall(10.0, 1.0, 16)).polygons(), 1U);
-  Triangles bent = wall(10.0, 1.0);
+  TriangleCorners bent = wall(10.0, 1.0);
   const double c = std::sqrt(0.5);
   for (OccluderTriangle& t : bent)
     for (DVec3& p : t) p = {c * p.x - c * p.z, p.y, c * p.x + c * p.z};
   EXPECT_EQ(StillOccluders(bent).polygons(), 1U) << "turned";
-  Triangles corner = wall(1.0, 1.0);
+  TriangleCorners corner = wall(1.0, 1.0);
   add_quad(corner, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}, {1, -1, -1});
   EXPECT_EQ(StillOccluders(corner).polygons(), 2U) << "not around a corner";
-  Triangles angle = wall(1.0, 1.0);
+  TriangleCorners angle = wall(1.0, 1.0);
   add_quad(angle, {1, -1, 1}, {2, -1, 1}, {2, 0.5, 1}, {1, 0.5, 1});
   EXPECT_GE(StillOccluders(angle).polygons(), 2U) << "an L is not convex";
-  const Triangles apart{{DVec3(0, 0, 0), DVec3(1, 0, 0), DVec3(0, 1, 0)},
-                        {DVec3(1, 0, 1e-3), DVec3(1, 1, 0), DVec3(0, 1, 0)}};
+  const TriangleCorners apart{{DVec3(0, 0, 0), DVec3(1, 0, 0), DVec3(0, 1, 0)},
+                              {DVec3(1, 0, 1e-3), DVec3(1, 1, 0), DVec3(0, 1, 0)}};
   EXPECT_EQ(StillOccluders(apart).polygons(), 2U);
 }
 
 TEST(StillOccluders, BadTrianglesHideNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Triangles bad{{DVec3(0, 0, 0), DVec3(1, 0, 0), DVec3(2, 0, 0)},
-                      {DVec3(0, 0, 0), DVec3(0, 0, 0), DVec3(0, 0, 0)},
-                      {DVec3(0, 0, 0), DVec3(INF, 0, 0), DVec3(0, 1, 0)},
-                      {DVec3(0, nan, 0), DVec3(1, 0, 0), DVec3(0, 1, 0)}};
+  const TriangleCorners bad{{DVec3(0, 0, 0), DVec3(1, 0, 0), DVec3(2, 0, 0)},
+                            {DVec3(0, 0, 0), DVec3(0, 0, 0), DVec3(0, 0, 0)},
+                            {DVec3(0, 0, 0), DVec3(INF, 0, 0), DVec3(0, 1, 0)},
+                            {DVec3(0, nan, 0), DVec3(1, 0, 0), DVec3(0, 1, 0)}};
   const StillOccluders occluders(bad);
   EXPECT_EQ(occluders.polygons(), 0U);
   EXPECT_EQ(occluders.left_out(), 4U);
@@ -214,7 +214,7 @@ TEST(StillOccluders, BadTrianglesHideNothing) {
 TEST(OcclusionMap, HidesMostOfTheRoomsBehindWalls) {
   const auto built_in = lamp::app::builtin_scenes();
   const lamp::app::Scene scene = std::ranges::find(built_in, "corridor", &lamp::app::BuiltinScene::name)->make();
-  const Triangles triangles = lamp::app::still_triangles(scene);
+  const TriangleCorners triangles = lamp::app::still_triangles(scene);
   const StillOccluders occluders(triangles);
   const lamp::Occluders rays = rays_against(triangles);
   EXPECT_LT(occluders.polygons(), triangles.size() * 3 / 4);
