@@ -241,10 +241,9 @@ Expansion expand(const Suite& suite, const Limits& limits) {
   Expansion expansion;
   for (const Series& series : suite.series) {
     const std::size_t first = expansion.groups.size();
-    const bool is_wanted =
-        limits.series.empty() || std::ranges::find(limits.series, series.name) != limits.series.end();
+    if (!limits.series.empty() && std::ranges::find(limits.series, series.name) == limits.series.end()) continue;
     for_each_group(series, limits, [&](const Group& group) {
-      if (!is_wanted || group.lights > limits.max_lights || pixels_of(group.size) > limits.max_pixels)
+      if (group.lights > limits.max_lights || pixels_of(group.size) > limits.max_pixels)
         expansion.left_out += group.entries.size();
       else
         expansion.groups.push_back(group);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "bench/embedded_files.h"
@@ -201,8 +202,46 @@ void check_hosts(SuiteJson& object, const Series& series) {
     if (series.decals != std::vector<std::uint32_t>{0}) object.wrong("decals", "none " + who);
     if (series.probes != std::vector<std::uint32_t>{0}) object.wrong("probes", "none " + who);
     const std::vector<std::string> paths = method.path.empty() ? series.paths : std::vector{method.path};
-    if (std::ranges::find(paths, "tiled-deferred") != paths.end()) object.wrong("paths", "no tiled-deferred " + who);
+    if (std::ranges::find(paths, "tiled-deferred") == paths.end()) continue;
+    if (method.path.empty()) object.wrong("paths", "no tiled-deferred " + who);
+    throw Error(
+        fmt::format("{}: method {}: path: expected none of tiled-deferred {}", object.where(), method.name, who));
   }
+}
+
+template <class Value>
+void check_once(SuiteJson& object, const char* key, std::vector<Value> values) {
+  std::ranges::sort(values);
+  const auto twice = std::ranges::adjacent_find(values);
+  if (twice != values.end()) object.wrong(key, fmt::format("{} once", *twice));
+}
+
+/// What is measured twice would be one line of a chart, and one result when a run goes on.
+void check_repeats(SuiteJson& object, const Series& series) {
+  check_once(object, "scenes", series.scenes);
+  check_once(object, "sizes", series.sizes);
+  check_once(object, "lights", series.lights);
+  check_once(object, "spots", series.spots);
+  check_once(object, "decals", series.decals);
+  check_once(object, "probes", series.probes);
+  check_once(object, "ranges", series.ranges);
+  check_once(object, "cameras", series.cameras);
+  check_once(object, "projections", series.projections);
+  check_once(object, "paths", series.paths);
+  SuiteJson options(object.has("options") ? object.at("options") : json::object(), object.where() + ": options");
+  for (const auto& [key, values] : series.options) check_once(options, key.c_str(), values);
+  std::map<std::string, std::string> labels;
+  for (const SuiteMethod& method : series.methods)
+    for (const std::string& path : method.path.empty() ? series.paths : std::vector{method.path}) {
+      std::vector<std::string> words = method.options;
+      std::ranges::sort(words);
+      words.insert(words.end(), {method.name, path, method.still_lists, std::to_string(method.still_occlusion),
+                                 std::to_string(static_cast<int>(method.host))});
+      const auto [first, is_new] = labels.emplace(fmt::format("{}", fmt::join(words, "\n")), method.label);
+      if (!is_new)
+        throw Error(fmt::format("{}: methods: '{}' and '{}' ask for the same, by the path {}; expected it once",
+                                object.where(), first->second, method.label, path));
+    }
 }
 
 Series parse_series(const json& value, const std::string& source) {
@@ -252,9 +291,12 @@ Series parse_series(const json& value, const std::string& source) {
   if (object.has("chart")) series.chart = parse_chart(object.at("chart"), series, where);
   check_pairs(object, series);
   check_hosts(object, series);
+  check_repeats(object, series);
   series.verify = parse_verify(object);
   if (!series.timed && (series.flight || object.has("verify") || object.has("pictures")))
     object.wrong("timed", "true where there is a flight, something to verify, or pictures");
+  if (!series.timed && (object.has("frames") || object.has("warm_up")))
+    object.wrong("timed", "true where there are frames, or a warm_up");
   object.read("pictures", series.pictures);
   object.finish();
   return series;
@@ -290,11 +332,7 @@ std::span<const std::string_view> chart_values() { return VALUES; }
 Suite parse_suite(std::string_view text, const std::string& source) {
   const json document = parse_json(text, source);
   SuiteJson object(document, source);
-  std::uint32_t version = 0;
-  object.read("version", version, 0, ~0U);
-  if (version != 1)
-    throw Error(
-        fmt::format("{}: version: expected 1, got {}", source, version == 0 ? "none" : std::to_string(version)));
+  if (!object.has("version") || object.at("version") != 1) object.wrong("version", "1");
   Suite suite;
   object.require("name", suite.name);
   suite.title = suite.name;

@@ -44,7 +44,8 @@ bool SuiteJson::has(std::string_view key) {
 const json& SuiteJson::at(std::string_view key) const { return json_.at(std::string(key)); }
 
 void SuiteJson::wrong(std::string_view key, const std::string& expected) const {
-  throw Error(fmt::format("{}: {}: expected {}, got {}", where_, key, expected, shown(at(key))));
+  const std::string got = json_.contains(std::string(key)) ? shown(at(key)) : "none";
+  throw Error(fmt::format("{}: {}: expected {}, got {}", where_, key, expected, got));
 }
 
 void SuiteJson::missing(std::string_view key, const std::string& expected) const {

@@ -19,11 +19,22 @@ namespace {
 
 using nlohmann::json;
 
-/// A line's value at one x.
+/// A line's value at one x; of a time, the median and where nine samples in ten lie.
 struct Ranked {
   std::string name;
   double value = 0.0;
+  double low = 0.0;
+  double high = 0.0;
 };
+
+Ranked ranked_of(const std::string& name, const json& result, const std::string& y, double value) {
+  const json* const times = result.contains("times") ? &result["times"] : nullptr;
+  if (times == nullptr || !times->is_object() || !times->contains(y)) return {name, value, value, value};
+  return {name, value, times->at(y).at("p5"), times->at(y).at("p95")};
+}
+
+/// Whether what tells them apart may be noise.
+bool is_level(const Ranked& one, const Ranked& least) { return one.low <= least.high; }
 
 bool less(const Ranked& a, const Ranked& b) { return std::tie(a.value, a.name) < std::tie(b.value, b.name); }
 
@@ -44,7 +55,7 @@ std::vector<Ranked> ranking(const json& results, const ChartPanel& panel, const 
     for (const ChartPoint& point : line.points) {
       if (point.x != x) continue;
       if (const auto value = value_of(results.at("results").at(point.result), panel.y))
-        ranked.push_back({line.label, *value});
+        ranked.push_back(ranked_of(line.label, results["results"][point.result], panel.y, *value));
     }
   std::ranges::sort(ranked, less);
   return ranked;
@@ -56,7 +67,7 @@ std::vector<Ranked> ranking_of_bars(const json& results, const ChartPanel& panel
   for (const ChartLine& line : panel.lines)
     for (const ChartPoint& point : line.points)
       if (const auto value = value_of(results.at("results").at(point.result), panel.y))
-        ranked.push_back({point.x.get<std::string>(), *value});
+        ranked.push_back(ranked_of(point.x.get<std::string>(), results["results"][point.result], panel.y, *value));
   std::ranges::sort(ranked, less);
   return ranked;
 }
@@ -67,12 +78,19 @@ std::string behind_words(const Ranked& one, const Ranked& least, const std::stri
   return fmt::format("{} ({})", one.name, with_unit(one.value, y));
 }
 
-/// "lamplight is ahead with 1.2 ms; next is tight (1.5×), last all (400×)."
+/// "lamplight is ahead with 1.2 ms; next is tight (1.5×), last all (400×)." Those that are level with the first are
+/// named together, and one alone is ahead of nobody.
 std::string ranking_words(std::span<const Ranked> ranked, const std::string& y) {
   const Ranked& least = ranked.front();
-  std::string words = fmt::format("{} is ahead with {}", least.name, with_unit(least.value, y));
-  if (ranked.size() > 1) words += "; next is " + behind_words(ranked[1], least, y);
-  if (ranked.size() > 2) words += ", last " + behind_words(ranked.back(), least, y);
+  if (ranked.size() == 1) return fmt::format("{} has {}.", least.name, with_unit(least.value, y));
+  const auto level =
+      std::ranges::find_if_not(ranked, [&](const Ranked& one) { return is_level(one, least); }) - ranked.begin();
+  std::string words = level == 1 ? least.name + " is ahead" : least.name;
+  for (std::ptrdiff_t i = 1; i < level; ++i) words += (i + 1 < level ? ", " : " and ") + ranked[i].name;
+  words += fmt::format("{} with {}", level == 1 ? "" : " are level", with_unit(least.value, y));
+  const std::span<const Ranked> behind = ranked.subspan(level);
+  if (!behind.empty()) words += "; next is " + behind_words(behind.front(), least, y);
+  if (behind.size() > 1) words += ", last " + behind_words(behind.back(), least, y);
   return words + ".";
 }
 
@@ -101,8 +119,12 @@ std::string lead_words(const json& results, const ChartPanel& panel, std::span<c
   for (const json& x : xs) {
     const std::vector<Ranked> ranked = ranking(results, panel, x);
     if (ranked.empty()) continue;
-    if (!leader.empty() && ranked.front().name != leader)
-      words += fmt::format("{} up to {}, ", leader, x_words(panel, *last));
+    const auto stays = [&](const Ranked& one) { return one.name == leader && is_level(one, ranked.front()); };
+    if (std::ranges::any_of(ranked, stays)) {
+      last = &x;
+      continue;
+    }
+    if (!leader.empty()) words += fmt::format("{} up to {}, ", leader, x_words(panel, *last));
     leader = ranked.front().name;
     last = &x;
   }
@@ -198,6 +220,7 @@ void add_losses(const json& results, std::vector<std::string>& sentences) {
     double& share = worst[result.at("label")];
     share = std::max(share, stats.at("missed").get<double>() / stats.at("useful").get<double>());
   }
+  std::erase_if(worst, [](const auto& one) { return one.second == 0.0; });
   for (const auto& [label, share] : worst)
     sentences.push_back(fmt::format("{} missed up to {} % of the pairs of pixel and light that it should have found.",
                                     label, short_number(100.0 * share)));

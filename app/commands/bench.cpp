@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
@@ -60,7 +61,7 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
   if (scene.captured && !r.lights_given) r.lights = 0;
   Series series;
   series.name = "scene";
-  series.title = fmt::format("{}, {} lights, {}", r.scene, r.lights, r.size);
+  series.title = fmt::format("{}, {} lights, {}", r.scene, scene.lights.size() + r.lights, r.size);
   series.scenes = {r.scene};
   series.sizes = {r.size};
   series.lights = {r.lights};
@@ -188,6 +189,15 @@ void print_faults(const json& results) {
   }
 }
 
+/// What devices made otherwise than was asked: once for each of a kind.
+void print_notes(const json& results) {
+  std::set<std::pair<std::string, std::string>> said;
+  for (const json& entry : results["results"])
+    for (const json& note : entry["stats"].value("notes", json::array()))
+      if (said.emplace(entry["label"], note).second)
+        print_out("{}: {}\n", entry["label"].get<std::string>(), note.get<std::string>());
+}
+
 /// What a run came to.
 Exit conclude(const json& results, std::size_t left_out, const std::string& report) {
   const auto count = [&](std::string_view verdict) {
@@ -197,6 +207,7 @@ Exit conclude(const json& results, std::size_t left_out, const std::string& repo
   const auto unchecked = count(name_of(Verdict::unchecked));
   const auto impossible = count("impossible");
   print_faults(results);
+  print_notes(results);
   if (const std::string words = regret_words(results); !words.empty()) print_out("{}\n", words);
   print_out("{} configurations measured, {} wrong, {} could not be checked, {} impossible, {} beyond the limits: {}\n",
             std::ssize(results["results"]) - impossible, wrong, unchecked, impossible, left_out, report);

@@ -49,6 +49,9 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
                   {"projection", group.projection},
                   {"path", entry.path},
                   {"method", entry.method}};
+  if (group.seed != Series{}.seed) parameters["seed"] = group.seed;
+  if (group.brdf != Series{}.brdf) parameters["brdf"] = group.brdf;
+  if (group.frame >= 0) parameters["frame"] = group.frame;
   if (group.depth != "reversed") parameters["depth"] = group.depth;
   if (group.depth_samples != 1) parameters["depth_samples"] = group.depth_samples;
   if (group.still != 0.0) parameters["still"] = group.still;

@@ -85,7 +85,7 @@ function seriesPart(run, series) {
   if (results.length === 0) return null;
   const part = el('section', {class: 'card', id: `series-${run.place}-${series.name}`}, el('h2', {}, series.title), el('p', {class: 'soft'}, series.about));
   for (const panel of run.panels.filter(p => p.series === series.name)) part.append(...panelPart(run, panel));
-  part.append(...pictureSection(run, series.name), el('h3', {}, 'All numbers'), resultTable(results));
+  part.append(...pictureSection(run, series.name), el('h3', {}, 'All numbers'), resultTable(results), ...remarks(results));
   return part;
 }
 

@@ -90,6 +90,18 @@ function resultTable(results) {
   ], results);
 }
 
+/** Why results are not exact, and what the device made otherwise than was asked: each text once, with whose it is. */
+function remarks(results) {
+  const labels = new Map();
+  const add = (text, label) => text && labels.set(text, (labels.get(text) || new Set()).add(label));
+  for (const r of results) {
+    if (r.verdict !== 'exact') add(r.reason, r.label);
+    for (const text of r.stats.notes || []) add(text, r.label);
+  }
+  if (labels.size === 0) return [];
+  return [el('ul', {class: 'soft'}, ...[...labels].map(([text, whose]) => el('li', {}, `${[...whose].join(', ')}: ${text}`)))];
+}
+
 function ratioColumn(name, key) {
   return {name, title: 'time of B over time of A: under 1, B is faster', value: r => r[key] || null,
           show: r => r[key] ? el('span', {class: r[key] < 0.98 ? 'better' : r[key] > 1.02 ? 'worse' : null}, short(r[key])) : ''};

@@ -302,6 +302,13 @@ TEST_F(BenchResults, WordsComeFromTheNumbers) {
   EXPECT_NE(run_summary(alone).at(0).find("1 missed no light (too many for brute force"), std::string::npos);
 }
 
+TEST_F(BenchResults, WhatMayBeNoiseIsLevel) {
+  json results = run_of(SWEEP);
+  for (json& result : results["results"]) result["times"]["cull+shade"]["p95"] = 100.0;
+  const std::vector<std::string> words = panel_summary(results, chart_panels(results, "results.json").at(0));
+  EXPECT_EQ(words, (std::vector<std::string>{"cull and shade, with 64 lights: tiled and tight are level with 6 ms."}));
+}
+
 TEST_F(BenchResults, NumbersInWords) {
   EXPECT_EQ(short_number(0.0), "0");
   EXPECT_EQ(short_number(1234.5), "1234");

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "bench/groups.h"
@@ -78,6 +77,10 @@ TEST(BenchSuite, HostsThatCannotHaveIt) {
   expect_error(hosted("culler", R"("decals": [3])"), {"decals", "none with host culler"});
   expect_error(hosted("host-barriers", R"("probes": [3])"), {"probes", "none with host host-barriers"});
   expect_error(hosted("culler", R"("paths": ["tiled-deferred"])"), {"paths", "no tiled-deferred with host culler"});
+  expect_error(suite_with(R"("methods": [{"name": "tiled", "host": "culler", "path": "tiled-deferred"}])"),
+               {"method tiled: path", "none of tiled-deferred with host culler"});
+  expect_error(suite_with(R"("methods": [{"name": "tiled", "still_lists": "world-tree"}])"),
+               {"still: expected more than 0", "got none"});
 }
 
 TEST(BenchSuite, LabelsTellEntriesApart) {
@@ -92,6 +95,17 @@ TEST(BenchSuite, LabelsTellEntriesApart) {
   expect_error(suite_with(R"("methods": ["tiled", {"name": "tight", "label": "tiled"}])"),
                {"two have the label 'tiled'"});
   expect_error(suite_with(R"("methods": ["tiled", "tiled"])"), {"two have the label 'tiled'"});
+}
+
+TEST(BenchSuite, NothingIsMeasuredTwice) {
+  expect_error(suite_with(R"("methods": ["tiled", {"name": "tiled", "label": "again"}])"),
+               {"'tiled' and 'again' ask for the same"});
+  expect_error(
+      suite_with(R"("methods": ["tiled", {"name": "tiled", "path": "forward"}], "paths": ["deferred", "forward"])"),
+      {"'tiled' and 'tiled, forward' ask for the same, by the path forward"});
+  expect_error(suite_with(R"("lights": [16, 4, 16])"), {"lights", "16 once"});
+  expect_error(suite_with(R"("paths": ["deferred", "deferred"])"), {"paths", "deferred once"});
+  expect_error(suite_with(R"("options": {"tile": ["8", "8"]})"), {"options: tile", "8 once"});
 }
 
 TEST(BenchSuite, KeysThatAreUnknown) {
@@ -138,14 +152,15 @@ TEST(BenchSuite, ValuesThatAreWrong) {
   EXPECT_THROW(static_cast<void>(load_suite("nowhere.json")), Error);
 }
 
-std::string numbers(std::size_t count) {
+std::string numbers(std::size_t count, double step = 1.0) {
   std::string text = "[0";
-  for (std::size_t i = 1; i < count; ++i) text += ", 0";
+  for (std::size_t i = 1; i < count; ++i) text += fmt::format(", {}", static_cast<double>(i) * step);
   return text + "]";
 }
 
 TEST(BenchSuite, WhatMultipliesBeyondMemoryIsCountedFirst) {
-  const std::string lists = R"("methods": ["tiled"], "spots": )" + numbers(4000) + R"(, "lights": )" + numbers(4000);
+  const std::string lists =
+      R"("methods": ["tiled"], "spots": )" + numbers(4000, 1e-4) + R"(, "lights": )" + numbers(4000);
   expect_error(suite_with(lists), {"series 'one'", "out to 16000000 configurations", "expected at most 65536"});
   std::string options;
   for (char key = 'a'; key <= 'z'; ++key)
@@ -156,7 +171,7 @@ TEST(BenchSuite, WhatMultipliesBeyondMemoryIsCountedFirst) {
     series +=
         fmt::format(R"({}{{"name": "{}", "methods": ["tiled"], "lights": {}}})", i == 0 ? "" : ", ", i, numbers(4000));
   expect_error(R"({"version": 1, "name": "mine", "series": [)" + series + "]}",
-               {"series '16'", "out to 68000 configurations"});
+               {"series '14'", "out to 60000 configurations"});
   const std::string label = R"("methods": [{"name": "tiled", "label": ")" + std::string(100'000, 'x') + "\"}]";
   expect_error(suite_with(label + R"(, "lights": )" + numbers(20'000)), {"series 'one'", "bytes of text"});
 }
@@ -203,11 +218,8 @@ TEST(BenchSuite, SeriesThatAreNotNamedAreLeftOut) {
   ASSERT_EQ(mirrors.groups.size(), 6U);
   EXPECT_EQ(mirrors.groups.front().series, "mirror");
   EXPECT_EQ(mirrors.groups.back().series, "mirror-grid");
-  const auto entries = [](const Expansion& e) {
-    return std::accumulate(e.groups.begin(), e.groups.end(), e.left_out,
-                           [](std::size_t sum, const Group& group) { return sum + group.entries.size(); });
-  };
-  EXPECT_EQ(entries(mirrors), entries(all));
+  EXPECT_GT(all.groups.size(), mirrors.groups.size());
+  EXPECT_EQ(mirrors.left_out, 0U) << "that series were not asked for is no limit";
 }
 
 TEST(BenchSuite, SweptOptionsBelongToEveryMethod) {
