@@ -90,12 +90,17 @@ std::string fault_of_packed(const shared::Light& light) {
     return "type must be LIGHT_POINT or LIGHT_SPOT, got " + std::to_string(light.type);
   if (!is_finite(Vec3(light.position))) return expected("position must be finite", Vec3(light.position));
   if (!(light.range >= 0.0F)) return expected("range must be >= 0 m", light.range);
+  if (!is_finite(light.intensity)) return expected("intensity must be finite", light.intensity);
   if (light.type == shared::LIGHT_POINT) return {};
   const Vec3 direction = light.direction;
   const float length = direction.x * direction.x + direction.y * direction.y + direction.z * direction.z;
   if (!(std::abs(length - 1.0F) < 1e-3F)) return expected("direction must have a length of 1", direction);
   if (!within(light.outer_angle, 0.0F, RIGHT_ANGLE))
     return expected("outer angle must be 0 .. pi/2 radians", light.outer_angle);
+  const double cosine_error = std::abs(double{light.cos_outer} - cosine(light.outer_angle));
+  const double sine_error = std::abs(double{light.sin_outer} - std::sin(double{light.outer_angle}));
+  if (!(cosine_error < 1e-3)) return expected("cos_outer must be the cosine of outer_angle", light.cos_outer);
+  if (!(sine_error < 1e-3)) return expected("sin_outer must be the sine of outer_angle", light.sin_outer);
   return {};
 }
 

@@ -148,25 +148,41 @@ TEST(ShadowAtlas, KeepsSizesWhileTheCameraTrembles) {
 }
 
 TEST(ShadowAtlas, SizesFallBeforeALightLosesItsShadow) {
-  const ShadowAtlasInfo info{.size = 256, .light_capacity = 257};
   const View view = view_from({0.0, 30.0, 30.0});
-  std::vector<shared::Light> lights;
-  std::uint32_t side = 256;
-  for (const std::size_t count : {1, 4, 16, 64, 255, 256, 257}) {
-    while (lights.size() < count)
-      lights.push_back(
-          spot_at({static_cast<float>(lights.size() % 16), 0.0F, static_cast<float>(lights.size()) / 16.0F}));
-    ShadowAtlas atlas = make(info);
-    const auto frame = atlas.schedule({.views = std::span(&view, 1), .lights = lights});
-    expect_sound(frame.value(), info);
-    EXPECT_EQ(frame.value().counts.seen, count);
-    EXPECT_EQ(frame.value().counts.shadowed, std::min<std::size_t>(count, 256));
-    EXPECT_EQ(frame.value().counts.no_room, count == 257 ? 1U : 0U);
-    ASSERT_EQ(frame.value().without.size(), count == 257 ? 1U : 0U);
-    EXPECT_LE(frame.value().maps[0].side, side);
-    side = frame.value().maps[0].side;
+  for (const float texels : {1.0F, 1e6F}) {
+    const ShadowAtlasInfo info{.size = 256, .light_capacity = 257, .texels_per_pixel = texels};
+    std::vector<shared::Light> lights;
+    std::uint32_t side = 256;
+    for (const std::size_t count : {1, 4, 16, 64, 255, 256, 257}) {
+      while (lights.size() < count)
+        lights.push_back(
+            spot_at({static_cast<float>(lights.size() % 16), 0.0F, static_cast<float>(lights.size()) / 16.0F}));
+      ShadowAtlas atlas = make(info);
+      const auto frame = atlas.schedule({.views = std::span(&view, 1), .lights = lights});
+      expect_sound(frame.value(), info);
+      EXPECT_EQ(frame.value().counts.seen, count);
+      EXPECT_EQ(frame.value().counts.shadowed, std::min<std::size_t>(count, 256)) << texels;
+      EXPECT_EQ(frame.value().counts.no_room, count == 257 ? 1U : 0U);
+      ASSERT_EQ(frame.value().without.size(), count == 257 ? 1U : 0U);
+      EXPECT_LE(frame.value().maps[0].side, side);
+      side = frame.value().maps[0].side;
+    }
+    EXPECT_EQ(side, 16U);
   }
-  EXPECT_EQ(side, 16U);
+}
+
+TEST(ShadowAtlas, AnIdThatIsUsedAgainHasNotWaited) {
+  const View view = view_from({0.0, 30.0, 30.0});
+  const std::vector<shared::Light> lights{spot_at({})};
+  const lamp::ShadowFrameInfo frame{.views = std::span(&view, 1), .lights = lights};
+  const auto priority = [&](ShadowAtlas& atlas) { return atlas.schedule(frame).value().redraws[0].priority; };
+  ShadowAtlas fresh = make({.light_capacity = 1});
+  ShadowAtlas used = make({.light_capacity = 1});
+  lamp::ShadowFrameInfo poor = frame;
+  poor.budget_texels = 0;
+  for (int i = 0; i < 100; ++i) (void)used.schedule(poor).value();
+  (void)used.schedule({.views = frame.views}).value();
+  EXPECT_EQ(priority(used), priority(fresh));
 }
 
 TEST(ShadowAtlas, LightsThatComeLaterGetTheirShadowWithinAFewFrames) {
@@ -293,14 +309,17 @@ TEST(ShadowAtlas, OddLights) {
       {.type = LightType::spot, .outer_angle = 0.0F},
       {.range = infinite},
       {.type = LightType::spot, .range = infinite, .outer_angle = std::numbers::pi_v<float> / 2.0F},
-      {.type = LightType::spot, .range = 1e-6F, .outer_angle = 1e-4F}};
+      {.type = LightType::spot, .range = 1e-6F, .outer_angle = 1e-4F},
+      {.type = LightType::spot, .range = 2.0F, .outer_angle = 1e-38F},
+      {.position = {std::nanf(""), 0.0F, 0.0F}, .range = infinite},
+      {.position = {infinite, 0.0F, 0.0F}, .range = infinite}};
   const std::vector<shared::Light> lights = lamp::pack(odd);
   ShadowAtlas atlas = make({.light_capacity = 16});
   const View view = view_from({0.0, 0.0, 1.0});
   const ShadowFrame frame = atlas.schedule({.views = std::span(&view, 1), .lights = lights}).value();
-  EXPECT_EQ(frame.counts.seen, 3U);
+  EXPECT_EQ(frame.counts.seen, 4U);
   EXPECT_EQ(frame.counts.without, 0U);
-  for (const int i : {0, 1, 2}) EXPECT_EQ(frame.maps[i].kind, shared::SHADOW_NONE) << i;
+  for (const int i : {0, 1, 2, 7, 8}) EXPECT_EQ(frame.maps[i].kind, shared::SHADOW_NONE) << i;
   EXPECT_EQ(frame.maps[3].kind, shared::SHADOW_FACES);
   EXPECT_EQ(frame.maps[4].kind, shared::SHADOW_OCTAHEDRON) << "a spot of 90 degrees has no plane of its own";
   EXPECT_EQ(frame.maps[5].kind, shared::SHADOW_SPOT);

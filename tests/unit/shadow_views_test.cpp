@@ -181,6 +181,25 @@ TEST(ShadowViews, WhatIsInThePictureIsSeen) {
   }
 }
 
+TEST(ShadowViews, SizesDoNotHangOnHowACameraIsWritten) {
+  lamp::test::Random random(2);
+  const glm::dvec3 step(0.0, 0.0, 5.0);  // of the eye, out of view space's origin
+  for (const View& view : views_of_all_kinds()) {
+    const glm::dmat4 clip = view.clip_from_view();
+    const glm::dmat4 from_world = view.view_from_world();
+    const View scaled = View::create(640, 360, 4.0 * clip, from_world).value();
+    const View moved = View::create(640, 360, clip * glm::translate(glm::dmat4(1.0), -step),
+                                    glm::translate(glm::dmat4(1.0), step) * from_world)
+                           .value();
+    for (int i = 0; i < 500; ++i) {
+      const shared::LightSphere sphere{.center = random.vector(20.0F), .radius = random.in(0.1F, 4.0F)};
+      const double shown = lamp::shown_diameter_px(view, sphere);
+      EXPECT_NEAR(lamp::shown_diameter_px(scaled, sphere), shown, 1e-2);
+      EXPECT_NEAR(lamp::shown_diameter_px(moved, sphere), shown, 1e-2);
+    }
+  }
+}
+
 TEST(ShadowViews, WhatIsBesideOrBehindIsNotSeen) {
   for (const View& view : views_of_all_kinds()) {
     const auto seen = [&](const glm::dvec3& at, float radius) {

@@ -14,6 +14,7 @@
 #include "lamplight/shared/world_tree.h"
 #include "oracle/occluders.h"
 #include "oracle/points.h"
+#include "random.h"
 #include "scene/builtin.h"
 #include "scene/open_air.h"
 #include "scene/place_lights.h"
@@ -126,6 +127,39 @@ TEST(WorldTree, LeavesOutWhatWallsHide) {
   EXPECT_LT(found.waste(), 1.75) << "of lights that a point sees";
   const Found without = expect_no_miss(built({.lights = b.lights}), b.points);
   EXPECT_LT(found.walked * 10, without.walked * 8);
+}
+
+/// As those of half floats are.
+TEST(WorldTree, DirectionsNeedNotBeOfLengthOneToTheLastDigit) {
+  std::vector<lamp::Light> spots;
+  lamp::test::Random random(3);
+  for (int i = 0; i < 200; ++i)
+    spots.push_back({.type = lamp::LightType::spot,
+                     .position = random.vector(8.0F),
+                     .range = random.in(2.0F, 6.0F),
+                     .direction = random.direction(),
+                     .outer_angle = random.in(0.01F, 0.1F)});
+  PackedLights lights = lamp::pack(spots);
+  Points points;
+  for (int i = 0; i < 20'000; ++i) {  // near the cones' sides
+    const lamp::Light& spot = spots[random.below(200)];
+    const glm::vec3 axis(spot.direction);
+    const glm::vec3 aside = glm::normalize(glm::cross(axis, random.direction()));
+    const float along = random.in(0.0F, spot.range);
+    points.push_back(glm::vec3(spot.position) + along * (axis + aside * std::tan(spot.outer_angle) * 0.999F));
+  }
+  const lamp::PointTruth truth = lamp::truth_at(points, lights);
+  for (const float length : {0.9996F, 1.0004F}) {
+    PackedLights rounded = lights;
+    for (lamp::shared::Light& light : rounded) light.direction = length * glm::vec3(light.direction);
+    const WorldTree tree = built({.lights = rounded});
+    std::size_t missed = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::vector<std::uint32_t> walked = tree.lights_at(lamp::Vec3(points[i]));
+      for (const std::uint32_t light : truth.of(i)) missed += std::ranges::binary_search(walked, light) ? 0 : 1;
+    }
+    EXPECT_EQ(missed, 0U) << length;
+  }
 }
 
 TEST(WorldTree, IsTheSameHoweverManyThreadsBuildIt) {
@@ -272,7 +306,14 @@ TEST(WorldTree, NamesWhatIsWrong) {
   lights[2].type = lamp::shared::LIGHT_SPOT;
   lights[2].direction = {0, 0, 2};
   EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
+  lights[2].direction = {0, 0, 1};
+  lights[2].cos_outer = std::nanf("");
+  EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
   lights[2].type = lamp::shared::LIGHT_POINT;
+  lights[2].intensity.y = std::nanf("");
+  EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
+  lights[2].intensity.y = 1.0F;
+  EXPECT_EQ(built({.lights = lights, .threads = 100'000}).counts().entries, built({.lights = lights}).counts().entries);
   WorldTree tree = built({.lights = lights});
   lights[1].range = std::nanf("");
   EXPECT_EQ(tree.change(1, lights[1]).error().source, "light 1");

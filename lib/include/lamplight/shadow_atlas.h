@@ -103,7 +103,7 @@ struct ShadowCounts {
 struct ShadowFrame {
   std::span<const shared::ShadowMap> maps;    ///< one for each light of the frame, as after this frame's draws
   std::span<const shared::ShadowView> views;  ///< to draw, in the order of `redraws`
-  std::span<const ShadowRedraw> redraws;      ///< in the order of their priority
+  std::span<const ShadowRedraw> redraws;      ///< by priority, but for lights that give squares back, or then get them
   std::span<const ShadowSquare> squares;      ///< of the redraws, to be cleared to 0 before their views are drawn
   /// For shadow/radial_bounds and shadow/light_meshes, after the draws: indices whose bound is not that of their
   /// light's map. In the first frame that is every light, then those that were redrawn, that have another map than

@@ -150,8 +150,9 @@ void ShadowAtlas::State::add_candidate(const ShadowFrameInfo& frame, std::uint32
   const std::uint64_t most = keeps_size ? all : std::min(all, frame.budget_texels);
   int most_level = shadow::LEAST_LEVEL;
   while (most_level < shadow::MOST_LEVEL && shadow::texels_of(most_level + 1, squares) <= most) ++most_level;
-  const Wish wish{
-      .level = static_cast<float>(std::log2(side)), .current = holding.level, .most = most_level, .squares = squares};
+  // No larger than what there is: else all would have to fall together by what nobody could have.
+  const auto level = static_cast<float>(std::min(std::log2(side), shadow::MOST_LEVEL + 0.49));
+  const Wish wish{.level = level, .current = holding.level, .most = most_level, .squares = squares};
   wishes.push_back(wish);
   candidates.push_back({.light = i,
                         .holding = &holding,
@@ -166,6 +167,7 @@ void ShadowAtlas::State::meet_lights(const ShadowFrameInfo& frame) {
   for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
     const shared::Light& light = frame.lights[i];
     Holding& holding = holdings.of(id_of(frame, i));
+    if (holding.in_frame + 1 != frame_number) holding.waited = 0;  // the id may be another light's now
     holding.in_frame = frame_number;
     const std::uint32_t squares = shadow_squares(light, info.points);
     if (holding.level != NO_LEVEL && holding.squares != squares) holdings.release(holding);

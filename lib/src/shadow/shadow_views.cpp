@@ -8,7 +8,9 @@
 #include <cassert>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 
+#include "../is_finite.h"
 #include "lamplight/shadow_atlas.h"
 
 namespace lamp {
@@ -17,6 +19,7 @@ namespace {
 // Nearer than a hundredth of a small light's range, or a centimetre, nothing casts a shadow that its size would show.
 constexpr float NEAR_M = 0.01F;
 constexpr float NEAR_SHARE = 0.01F;
+constexpr float NARROWEST = 1e-6F;  // radians, of a spot's map: the inverse of narrower ones is beyond all numbers
 
 // Texels by which octants overlap. Rasterization snaps corners to 1/256 texel, and the folds run through texel centres:
 // without it a texel on a fold might belong to neither side.
@@ -125,7 +128,7 @@ std::uint32_t shadow_border(ShadowFilter filter, std::uint32_t side) {
 }
 
 std::uint32_t shadow_squares(const shared::Light& light, PointShadows points) {
-  if (!(light.range > 0.0F) || light.intensity == Vec3{}) return 0;
+  if (!(light.range > 0.0F) || light.intensity == Vec3{} || !is_finite(Vec3(light.position))) return 0;
   if (light.type == shared::LIGHT_SPOT) return light.outer_angle > 0.0F ? 1 : 0;
   return points == PointShadows::faces ? shared::SQUARES_A_LIGHT : 1;
 }
@@ -143,10 +146,10 @@ shared::ShadowMap shadow_map(const shared::Light& light, const ShadowAtlasInfo& 
                         .axis_x = any_right_angle(light.direction),
                         .scale = half_inner,
                         .axis_z = light.direction,
-                        .near_m = std::min(NEAR_M, light.range * NEAR_SHARE),
+                        .near_m = std::clamp(light.range * NEAR_SHARE, std::numeric_limits<float>::min(), NEAR_M),
                         .range_m = light.range,
                         .side = side};
-  if (spot) map.scale = half_inner / std::tan(light.outer_angle);
+  if (spot) map.scale = half_inner / std::tan(std::max(light.outer_angle, NARROWEST));
   if (map.kind == shared::SHADOW_OCTAHEDRON) map.scale = static_cast<float>(side) * 0.5F;
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const glm::uvec2 at = glm::uvec2(squares[i]) / shared::LEAST_SQUARE;

@@ -45,6 +45,7 @@ void LightCells::look(const shared::Light& light, const TreeGrid& grid, const St
   light_ = light;
   center_ = glm::dvec3(glm::vec3(light.position));
   axis_ = glm::dvec3(glm::vec3(light.direction));
+  if (light.type == shared::LIGHT_SPOT) axis_ = glm::normalize(axis_);
   slack_ = grid.slack_m() + 2.0 * double{shared::ROUND_POSITION} * sum_of(center_);
   const bool is_spot = light.type == shared::LIGHT_SPOT;
   range_ = double{light.range} * (1.0 + double{shared::ROUND_RADIUS}) + slack_;

@@ -15,8 +15,9 @@ using shared::TRIANGLE_ROW_BITS;
 using shared::TRIANGLE_ROWS;
 using shared::TRIANGLE_UNLIT;
 
-// A name has 31 bits; the last of all is TRIANGLE_UNLIT's.
-constexpr std::size_t MOST_WORDS = ((std::size_t{1} << (31 - TRIANGLE_ROW_BITS)) - 1) * TRIANGLE_GROUP_UNIT;
+std::size_t whole_units(std::size_t words) {
+  return (words + TRIANGLE_GROUP_UNIT - 1) / TRIANGLE_GROUP_UNIT * TRIANGLE_GROUP_UNIT;
+}
 
 std::size_t row_words(std::size_t lights) { return (lights + 31) / 32; }
 
@@ -78,7 +79,7 @@ void ListGroups::add(std::size_t word, std::vector<std::uint32_t> list) {
 
 void ListGroups::close() {
   if (rows_.empty()) return;
-  words_.resize((words_.size() + TRIANGLE_GROUP_UNIT - 1) / TRIANGLE_GROUP_UNIT * TRIANGLE_GROUP_UNIT);
+  words_.resize(whole_units(words_.size()));
   const auto group = static_cast<std::uint32_t>(words_.size() / TRIANGLE_GROUP_UNIT);
   words_.push_back(static_cast<std::uint32_t>(together_.size()));
   words_.insert(words_.end(), together_.begin(), together_.end());
@@ -100,13 +101,13 @@ void ListGroups::close() {
   together_.clear();
 }
 
-bool ListGroups::finish() {
+bool ListGroups::finish(std::size_t words_before) {
   close();
-  return words_.size() <= MOST_WORDS;
+  return whole_units(words_before) + words_.size() <= MOST_LIST_WORDS;
 }
 
 void ListGroups::store(std::vector<std::uint32_t>& words) const {
-  words.resize((words.size() + TRIANGLE_GROUP_UNIT - 1) / TRIANGLE_GROUP_UNIT * TRIANGLE_GROUP_UNIT);
+  words.resize(whole_units(words.size()));
   const auto first = static_cast<std::uint32_t>(words.size() / TRIANGLE_GROUP_UNIT) << TRIANGLE_ROW_BITS;
   for (const Place& place : places_)
     words[place.word] = place.name == TRIANGLE_UNLIT ? TRIANGLE_UNLIT : place.name + first;

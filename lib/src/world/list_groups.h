@@ -2,19 +2,26 @@
 // them. Promise: a list that is already there is not stored again. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "lamplight/shared/triangle_lists.h"
+
 namespace lamp::world {
+
+/// Of lists, with what comes before them. A name has 31 bits; the last of all is TRIANGLE_UNLIT's.
+inline constexpr std::size_t MOST_LIST_WORDS =
+    ((std::size_t{1} << (31 - shared::TRIANGLE_ROW_BITS)) - 1) * shared::TRIANGLE_GROUP_UNIT;
 
 class ListGroups {
  public:
   /// The list that a word stands for; lists of neighbours come one after the other.
   void add(std::size_t word, std::vector<std::uint32_t> list);
-  /// Closes the last group. False: lists take more than words can name.
-  [[nodiscard]] bool finish();
+  /// Closes the last group. False: lists behind so many words take more than words can name.
+  [[nodiscard]] bool finish(std::size_t words_before);
 
   /// Writes the lists behind `words`, and into its words what names them.
   void store(std::vector<std::uint32_t>& words) const;

@@ -54,8 +54,9 @@ std::optional<Error> fault_of(const TriangleListsInfo& info) {
     return Error("slack_m", expected("must be >= 0 m and finite", info.slack_m));
   if (!(info.patch > 0.0F)) return Error("patch", expected("must be > 0", info.patch));
   if (info.budget_bytes == 0) return Error("budget_bytes", "must be > 0, got 0");
-  if (info.triangles.size() >= shared::TRIANGLE_UNLIT)
-    return Error("triangles", "must be fewer than 2^31 - 1, got " + std::to_string(info.triangles.size()));
+  if (info.triangles.size() > world::MOST_LIST_WORDS)
+    return Error("triangles", "must be at most " + std::to_string(world::MOST_LIST_WORDS) + ", got " +
+                                  std::to_string(info.triangles.size()));
   for (std::size_t i = 0; i < info.triangles.size(); ++i)
     if (auto fault = fault_of(info.triangles[i], i)) return fault;
   for (std::size_t i = 0; i < info.lights.size(); ++i)
@@ -101,7 +102,7 @@ class Build {
     std::iota(all.begin(), all.end(), 0U);
     if (!triangles.empty()) halve(triangles, all);
     flush();
-    if (!groups_.finish() || made_.words.size() >= shared::TRIANGLE_PATCHED) return false;
+    if (!groups_.finish(made_.words.size())) return false;
     groups_.store(made_.words);
     made_.stats.groups = groups_.groups();
     made_.stats.lists = groups_.lists();

@@ -57,7 +57,9 @@ std::optional<Error> check(const WorldTreeInfo& info) {
 
 /// All that lights light, in the order that a tree is made in.
 std::vector<LitBrick> lit_bricks(const WorldTreeInfo& info, const TreeGrid& grid, const world::BrickLevels& levels) {
-  const std::uint32_t threads = info.threads != 0 ? info.threads : std::max(1U, std::thread::hardware_concurrency());
+  const std::uint32_t wanted = info.threads != 0 ? info.threads : std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t busy = (info.lights.size() + LIGHTS_AT_ONCE - 1) / LIGHTS_AT_ONCE;
+  const auto threads = static_cast<std::uint32_t>(std::clamp<std::size_t>(busy, 1, wanted));
   std::vector<std::vector<LitBrick>> found(threads);
   const auto place_of = [](const LitBrick& b) { return std::tuple(b.place, b.level, b.light); };
   std::atomic<std::size_t> next{0};
