@@ -60,7 +60,7 @@ std::vector<GroupEntry> entries_of(const Series& series) {
   std::vector<GroupEntry> entries;
   for (const SuiteMethod& method : series.methods)
     for (const Swept& swept : combinations(series))
-      for (const std::string& path : method.path.empty() ? series.paths : std::vector<std::string>{method.path}) {
+      for (const std::string& path : paths_of(series, method)) {
         GroupEntry entry{.method = method.name,
                          .options = method.options,
                          .path = path,

@@ -201,7 +201,7 @@ void check_hosts(SuiteJson& object, const Series& series) {
     if (!has_culler(method.host)) continue;
     if (series.decals != std::vector<std::uint32_t>{0}) object.wrong("decals", "none " + who);
     if (series.probes != std::vector<std::uint32_t>{0}) object.wrong("probes", "none " + who);
-    const std::vector<std::string> paths = method.path.empty() ? series.paths : std::vector{method.path};
+    const std::vector<std::string> paths = paths_of(series, method);
     if (std::ranges::find(paths, "tiled-deferred") == paths.end()) continue;
     if (method.path.empty()) object.wrong("paths", "no tiled-deferred " + who);
     throw Error(
@@ -230,9 +230,10 @@ void check_repeats(SuiteJson& object, const Series& series) {
   check_once(object, "paths", series.paths);
   SuiteJson options(object.has("options") ? object.at("options") : json::object(), object.where() + ": options");
   for (const auto& [key, values] : series.options) check_once(options, key.c_str(), values);
+  if (configurations(series) > static_cast<double>(MOST_CONFIGURATIONS)) return;  // it is refused for that
   std::map<std::string, std::string> labels;
   for (const SuiteMethod& method : series.methods)
-    for (const std::string& path : method.path.empty() ? series.paths : std::vector{method.path}) {
+    for (const std::string& path : paths_of(series, method)) {
       std::vector<std::string> words = method.options;
       std::ranges::sort(words);
       words.insert(words.end(), {method.name, path, method.still_lists, std::to_string(method.still_occlusion),
@@ -328,6 +329,10 @@ const EmbeddedFile* builtin_suite(const std::string& name) {
 }  // namespace
 
 std::span<const std::string_view> chart_values() { return VALUES; }
+
+std::vector<std::string> paths_of(const Series& series, const SuiteMethod& method) {
+  return method.path.empty() ? series.paths : std::vector{method.path};
+}
 
 Suite parse_suite(std::string_view text, const std::string& source) {
   const json document = parse_json(text, source);

@@ -88,6 +88,9 @@ struct Series {
   bool pictures = false;  ///< picture and heat maps of the first group of each scene that has the most lights
 };
 
+/// The method's own, or each of the series'.
+[[nodiscard]] std::vector<std::string> paths_of(const Series& series, const SuiteMethod& method);
+
 /// More configurations than a device measures in a day.
 inline constexpr std::size_t MOST_CONFIGURATIONS = 65536;
 

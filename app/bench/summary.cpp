@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -27,18 +28,21 @@ struct Ranked {
   double high = 0.0;
 };
 
-Ranked ranked_of(const std::string& name, const json& result, const std::string& y, double value) {
-  const json* const times = result.contains("times") ? &result["times"] : nullptr;
-  if (times == nullptr || !times->is_object() || !times->contains(y)) return {name, value, value, value};
-  return {name, value, times->at(y).at("p5"), times->at(y).at("p95")};
-}
-
 /// Whether what tells them apart may be noise.
 bool is_level(const Ranked& one, const Ranked& least) { return one.low <= least.high; }
 
 bool less(const Ranked& a, const Ranked& b) { return std::tie(a.value, a.name) < std::tie(b.value, b.name); }
 
 bool is_time(const std::string& y) { return y == "cull" || y == "shade" || y == "cull+shade" || y == "frame"; }
+
+/// Nothing where the result has no such value.
+std::optional<Ranked> ranked_of(const std::string& name, const json& result, const std::string& y) {
+  const std::optional<double> value = value_of(result, y);
+  if (!value) return std::nullopt;
+  if (!is_time(y)) return Ranked{name, *value, *value, *value};
+  const json& spread = result.at("times").at(y);
+  return Ranked{name, *value, spread.at("p5"), spread.at("p95")};
+}
 
 std::string with_unit(double value, const std::string& y) { return short_number(value) + (is_time(y) ? " ms" : ""); }
 
@@ -54,8 +58,8 @@ std::vector<Ranked> ranking(const json& results, const ChartPanel& panel, const 
   for (const ChartLine& line : panel.lines)
     for (const ChartPoint& point : line.points) {
       if (point.x != x) continue;
-      if (const auto value = value_of(results.at("results").at(point.result), panel.y))
-        ranked.push_back(ranked_of(line.label, results["results"][point.result], panel.y, *value));
+      if (const auto one = ranked_of(line.label, results.at("results").at(point.result), panel.y))
+        ranked.push_back(*one);
     }
   std::ranges::sort(ranked, less);
   return ranked;
@@ -66,8 +70,8 @@ std::vector<Ranked> ranking_of_bars(const json& results, const ChartPanel& panel
   std::vector<Ranked> ranked;
   for (const ChartLine& line : panel.lines)
     for (const ChartPoint& point : line.points)
-      if (const auto value = value_of(results.at("results").at(point.result), panel.y))
-        ranked.push_back(ranked_of(point.x.get<std::string>(), results["results"][point.result], panel.y, *value));
+      if (const auto one = ranked_of(point.x.get<std::string>(), results.at("results").at(point.result), panel.y))
+        ranked.push_back(*one);
   std::ranges::sort(ranked, less);
   return ranked;
 }
@@ -120,12 +124,10 @@ std::string lead_words(const json& results, const ChartPanel& panel, std::span<c
     const std::vector<Ranked> ranked = ranking(results, panel, x);
     if (ranked.empty()) continue;
     const auto stays = [&](const Ranked& one) { return one.name == leader && is_level(one, ranked.front()); };
-    if (std::ranges::any_of(ranked, stays)) {
-      last = &x;
-      continue;
+    if (std::ranges::none_of(ranked, stays)) {
+      if (!leader.empty()) words += fmt::format("{} up to {}, ", leader, x_words(panel, *last));
+      leader = ranked.front().name;
     }
-    if (!leader.empty()) words += fmt::format("{} up to {}, ", leader, x_words(panel, *last));
-    leader = ranked.front().name;
     last = &x;
   }
   return words.empty() ? "" : fmt::format("The lead changes: {}then {}.", words, leader);
@@ -216,11 +218,12 @@ void add_losses(const json& results, std::vector<std::string>& sentences) {
     if (stats.value("overflowed_cells", 0U) != 0 ||
         stats.value(json::json_pointer("/transparent/overflowed_cells"), 0U) != 0)
       ++overflowed;
-    if (result.at("verdict") != "approximate" || !stats.contains("missed") || stats.at("useful") == 0) continue;
+    if (result.at("verdict") != "approximate" || stats.value("missed", std::uint64_t{0}) == 0 ||
+        stats.at("useful") == 0)
+      continue;
     double& share = worst[result.at("label")];
     share = std::max(share, stats.at("missed").get<double>() / stats.at("useful").get<double>());
   }
-  std::erase_if(worst, [](const auto& one) { return one.second == 0.0; });
   for (const auto& [label, share] : worst)
     sentences.push_back(fmt::format("{} missed up to {} % of the pairs of pixel and light that it should have found.",
                                     label, short_number(100.0 * share)));
