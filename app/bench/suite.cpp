@@ -228,8 +228,10 @@ void check_repeats(SuiteJson& object, const Series& series) {
   check_once(object, "cameras", series.cameras);
   check_once(object, "projections", series.projections);
   check_once(object, "paths", series.paths);
-  SuiteJson options(object.has("options") ? object.at("options") : json::object(), object.where() + ": options");
-  for (const auto& [key, values] : series.options) check_once(options, key.c_str(), values);
+  if (object.has("options")) {
+    SuiteJson options(object.at("options"), object.where() + ": options");
+    for (const auto& [key, values] : series.options) check_once(options, key.c_str(), values);
+  }
   if (configurations(series) > static_cast<double>(MOST_CONFIGURATIONS)) return;  // it is refused for that
   std::map<std::string, std::string> labels;
   for (const SuiteMethod& method : series.methods)

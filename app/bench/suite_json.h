@@ -15,6 +15,7 @@ class SuiteJson {
  public:
   /// `where` begins every error: "quick.json: series 'cull'". Throws Error if it is no object.
   SuiteJson(const nlohmann::json& json, std::string where);
+  SuiteJson(const nlohmann::json&&, std::string) = delete;  // the object is referred to, so it must outlive this
 
   /// Whether the object has the key; from here on, the key is known.
   [[nodiscard]] bool has(std::string_view key);
