@@ -119,7 +119,7 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
 /// Why a method with these options cannot light this frame; empty: it can.
 [[nodiscard]] std::string why_not(const std::string& method, const std::vector<std::string>& options,
                                   const Shown& shown, const DeviceTraits& traits);
-/// The options with one set, or left out where that is the method's own.
+/// The options with one set, also to the method's own value: with decals and probes it is not what is drawn.
 [[nodiscard]] std::vector<std::string> with_option(const std::vector<std::string>& options, const OptionSpec& spec,
                                                    const std::string& value);
 /// Those of the options that another method has too.

@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "gpu/check.h"
+#include "render/box_shapes.h"
 #include "view/panels.h"
 
 namespace lamp::app {
@@ -19,6 +20,12 @@ constexpr double MANY_TIMES = 64.0;  // a range of which the top is so much more
 const Method* method_of(const std::string& name) {
   const auto found = find_method(name);
   return found.ok() ? found.value() : nullptr;
+}
+
+/// As the stage draws with them: decals and probes choose an option where nobody does.
+std::vector<std::string> effective_options(const Method& method, const std::vector<std::string>& options,
+                                           const Shown& shown) {
+  return with_box_shapes(method, options, !shown.decals.empty() || !shown.probe_volumes.empty());
 }
 
 /// What an option is set to.
@@ -47,9 +54,10 @@ void choose_method(PanelFrame& p, const std::string& prefix, std::string& name, 
   const Method* method = method_of(name);
   if (method == nullptr) return;
   Widgets::note(method->summary);
+  const std::vector<std::string> effective = effective_options(*method, options, p.shown);
   for (const OptionSpec& spec : method->options) {
     const std::string label = prefix + std::string(spec.key);
-    std::string value = value_of(options, spec);
+    std::string value = value_of(effective, spec);
     bool changed = false;
     if (!spec.choices.empty()) {
       changed = p.widgets.choose(label, value, spec.choices, std::string(spec.help), [&](std::string_view choice) {
@@ -80,7 +88,7 @@ std::string why_not(const std::string& method, const std::vector<std::string>& o
                     const DeviceTraits& traits) {
   const Method* found = method_of(method);
   if (found == nullptr || shown.number == 0) return "";
-  auto resolved = resolve_options(*found, options);
+  auto resolved = resolve_options(*found, effective_options(*found, options, shown));
   if (!resolved.ok()) return resolved.error().text();
   const auto plan = make_plan(*found, {.width = shown.view.width(),
                                        .height = shown.view.height(),
@@ -95,7 +103,7 @@ std::vector<std::string> with_option(const std::vector<std::string>& options, co
   const std::string begin = std::string(spec.key) + "=";
   std::vector<std::string> changed = options;
   std::erase_if(changed, [&](const std::string& option) { return option.starts_with(begin); });
-  if (value != spec.fallback) changed.push_back(begin + value);
+  changed.push_back(begin + value);
   return changed;
 }
 
@@ -125,8 +133,11 @@ void method_panel(PanelFrame& p) {
     if (p.widgets.button("keep that", "Names the method that auto took, so that its options can be changed.")) {
       p.state.request.method = stats.method;
       p.state.request.options.clear();
-      for (const OptionSpec& spec : method_of(stats.method)->options)
-        p.state.request.options = with_option(p.state.request.options, spec, stats.options.word(spec.key));
+      const Method& method = *method_of(stats.method);
+      const std::vector<std::string> own = effective_options(method, {}, p.shown);
+      for (const OptionSpec& spec : method.options)
+        if (const std::string value(stats.options.word(spec.key)); value != value_of(own, spec))
+          p.state.request.options = with_option(p.state.request.options, spec, value);
     }
   }
   p.widgets.choose("path", p.state.request.path, path_names(), "How pixels are shaded.", [&](std::string_view path) {
