@@ -230,6 +230,11 @@ std::string words_of(const Proof& proof) {
   return words;
 }
 
+std::string words_of(std::span<const Proof> proofs) {
+  if (proofs.size() == 1) return words_of(proofs.front());
+  return fmt::format("A: {}; B: {}", words_of(proofs[0]), words_of(proofs[1]));
+}
+
 std::span<const std::string_view> test_names() {
   static constexpr std::array<std::string_view, 6> NAMES{"sides", "depths", "mask", "box", "exact", "cone"};
   return NAMES;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct Proof {
 };
 /// "0 missed of 1 234 567 pairs in 256 pixels".
 [[nodiscard]] std::string words_of(const Proof& proof);
+/// Of two methods, each with its side: "A: 0 missed of ...; B: 0 missed of ...".
+[[nodiscard]] std::string words_of(std::span<const Proof> proofs);
 
 /// Why a light is in the list of a method that makes these tests: "reaches the pixel", "reaches the cell", "kept by
 /// sides, depths; not by exact", "larger cell: depths would drop it", or that no test would.

@@ -43,7 +43,7 @@ Done perform(Stage& stage, Job job) {
         write_capture(done.job.file, stage.capture(done.job.state), LightsFormat::npy);
         break;
       case Job::Kind::prove:
-        done.proof = stage.prove(done.job.state, done.job.size);
+        done.proof = words_of(stage.prove(done.job.state, done.job.size));
         break;
       case Job::Kind::ask:
         done.others = stage.ask_others(done.job.state, done.job.size);

@@ -27,7 +27,7 @@ struct Job {
 struct Done {
   Job job;
   std::optional<Shown> shown;
-  std::optional<Proof> proof;
+  std::string proof;  ///< in words; or empty
   std::optional<std::vector<OtherList>> others;
   double ms = 0.0;    ///< that it took, all in all
   std::string error;  ///< why it could not be done, one line; or empty

@@ -57,8 +57,8 @@ struct PanelFrame {
   SaveFiles& files;
   std::size_t waiting = 0;  ///< pictures that are still to be saved
   const std::vector<Bookmark>& bookmarks;
-  std::string& bookmark;              ///< the name that is chosen or typed
-  const std::optional<Proof>& proof;  ///< of all pixels
+  std::string& bookmark;     ///< the name that is chosen or typed
+  const std::string& proof;  ///< of all pixels, in words; or empty
   bool proving = false;
   float progress = 0.0F;  ///< of that
 };

@@ -82,13 +82,13 @@ void proof_panel(PanelFrame& p) {
   if (!p.widgets.header("Proof", true)) return;
   if (p.widgets.button("prove the picture",
                        "Holds the list of every pixel that shows a surface against the oracle: all lights that reach "
-                       "it, found on the CPU in double precision.",
+                       "it, found on the CPU in double precision. With a second method, the lists of both.",
                        p.proving ? "it is being done" : ""))
     p.wishes.prove = true;
-  constexpr int LINES = 3;  // whichever it says, so that what is below stays where it is
-  Widgets::steady(LINES, [&] {
+  const int lines = p.state.against ? 5 : 3;  // whichever it says, so that what is below stays where it is
+  Widgets::steady(lines, [&] {
     if (p.proving) return ImGui::ProgressBar(p.progress);
-    if (p.proof) return Widgets::text(words_of(*p.proof));
+    if (!p.proof.empty()) return Widgets::text(p.proof);
     Widgets::note(p.shown.inspection ? "The cell of the picked pixel is proved with every picture, in the inspector."
                                      : "Click a pixel of the picture to see its cell, and why each light is listed.");
   });

@@ -177,25 +177,31 @@ glm::uvec2 Stage::picked_pixel(const ViewState& asked) const {
          glm::vec2(parse_size(asked.request.size));
 }
 
-Lighting& Stage::need_drawn(const ViewState& asked, glm::uvec2 size) {
+Lighting& Stage::need_drawn(const ViewState& asked, glm::uvec2 size, const SideOf& of) {
   ViewState state = asked;
   need_scene(state.request);
   if (!scene_->scene.captured) state.request.size = fmt::format("{}x{}", size.x, size.y);
   need_frame(state, Captures::all);
-  Lighting& made = lighting(state.request, state.request.method, state.request.options).lighting;
+  Lighting& made = lighting(state.request, of.method, of.options).lighting;
   static_cast<void>(renderer_->draw(made, [](vulkan::Recorder&) {}));
   return made;
 }
 
-Proof Stage::prove(const ViewState& state, glm::uvec2 size) {
-  Lighting& made = need_drawn(state, size);
-  const Proof proof = app::prove(inspected(made), [&](float share) { progress_ = share; });
+std::vector<Proof> Stage::prove(const ViewState& state, glm::uvec2 size) {
+  std::vector<SideOf> sides{{.method = state.request.method, .options = state.request.options}};
+  if (state.against) sides.push_back({.method = state.against->method, .options = state.against->options});
+  std::vector<Proof> proofs;
+  for (const SideOf& of : sides)
+    proofs.push_back(app::prove(inspected(need_drawn(state, size, of)), [&](float share) {
+      progress_ = (static_cast<float>(proofs.size()) + share) / static_cast<float>(sides.size());
+    }));
   progress_ = 1.0F;
-  return proof;
+  return proofs;
 }
 
 std::vector<OtherList> Stage::ask_others(const ViewState& state, glm::uvec2 size) {
-  const Inspected of = inspected(need_drawn(state, size));
+  const Request& r = state.request;
+  const Inspected of = inspected(need_drawn(state, size, {.method = r.method, .options = r.options}));
   const View& view = renderer_->view();
   const glm::uvec2 pixel = glm::min(picked_pixel(state), glm::uvec2(view.width(), view.height()) - 1U);
   const std::uint32_t number = pixel.x + view.width() * pixel.y;

@@ -39,8 +39,8 @@ class Stage {
   /// The frame of that picture as a capture's scene.
   [[nodiscard]] Scene capture(const ViewState& state);
 
-  /// Holds all pixels of the state against the oracle.
-  [[nodiscard]] Proof prove(const ViewState& state, glm::uvec2 size);
+  /// Holds the lists of all pixels against the oracle: the first method's, and the second's if the state has one.
+  [[nodiscard]] std::vector<Proof> prove(const ViewState& state, glm::uvec2 size);
   /// What each method of the table would list for the state's picked pixel.
   [[nodiscard]] std::vector<OtherList> ask_others(const ViewState& state, glm::uvec2 size);
   /// How much of that is done, 0 .. 1; from any thread.
@@ -151,8 +151,8 @@ class Stage {
   [[nodiscard]] Inspected inspected(Lighting& lighting, std::optional<std::uint32_t> light = std::nullopt);
   /// The state's picked pixel, of what is rendered.
   [[nodiscard]] glm::uvec2 picked_pixel(const ViewState& asked) const;
-  /// The state's frame in the renderer, drawn.
-  [[nodiscard]] Lighting& need_drawn(const ViewState& state, glm::uvec2 size);
+  /// The state's frame in the renderer, drawn by a side's method.
+  [[nodiscard]] Lighting& need_drawn(const ViewState& state, glm::uvec2 size, const SideOf& of);
 
   Context& context_;
   const ShaderLibrary& shaders_;

@@ -157,7 +157,7 @@ void Viewer::finish(Done done) {
   if (done.job.kind == Job::Kind::draw) drawable_ = done.job.state;
   if (done.job.kind == Job::Kind::draw && !error_stays_) error_.clear();
   if (done.job.kind == Job::Kind::picture || done.job.kind == Job::Kind::capture) say_saved(done.job.file);
-  if (done.proof) {
+  if (!done.proof.empty()) {
     proof_ = done.proof;
     said_.clear();
     const Request& of = done.job.state.request;
@@ -259,7 +259,7 @@ void Viewer::keep_change() {
   if (undone_.size() > MOST_UNDONE) undone_.erase(undone_.begin());
   redone_.clear();
   settled_ = state_;
-  proof_.reset();
+  proof_.clear();
 }
 
 void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
@@ -268,7 +268,7 @@ void Viewer::undo(std::vector<ViewState>& from, std::vector<ViewState>& to) {
   open_state(std::move(from.back()));
   from.pop_back();
   settled_ = state_;
-  proof_.reset();
+  proof_.clear();
 }
 
 void Viewer::pass_time(float seconds) {
@@ -302,7 +302,7 @@ void Viewer::take_wishes() {
   if (wishes.paste_light) paste_light();
   if (wishes.prove && !proving_ && shown_.number != 0) {
     proving_ = true;
-    proof_.reset();
+    proof_.clear();
     queue(Job::Kind::prove);
   }
   if (wishes.ask && !asking_ && shown_.inspection) {

@@ -144,7 +144,6 @@ class Viewer {
   bool proving_ = false;
   bool asking_ = false;
   bool lost_ = false;
-  std::optional<Proof> proof_;
   std::vector<OtherList> others_;  ///< of the picked pixel
   /// The picture for which they were asked.
   struct AskedFor {
@@ -160,6 +159,7 @@ class Viewer {
   double picture_ms_ = 0.0;  ///< of a picture, all in all, smoothed
   double rests_s_ = 0.0;     ///< that nothing has changed
   std::string error_, said_;
+  std::string proof_;     ///< of all pixels, in words; or empty
   std::string proof_of_;  ///< which picture `proof_` is of
   std::uint64_t errors_ = 0;
   bool error_stays_ = false;  ///< though what is drawn after it succeeds

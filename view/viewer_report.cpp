@@ -48,7 +48,7 @@ nlohmann::json Viewer::report() const {
   json["bookmarks"] = bookmarks_.size();
   if (shown_.number != 0) json["shown"] = to_json(shown_.first.stats);
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
-  if (proof_) json["proof"] = words_of(*proof_);
+  if (!proof_.empty()) json["proof"] = proof_;
   if (shown_.picture_difference) json["picture_difference"] = *shown_.picture_difference;
   if (shown_.first.legend.overlay == Overlay::difference) json["differing_pixels"] = shown_.first.legend.cells;
   if (shown_.first.legend.overlay == Overlay::shadow_atlas) json["atlas_side_shown"] = shown_.first.legend.max;

@@ -217,8 +217,8 @@ std::string Viewer::status() const {
   if (busy_ && !idle_) words += "  ...";
   if (!said_.empty())
     words += "  " + said_;
-  else if (proof_)
-    words += fmt::format("  {}: {}", proof_of_, words_of(*proof_));
+  else if (!proof_.empty())
+    words += fmt::format("  {}: {}", proof_of_, proof_);
   return words;
 }
 
