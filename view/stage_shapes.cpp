@@ -54,13 +54,13 @@ ShownProxies Stage::read_proxies(const ViewState& state, const Lighting& lightin
     const std::uint32_t instances = words[DRAWS * which + 1];
     for (std::uint32_t i = 0; i < instances; ++i) {
       const std::uint32_t light = lights[which * capacity + i];
+      if (light < are_lights.first || light >= are_lights.end) continue;  // a decal's or a probe's sphere
       const bool cut = which >= shared::CUT_OUTSIDE;
       const bool inside = which == shared::PROXIES_INSIDE || which == shared::CUT_INSIDE;
       ++read.drawn;
       read.cut += cut ? 1 : 0;
       read.inside += inside ? 1 : 0;
-      if (light < are_lights.first || light >= are_lights.end || !is_asked_for(state, shown, light)) continue;
-      if (lights_->lights->all()[light].range > EVERYWHERE_M) continue;
+      if (!is_asked_for(state, shown, light) || lights_->lights->all()[light].range > EVERYWHERE_M) continue;
       read.shapes.push_back({.light = light, .cut = cut, .inside = inside, .corners = {}});
     }
   }
