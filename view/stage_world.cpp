@@ -36,6 +36,10 @@ PointList list_at(const PointLights& found, std::size_t point, const glm::vec3& 
   return list;
 }
 
+std::string_view lists_name(const MirrorPass& mirror) {
+  return mirror_list_names()[static_cast<std::size_t>(mirror.info().settings.lists)];
+}
+
 /// The finest level with lights; its cells lie in one cell of each coarser level. `across`: cells of a brick.
 CellGrid grid_of_levels(std::uint32_t levels, std::uint32_t across) {
   const auto finest = static_cast<std::uint32_t>(std::countr_zero(levels));
@@ -72,34 +76,33 @@ std::optional<glm::vec3> Stage::mirrored_point(glm::uvec2 pixel) {
 }
 
 ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) {
-  const Method* method = lighting.info().method;
-  Options options = lighting.info().options;
-  if (!method->any_point && renderer_->mirrored() != nullptr) {
-    method = &parse_method("world-cells");  // of which mirrored light asks
-    options = take(resolve_options(*method, {}));
-  }
-  ShownWorld read{.method = std::string(method->name)};
-  if (!method->any_point) {
-    read.refused = fmt::format("{} has no lists in the world; world-cells and world-tree have", method->name);
+  const Method& method = *lighting.info().method;
+  const Options& options = lighting.info().options;
+  const MirrorPass* mirror = method.any_point ? nullptr : renderer_->mirrored();  // asks lists of its own
+  ShownWorld read{.method = std::string(mirror == nullptr ? method.name : lists_name(*mirror))};
+  const bool has_lists =
+      mirror == nullptr ? method.any_point : mirror->info().settings.lists != MirrorLists::brute_force;
+  if (!has_lists) {
+    read.refused = fmt::format("{} has no lists in the world; world-cells and world-tree have", read.method);
     return read;
   }
   const std::span<const shared::Light> lights = listed_lights();
-  Plan plan = take(make_plan(*method, {.width = renderer_->view().width(),
-                                       .height = renderer_->view().height(),
-                                       .light_capacity = static_cast<std::uint32_t>(lights.size()),
-                                       .options = options,
-                                       .traits = context_.device().traits}));
+  Plan plan = mirror != nullptr ? mirror_plan(context_.device(), mirror->info())
+                                : take(make_plan(method, {.width = renderer_->view().width(),
+                                                          .height = renderer_->view().height(),
+                                                          .light_capacity = static_cast<std::uint32_t>(lights.size()),
+                                                          .options = options,
+                                                          .traits = context_.device().traits}));
   const bool is_tree = plan.binds(INPUT_STILL);
-  if (!is_tree && std::ranges::find(plan.buffers, "levels", &BufferDesc::name) == plan.buffers.end()) {
+  const bool has_cells = is_tree || std::ranges::find(plan.buffers, "levels", &BufferDesc::name) != plan.buffers.end();
+  if (!has_cells)
     read.refused =
-        fmt::format("{} has bits of lights, not cells with lists; world-cells and world-tree have", method->name);
-    return read;
-  }
+        fmt::format("{} has no cells with lists that could be drawn; world-cells and world-tree have", read.method);
   std::optional<WorldTree> tree;
   if (is_tree) tree = make_still_tree(lights, options, 0.0F);
   std::vector<glm::vec3> points{found.position};
   if (const auto mirrored = mirrored_point(found.pixel)) points.push_back(*mirrored);
-  const std::uint32_t across = is_tree ? 0 : plan.lookup.constants[1];  // LOOKUP_CELLS
+  const std::uint32_t across = is_tree || !has_cells ? 0 : plan.lookup.constants[1];  // LOOKUP_CELLS
   PointWalks walks(context_, shaders_, std::move(plan), renderer_->view(), lights,
                    tree ? tree->words() : std::span<const std::uint32_t>());
   const PointLights at_points = walks.walk(points);
@@ -107,6 +110,7 @@ ShownWorld Stage::read_world(const Lighting& lighting, const Inspection& found) 
     read.points.push_back(list_at(at_points, i, points[i], lights));
     read.points.back().what = i == 0 ? "surface" : "mirrored";
   }
+  if (!has_cells) return read;
   read.cells = tree ? leaves_around(tree->words(), found.position)
                     : cells_around(grid_of_levels(walks.word_of("levels"), across), found.position);
   std::vector<glm::vec3> middles;

@@ -49,10 +49,6 @@ void draw_probe_boxes(const Shown& shown, const ScreenRect& picture) {
 void world_of_point(const Shown& shown) {
   if (!shown.world) return;
   const ShownWorld& world = *shown.world;
-  if (!world.refused.empty()) {
-    Widgets::note(world.refused);
-    return;
-  }
   for (const PointList& point : world.points) {
     const std::string waste =
         point.reaching == 0
@@ -63,6 +59,7 @@ void world_of_point(const Shown& shown) {
                              point.position.y, point.position.z, point.walked, world.method, point.reaching,
                              point.missed, waste, point.ended ? "; the device ended the walk" : ""));
   }
+  if (!world.refused.empty()) return Widgets::note(world.refused);
   if (world.cells.empty()) Widgets::note("No light is in any cell: there are none to draw.");
 }
 

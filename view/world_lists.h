@@ -27,7 +27,7 @@ struct WorldCell {
 };
 
 struct ShownWorld {
-  std::string refused;  ///< why there are none
+  std::string refused;  ///< why there are no lists, or no cells
   std::string method;   ///< whose lists they are
   std::vector<PointList> points;
   std::vector<WorldCell> cells;  ///< around the surface
