@@ -69,8 +69,11 @@ void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
                     "bar does the same.");
     if (!p.shown.inspection->sky) {
       ImGui::SameLine();
-      if (p.widgets.button("ask other methods", "What every method of the table would list for this pixel.",
-                           p.asking ? "they are being asked" : ""))
+      if (p.widgets.button(
+              "ask other methods",
+              "What every method of the table would list for this pixel: a method of the picture with the options "
+              "that are set, all others with their default options.",
+              p.asking ? "they are being asked" : ""))
         p.wishes.ask = true;
       lists_of_others(p);
     }

@@ -200,19 +200,26 @@ std::vector<Proof> Stage::prove(const ViewState& state, glm::uvec2 size) {
 }
 
 std::vector<OtherList> Stage::ask_others(const ViewState& state, glm::uvec2 size) {
-  const Request& r = state.request;
+  Request r = state.request;
   const Inspected of = inspected(need_drawn(state, size, {.method = r.method, .options = r.options}));
   const View& view = renderer_->view();
   const glm::uvec2 pixel = glm::min(picked_pixel(state), glm::uvec2(view.width(), view.height()) - 1U);
   const std::uint32_t number = pixel.x + view.width() * pixel.y;
   const glm::dvec3 position = view.world_position(pixel.x, pixel.y, of.depth[number]);
+  if (!scene_->scene.captured) r.size = fmt::format("{}x{}", size.x, size.y);
+  // Methods of the picture have its options; where both sides have one method, those of the pixel's side.
+  std::vector<MethodChoice> sides{choice(r, r.method, r.options)};
+  if (state.against) sides.push_back(choice(r, state.against->method, state.against->options));
+  if (pixel.x >= divider_x(state)) std::ranges::reverse(sides);
   std::vector<OtherList> lists;
   for (const Method& method : methods()) {
     progress_ = static_cast<float>(lists.size()) / static_cast<float>(methods().size());
     OtherList& list = lists.emplace_back();
     list.method = method.name;
+    const auto side = std::ranges::find(sides, &method, &MethodChoice::method);
+    const std::vector<std::string> options = side == sides.end() ? std::vector<std::string>() : side->options;
     try {
-      list.lights = lights_at(*renderer_, lighting(state.request, list.method, {}).lighting, number);
+      list.lights = lights_at(*renderer_, lighting(r, list.method, options).lighting, number);
       if (of.still != nullptr) std::ranges::copy(of.still->lights_at(number), std::back_inserter(list.lights));
       std::ranges::sort(list.lights);
       list.reaching = static_cast<std::size_t>(std::ranges::count_if(

@@ -41,7 +41,8 @@ class Stage {
 
   /// Holds the lists of all pixels against the oracle: the first method's, and the second's if the state has one.
   [[nodiscard]] std::vector<Proof> prove(const ViewState& state, glm::uvec2 size);
-  /// What each method of the table would list for the state's picked pixel.
+  /// What each method of the table would list for the state's picked pixel: those of the picture with the state's
+  /// options, others with their own.
   [[nodiscard]] std::vector<OtherList> ask_others(const ViewState& state, glm::uvec2 size);
   /// How much of that is done, 0 .. 1; from any thread.
   [[nodiscard]] float progress() const { return progress_; }

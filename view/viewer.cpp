@@ -3,6 +3,7 @@
 #include "view/viewer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,10 +55,11 @@ std::string place_of(const ViewState& state) {
          members(state, {"scene", "camera", "free_camera", "frame", "projection", "resolution", "moving"});
 }
 
-/// What every method's lists depend on besides that.
+/// What methods' lists depend on besides that.
 std::string lights_of(const ViewState& state) {
   return members(state, {"lights", "spots", "range", "decals", "seed", "still", "still_lists", "still_occlusion",
-                         "still_bytes", "probes", "light_frame", "edits", "depth", "depth_samples"});
+                         "still_bytes", "probes", "light_frame", "edits", "depth", "depth_samples", "options"}) +
+         fmt::format("{}", fmt::join(state.against.value_or(Against()).options, " "));
 }
 
 int light_frame_of(const ViewState& state) { return std::max(0, state.request.light_frame); }
@@ -322,7 +324,7 @@ std::string Viewer::why_outdated() const {
   if (then != now) return fmt::format("Outdated: of frame {}, the picture is of frame {}. Ask again.", then, now);
   const bool same = asked_for_.lights == lights_of(shown_.state) &&
                     asked_for_.size == glm::uvec2(shown_.view.width(), shown_.view.height());
-  return same ? "" : "Outdated: lights or the picture's size changed since. Ask again.";
+  return same ? "" : "Outdated: lights, options or the picture's size changed since. Ask again.";
 }
 
 void Viewer::keep_drawn_size() {
