@@ -126,6 +126,8 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
 [[nodiscard]] std::vector<std::string> kept_options(const std::vector<std::string>& options, const Method& method);
 /// The method and those of its options that are not its own.
 [[nodiscard]] std::string words_of_method(const Stats& stats);
+/// Before what is said of the first method alone while there is a second: "A: ", or nothing.
+[[nodiscard]] const char* only_of_first(const Shown& shown);
 /// All methods' names, with "auto" before them.
 [[nodiscard]] std::vector<std::string_view> method_choices();
 

@@ -76,7 +76,18 @@ void choose_method(PanelFrame& p, const std::string& prefix, std::string& name, 
   }
 }
 
+/// Whether a side's lists fit, after its name.
+void say_overflow(const char* side, const Stats& stats) {
+  Widgets::steady(3, [&] {
+    const std::vector<std::string> words = all_overflow_words(stats);
+    if (!words.empty()) return Widgets::text(fmt::format("{}{}", side, fmt::join(words, "; ")));
+    Widgets::note(fmt::format("{}Every list fits.", side));
+  });
+}
+
 }  // namespace
+
+const char* only_of_first(const Shown& shown) { return shown.second ? "A: " : ""; }
 
 std::vector<std::string_view> method_choices() {
   std::vector<std::string_view> names{AUTO};
@@ -129,7 +140,7 @@ void method_panel(PanelFrame& p) {
   choose_method(p, "", p.state.request.method, p.state.request.options);
   const Stats& stats = p.shown.first.stats;
   if (p.shown.first.by_auto) {
-    Widgets::text(fmt::format("auto took {}", stats.method));
+    Widgets::text(fmt::format("{}auto took {}", only_of_first(p.shown), stats.method));
     if (p.widgets.button("keep that", "Names the method that auto took, so that its options can be changed.")) {
       p.state.request.method = stats.method;
       p.state.request.options.clear();
@@ -147,12 +158,9 @@ void method_panel(PanelFrame& p) {
   });
   p.widgets.choose("brdf", p.state.request.brdf, brdf_names(), "How surfaces reflect.");
   p.widgets.check("make room", p.state.request.grow, "Enlarges lists until every light fits.");
-  for (const std::string& note : stats.notes) Widgets::note(note);
-  Widgets::steady(3, [&] {
-    const std::vector<std::string> words = all_overflow_words(stats);
-    if (!words.empty()) return Widgets::text(fmt::format("{}", fmt::join(words, "; ")));
-    Widgets::note("Every list fits.");
-  });
+  const char* const side = only_of_first(p.shown);
+  for (const std::string& note : stats.notes) Widgets::note(side + note);
+  say_overflow(side, stats);
 }
 
 void shadow_panel(PanelFrame& p) {
@@ -203,6 +211,7 @@ void against_panel(PanelFrame& p) {
   };
   Widgets::row("A", words(p.shown.first.stats.rendered));
   Widgets::row("B", p.shown.second ? words(p.shown.second->stats.rendered) : "not drawn yet");
+  if (p.shown.second) say_overflow("B: ", p.shown.second->stats);
 }
 
 }  // namespace lamp::app

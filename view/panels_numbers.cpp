@@ -85,7 +85,8 @@ void save_flight(PanelFrame& p) {
 void times_panel(PanelFrame& p) {
   if (!p.widgets.header("Times and memory", true)) return;
   const Stats& stats = p.shown.first.stats;
-  Widgets::note("Median of the last pictures (5th .. 95th percentile), milliseconds on the device.");
+  Widgets::note(fmt::format("{}Median of the last pictures (5th .. 95th percentile), milliseconds on the device.",
+                            only_of_first(p.shown)));
   draw_times(p.times);
   Widgets::row("GPU's clock", words_of(stats.clock.value_or(Clock())));
   Widgets::row("cells", fmt::format("{}", stats.cells));
@@ -108,7 +109,8 @@ void times_panel(PanelFrame& p) {
 void save_panel(PanelFrame& p) {
   if (!p.widgets.header("Save", true)) return;
   p.widgets.write("picture file", p.files.picture, "A name that ends in .png or .exr.");
-  if (p.widgets.button("save picture", "Writes the picture that lamp render makes of this state, in full size."))
+  if (p.widgets.button("save picture",
+                       "Writes the picture that lamp render makes of this state, in full size: by one method, A."))
     p.wishes.save_picture = true;
   p.widgets.slide("samples", p.state.samples, {.min = 1, .max = 64, .logarithmic = true},
                   "Samples of a pixel in pictures that are saved.");
@@ -117,7 +119,8 @@ void save_panel(PanelFrame& p) {
   if (p.widgets.button("save state", "Writes all that is set here. lamp-view --state and lamp render --state read it."))
     p.wishes.save_state = true;
   p.widgets.write("numbers file", p.files.numbers, "A name that ends in .json.");
-  if (p.widgets.button("save numbers", "Writes what lamp render --json prints of this picture: times, bytes, lists."))
+  if (p.widgets.button("save numbers",
+                       "Writes what lamp render --json prints of this picture, by A alone: times, bytes, lists."))
     p.wishes.save_numbers = true;
   p.widgets.write("capture folder", p.files.capture, "A new folder, an empty one, or a capture to replace.");
   if (p.widgets.button("save capture", "Writes the frame as lamp capture does: a scene for every command."))

@@ -209,10 +209,10 @@ std::string Viewer::status() const {
   if (!error_.empty()) return error_;
   if (shown_.number == 0) return "loading ...";
   const Stats& stats = shown_.first.stats;
-  std::string words =
-      fmt::format("{}  {}x{}  {} lights  {}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms", stats.scene, stats.width,
-                  stats.height, stats.lights, stats.method, shown_.first.by_auto ? " (auto)" : "",
-                  stats.rendered.cull_ms, stats.rendered.shade_ms, stats.rendered.frame_ms);
+  std::string words = fmt::format("{}  {}x{}  {} lights  {}{}{}  cull {:.2f}  shade {:.2f}  frame {:.2f} ms",
+                                  stats.scene, stats.width, stats.height, stats.lights, only_of_first(shown_),
+                                  stats.method, shown_.first.by_auto ? " (auto)" : "", stats.rendered.cull_ms,
+                                  stats.rendered.shade_ms, stats.rendered.frame_ms);
   if (picture_ms_ > 0.0) words += fmt::format("  {:.1f} pictures/s", 1000.0 / picture_ms_);
   if (busy_ && !idle_) words += "  ...";
   if (!said_.empty())
