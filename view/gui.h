@@ -22,6 +22,7 @@ struct ScreenRect {
 
   [[nodiscard]] glm::ivec2 size() const { return max - min; }
   [[nodiscard]] bool empty() const { return max.x <= min.x || max.y <= min.y; }
+  friend bool operator==(const ScreenRect&, const ScreenRect&) = default;
 };
 
 /// What is drawn into.

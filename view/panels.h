@@ -75,7 +75,8 @@ void times_panel(PanelFrame& p);
 void save_panel(PanelFrame& p);
 void bookmark_panel(PanelFrame& p);
 void proof_panel(PanelFrame& p);
-/// Where the list of lights was, so that it moves only to show a light that was picked elsewhere.
+/// Where the inspector and its list of lights were: the list moves only to show a light that was picked elsewhere, the
+/// window only where what panels leave free is another area.
 struct ListScroll {
   std::optional<std::uint32_t> light;  ///< picked
   std::optional<std::size_t> row;      ///< its, if it is listed
@@ -83,6 +84,7 @@ struct ListScroll {
   bool in_sight = false;
   glm::uvec2 pixel{0};
   std::size_t rows = 0;  ///< the most of the pixel's lists: they stay as high
+  ScreenRect area;
 };
 /// What the inspector's window sees.
 struct InspectorFrame {

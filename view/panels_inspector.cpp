@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "view/light_cells.h"
 #include "view/mask_overlay.h"
@@ -46,6 +47,14 @@ void draw_inspection(InspectorFrame& p) {
   shadow_of_light(shown, p.state, p.widgets);
 }
 
+/// A window that an area which shrank no longer holds comes back into it.
+void bring_back(const ScreenRect& area) {
+  const glm::vec2 at(ImGui::GetWindowPos().x, ImGui::GetWindowPos().y);
+  const glm::vec2 size(ImGui::GetWindowWidth(), ImGui::GetWindowHeight());
+  const glm::vec2 within = glm::max(glm::vec2(area.min), glm::min(at, glm::vec2(area.max) - size));
+  ImGui::SetWindowPos({within.x, within.y});
+}
+
 }  // namespace
 
 void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
@@ -60,7 +69,9 @@ void inspector_window(InspectorFrame& p, const ScreenRect& area, float scale) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, std::min(most_height, room.y)});
   ImGui::SetNextWindowSize({width, 0.0F});  // as high as it needs
   ImGui::SetNextWindowBgAlpha(0.9F);
-  if (ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoFocusOnAppearing)) {
+  const bool open = ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoFocusOnAppearing);
+  if (std::exchange(p.scroll.area, area) != area && !ImGui::IsWindowAppearing()) bring_back(area);
+  if (open) {
     draw_inspection(p);
     if (p.widgets.button("look away", "Forgets the pixel. Escape does the same.")) p.state.picked.reset();
     ImGui::SameLine();
