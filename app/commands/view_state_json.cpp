@@ -71,8 +71,8 @@ void for_each_field(Fields&& at, State& s) {
   at.flag("world_cells", s.world_cells);
   at.flag("decal_boxes", s.decal_boxes);
   at.flag("list_lengths", s.list_lengths);
-  at.pixel("drawn", s.drawn);
-  at.pixel("picked", s.picked);
+  at.pixel("drawn", s.drawn, 1);
+  at.pixel("picked", s.picked, 0);
   at.maybe("light", s.light, MAX_LIGHTS - 1);
   at.text("other", s.other);
   at.against("against", s.against);
@@ -100,7 +100,7 @@ struct Keys {
   void camera(std::string_view key, const auto& v) { text(key, v); }
   void flag(std::string_view key, const auto& v) { text(key, v); }
   void edits(std::string_view key, const auto& v) { text(key, v); }
-  void pixel(std::string_view key, const auto& v) { text(key, v); }
+  void pixel(std::string_view key, const auto& v, std::uint32_t) { text(key, v); }
   void maybe(std::string_view key, const auto& v, std::uint32_t) { text(key, v); }
   void against(std::string_view key, const auto& v) { text(key, v); }
 };
@@ -167,7 +167,7 @@ struct Writer {
     json[key] = nlohmann::json::array();
     for (const LightEdit& edit : value) json[key].push_back(light_json(edit));
   }
-  void pixel(std::string_view key, const std::optional<glm::uvec2>& value) {
+  void pixel(std::string_view key, const std::optional<glm::uvec2>& value, std::uint32_t) {
     json[key] = value ? nlohmann::json{value->x, value->y} : nlohmann::json();
   }
   void maybe(std::string_view key, const std::optional<std::uint32_t>& value, std::uint32_t) {
@@ -266,13 +266,13 @@ class Reader {
       camera.fov_y = c.real("fov_y");
     value = camera;
   }
-  void pixel(std::string_view key, std::optional<glm::uvec2>& value) {
+  void pixel(std::string_view key, std::optional<glm::uvec2>& value, std::uint32_t min) {
     if (!present(key, value)) return;
     const std::vector<double> xy = o_.numbers(key, 2);
     for (const double number : xy)
-      if (number < 0.0 || number >= MAX_IMAGE_SIZE || number != std::floor(number))
-        o_.fail(
-            fmt::format("{} is {}, expected two whole numbers 0 .. {}", key, shown(o_.json[key]), MAX_IMAGE_SIZE - 1));
+      if (number < min || number >= MAX_IMAGE_SIZE + min || number != std::floor(number))
+        o_.fail(fmt::format("{} is {}, expected two whole numbers {} .. {}", key, shown(o_.json[key]), min,
+                            MAX_IMAGE_SIZE - 1 + min));
     value = glm::uvec2(xy[0], xy[1]);
   }
   void maybe(std::string_view key, std::optional<std::uint32_t>& value, std::uint32_t max) {

@@ -151,6 +151,7 @@ TEST(ViewStateJson, StaysAsItWasWhenSomethingIsWrong) {
   const nlohmann::json before = to_json(state);
   EXPECT_THROW(read_state(state, {{"overlay", "heat"}, {"speed", "quick"}}, "line"), Error);
   EXPECT_THROW(read_state(state, {{"method", "tiled"}, {"options", {{"tile", "7"}}}}, "line"), Error);
+  EXPECT_THROW(read_state(state, {{"drawn", {0, 50}}}, "line"), Error);
   EXPECT_EQ(to_json(state), before);
 }
 
