@@ -229,6 +229,8 @@ bool agrees(const nlohmann::json& seen, const nlohmann::json& expected) {
       return limit.key() == "min" ? seen >= limit.value() : seen <= limit.value();
     });
   }
+  // Most of the state's decimals are kept in single precision.
+  if (seen.is_number_float() && expected.is_number_float()) return seen.get<float>() == expected.get<float>();
   return seen == expected;
 }
 
