@@ -206,15 +206,15 @@ void legend_window(const Shown& shown, const ScreenRect& picture, float lift, st
     if (const std::string words = words_of_numbers(cells, numbers); !words.empty())
       ImGui::TextUnformatted(words.c_str());
     ImGui::PopTextWrapPos();
-    const bool scaled = legend.overlay == Overlay::heat ||
-                        (legend.overlay == Overlay::slice && legend.refused.empty()) || in_metres(legend.overlay) ||
-                        legend.overlay == Overlay::shadow_age || legend.overlay == Overlay::shadow_size;
+    const Overlay overlay = legend.refused.empty() ? legend.overlay : Overlay::none;
+    const bool scaled = overlay == Overlay::heat || overlay == Overlay::slice || in_metres(overlay) ||
+                        overlay == Overlay::shadow_age || overlay == Overlay::shadow_size;
     if (scaled) draw_scale(legend, shown.state.palette, room);
-    if (legend.overlay == Overlay::difference)
+    if (overlay == Overlay::difference)
       draw_colors(room, {{FIRST_WALKS_MORE, "A walks more"}, {SECOND_WALKS_MORE, "B walks more"}});
-    if (legend.overlay == Overlay::light_cells && legend.refused.empty())
+    if (overlay == Overlay::light_cells)
       draw_colors(room, {{REACHES_A_PIXEL, "it reaches a pixel of the cell"}, {LISTED_IN_VAIN, "listed in vain"}});
-    if (legend.overlay == Overlay::shadow_leaks && legend.refused.empty()) {
+    if (overlay == Overlay::shadow_leaks) {
       const LeakColors colors = leak_colors(shown.state.palette);
       draw_colors(room, {{colors.leaked, "leaks"}, {colors.lost, "false shadow; full colour: all light of the pixel"}});
     }

@@ -7,6 +7,7 @@
 #include "commands/pictures.h"
 #include "commands/still_stats.h"
 #include "render/verification.h"
+#include "view/panels.h"
 #include "view/stage_kept.h"
 
 namespace lamp::app {
@@ -109,6 +110,8 @@ std::pair<ShownSide, Lighting*> Stage::draw_side(const ViewState& state, const S
                             .end_x = of.end_x});
   else if (state.list_lengths)
     visits_ = renderer_->visit_all(kept.lighting);
+  if (!overlaid && state.overlay != Overlay::none)
+    made.legend = {.overlay = state.overlay, .refused = why_no_overlay(state.overlay, state, shown)};
   if (overlaid || state.list_lengths) {
     set_walked(made.stats, visits_);
     if (made.stats.shadows) made.stats.shadows->leaks = made.legend.leaks;

@@ -50,11 +50,12 @@ nlohmann::json Viewer::report() const {
   if (shown_.second) json["shown_b"] = to_json(shown_.second->stats);
   if (!proof_.empty()) json["proof"] = proof_;
   if (shown_.picture_difference) json["picture_difference"] = *shown_.picture_difference;
-  if (shown_.first.legend.overlay == Overlay::difference) json["differing_pixels"] = shown_.first.legend.cells;
-  if (shown_.first.legend.overlay == Overlay::shadow_atlas) json["atlas_side_shown"] = shown_.first.legend.max;
+  const Overlay laid_over = shown_.first.legend.refused.empty() ? shown_.first.legend.overlay : Overlay::none;
+  if (laid_over == Overlay::difference) json["differing_pixels"] = shown_.first.legend.cells;
+  if (laid_over == Overlay::shadow_atlas) json["atlas_side_shown"] = shown_.first.legend.max;
   if (!shown_.first.lengths.empty()) json["longest_lists"] = shown_.first.lengths.back().high;
   json["decals_shown"] = shown_.decals.size();
-  if (shown_.first.legend.overlay == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;
+  if (laid_over == Overlay::missed) json["missing_pixels"] = shown_.first.legend.cells;
   for (const OtherList& list : others_)
     json["others"][list.method] = {{"lights", list.lights.size()},
                                    {"reaching", list.reaching},
