@@ -63,6 +63,11 @@ void draw_divider(const ScreenRect& picture, const Shown& shown) {
   draw.PopClipRect();
 }
 
+/// Shadow maps in place of the picture: nothing of the world is where it would be in the picture.
+bool shows_atlas(const Shown& shown) {
+  return shown.first.legend.overlay == Overlay::shadow_atlas && shown.first.legend.refused.empty();
+}
+
 void draw_frame(const glm::vec2& min, const glm::vec2& max) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.AddRect({min.x, min.y}, {max.x, max.y}, IM_COL32(0, 0, 0, 255), 0.0F, 0, 3.0F);
@@ -151,13 +156,15 @@ void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
 
 void Viewer::draw_panels(glm::uvec2 screen, float progress) {
   numbers_ = shown_.number != 0 ? draw_cell_numbers(shown_, picture_) : 0;
-  if (shown_.number != 0) draw_light_marks(state_.light_marks, shown_, picture_);
-  if (shown_.number != 0) draw_light_shapes(shown_, picture_);
-  if (shown_.number != 0) draw_world_cells(shown_, picture_);
-  if (shown_.number != 0) draw_probe_boxes(shown_, picture_);
-  if (shown_.number != 0 && state_.decal_boxes) draw_decal_boxes(shown_, picture_);
+  if (shown_.number != 0 && !shows_atlas(shown_)) {
+    draw_light_marks(state_.light_marks, shown_, picture_);
+    draw_light_shapes(shown_, picture_);
+    draw_world_cells(shown_, picture_);
+    draw_probe_boxes(shown_, picture_);
+    if (state_.decal_boxes) draw_decal_boxes(shown_, picture_);
+    draw_picked(picture_, shown_);
+  }
   draw_divider(picture_, shown_);
-  draw_picked(picture_, shown_);
   if (state_.panels && shown_.number != 0 && !state_.picked && !state_.against) draw_hint(picture_, scale_);
   const float bins = shown_.number == 0 ? 0.0F : depth_bins_height(shown_, scale_);
   legend_window(shown_, picture_, std::max(bins, static_cast<float>(picture_.max.y) - status_top(screen)), numbers_);
