@@ -158,8 +158,9 @@ void lights_panel(PanelFrame& p) {
   p.widgets.write("range", r.range,
                   "Of the generated lights in metres, MIN:MAX or one number. Empty: about 24 reach a point.",
                   "by their number");
-  auto seed = static_cast<std::uint32_t>(std::min<std::uint64_t>(r.seed, 1000));
-  if (p.widgets.slide("seed", seed, {.min = 0, .max = 1000}, "Another seed makes other lights and decals."))
+  auto seed = static_cast<std::uint32_t>(std::min<std::uint64_t>(r.seed, ~0U));
+  const double top = std::max(1000U, seed);
+  if (p.widgets.slide("seed", seed, {.min = 0, .max = top}, "Another seed makes other lights and decals."))
     r.seed = seed;
   choose_still(p);
   p.widgets.slide("decals", r.decals, {.min = 0, .max = 1024, .logarithmic = true},
