@@ -50,11 +50,14 @@ void draw_divider(const ScreenRect& picture, const Shown& shown) {
   const float x = divider_x(picture, *shown.state.against);
   draw.AddLine({x, static_cast<float>(picture.min.y)}, {x, static_cast<float>(picture.max.y)},
                IM_COL32(255, 255, 255, 200), 2.0F);
-  const float y = static_cast<float>(picture.min.y) + 6.0F;
+  float y = min.y + 6.0F;
+  float end = min.x;  // of the first label, which the second may not cover
   const auto label = [&](float left, const std::string& words) {
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     left = std::max(min.x + 4.0F, std::min(left, max.x - size.x - 4.0F));
-    draw.AddRectFilled({left - 4.0F, y - 2.0F}, {left + size.x + 4.0F, y + size.y + 2.0F}, IM_COL32(0, 0, 0, 160));
+    if (left - 4.0F < end) y += size.y + 6.0F;
+    end = left + size.x + 4.0F;
+    draw.AddRectFilled({left - 4.0F, y - 2.0F}, {end, y + size.y + 2.0F}, IM_COL32(0, 0, 0, 160));
     draw.AddText({left, y}, IM_COL32_WHITE, words.c_str());
   };
   const std::string a = words_of_method(shown.first.stats);
