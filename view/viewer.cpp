@@ -217,6 +217,8 @@ void Viewer::frame(const Input& input, glm::uvec2 screen, float seconds, float p
   lay_out(screen);
   places_.next_frame();
   const ViewState before = state_;
+  if (input.holds("ctrl")) chords_.insert(input.pressed.begin(), input.pressed.end());
+  std::erase_if(chords_, [&](const std::string& key) { return !input.holds(key); });
   for (const std::string& file : input.dropped) open(file);
   draw_panels(screen, progress);
   const bool focus = interface_has_focus();

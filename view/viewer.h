@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -175,6 +176,7 @@ class Viewer {
   std::optional<glm::vec2> last_mouse_, pressed_at_;
   bool dragging_ = false;
   bool drags_divider_ = false;
+  std::set<std::string, std::less<>> chords_;  ///< keys that went down with Ctrl and are held: they do not fly
 };
 
 /// Whether a scene is a capture's folder or its frame.json: it has its own size.

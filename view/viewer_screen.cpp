@@ -154,7 +154,9 @@ void Viewer::use_mouse(const Input& input, float seconds, bool focus) {
     dragging_ = false;
   }
   last_mouse_ = input.mouse;
-  fly(input, state_, shown_, look, seconds, focus);
+  Input flying = input;
+  for (const std::string& key : chords_) flying.held.erase(key);
+  fly(flying, state_, shown_, look, seconds, focus);
 }
 
 void Viewer::draw_panels(glm::uvec2 screen, float progress) {

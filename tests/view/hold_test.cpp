@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "view/view_test.h"
 
@@ -59,6 +60,24 @@ TEST(Hold, ThePictureKeepsItsSizeWhileAPixelIsReadAndTimeStands) {
 {"set": {"resolution": 1}}
 {"wait": 40}
 {"expect": {"/shown/width": 96}})");
+}
+
+/// Whichever of the two is let go first. Once released, the key flies again.
+TEST(Hold, AKeyOfAChordDoesNotFly) {
+  run_headless(view_context(), small_viewer(), [](Player& player) {
+    const auto flies = [&](std::set<std::string, std::less<>> held, std::vector<std::string> pressed) {
+      player.input.held = std::move(held);
+      player.input.pressed = std::move(pressed);
+      for (int i = 0; i < 3; ++i) player.frame();
+      return player.viewer.state().request.free_camera.has_value();
+    };
+    play(player, parse_script(R"({"wait": "idle"})", "chord"));
+    EXPECT_FALSE(flies({"a", "ctrl"}, {"a"}));
+    EXPECT_FALSE(flies({"a"}, {}));
+    EXPECT_FALSE(flies({}, {}));
+    EXPECT_TRUE(flies({"a"}, {"a"}));
+    player.input.held.clear();
+  });
 }
 
 }  // namespace
