@@ -19,10 +19,10 @@
 namespace lamp::app {
 namespace {
 
-/// A number with spaces between its thousands.
+/// A number with spaces between its thousands, at which no line breaks.
 std::string grouped(std::uint64_t number) {
   std::string text = fmt::format("{}", number);
-  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, " ");
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, "\u00A0");
   return text;
 }
 
