@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/headless.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <memory>
 
@@ -23,6 +26,10 @@ class HeadlessScreen {
   void resize(glm::uvec2 size) {
     size_ = size;
     minimised_ = size == glm::uvec2(0);
+    const std::uint32_t limit = context_.device().traits.max_image_size;
+    if (std::max(size.x, size.y) > limit)
+      throw Error(
+          fmt::format("screen of {}x{}: expected at most {} pixels a side on this device", size.x, size.y, limit));
     if (!minimised_) screen_ = std::make_unique<Offscreen>(context_, gui_, size);
   }
 

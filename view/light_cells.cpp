@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "commands/stats.h"
 #include "render/shaders/sky_cell.h"
 #include "view/overlay_colors.h"
 
@@ -70,9 +71,10 @@ std::string words_of_light_cells(const Legend& legend, std::uint32_t light) {
   std::string words = fmt::format("light {}: listed in no cell of the picture", light);
   if (legend.cells != 0)
     words =
-        fmt::format("light {}: listed in {} cells, reaches a pixel in {} of them: {:.0f} %", light, legend.cells,
+        fmt::format("light {}: listed in {}, reaches a pixel in {} of them: {:.0f} %", light, cell_words(legend.cells),
                     legend.reached, 100.0 * static_cast<double>(legend.reached) / static_cast<double>(legend.cells));
-  if (legend.lacking != 0) words += fmt::format("; missing in {} cells in which it reaches a pixel", legend.lacking);
+  if (legend.lacking != 0)
+    words += fmt::format("; missing in {} in which it reaches a pixel", cell_words(legend.lacking));
   return words;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "commands/pictures.h"
+#include "commands/stats.h"
 #include "render/heatmap_legend.h"
 #include "view/light_cells.h"
 #include "view/mask_overlay.h"
@@ -75,7 +76,7 @@ std::string words_of_side(const ShownSide& side, const ViewState& state) {
     case Overlay::heat:
       return fmt::format("lights that a pixel walks: mean {:.1f}, max {:.0f}", legend.mean, legend.max);
     case Overlay::cells:
-      return fmt::format("{} cells hold pixels; each has a colour and a number", legend.cells);
+      return fmt::format("{} with pixels; each has a colour and a number", cell_words(legend.cells));
     case Overlay::depth_range:
       return fmt::format("from the nearest to the farthest surface of a cell: mean {:.2f} m, max {:.1f} m", legend.mean,
                          legend.max);
@@ -98,8 +99,8 @@ std::string words_of_side(const ShownSide& side, const ViewState& state) {
       return words_of_leaks(legend.leaks.value());
     case Overlay::slice:
       return fmt::format(
-          "lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {} cells; fainter behind surfaces",
-          legend.mean, legend.max, legend.cells);
+          "lights that points of the slice would walk: mean {:.1f}, max {:.0f}; {}; fainter behind surfaces",
+          legend.mean, legend.max, cell_words(legend.cells));
     case Overlay::light_cells:
       return words_of_light_cells(legend, state.light.value_or(0));
     case Overlay::mask:

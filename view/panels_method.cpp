@@ -85,6 +85,18 @@ void say_overflow(const char* side, const Stats& stats) {
   });
 }
 
+void choose_atlas(PanelFrame& p) {
+  constexpr std::array<std::string_view, 6> SIDES{"512", "1024", "2048", "4096", "8192", "16384"};
+  std::string side = fmt::format("{}", p.state.request.shadows.atlas);
+  if (p.widgets.choose("atlas", side, SIDES, "Texels a side of the image that holds all shadow maps.",
+                       [&](std::string_view name) {
+                         return number_of(std::string(name)) <= p.traits.max_image_size
+                                    ? std::string()
+                                    : fmt::format("the device has images of at most {}", p.traits.max_image_size);
+                       }))
+    p.state.request.shadows.atlas = number_of(side);
+}
+
 }  // namespace
 
 const char* only_of_first(const Shown& shown) { return shown.second ? "A: " : ""; }
@@ -177,6 +189,7 @@ void shadow_panel(PanelFrame& p) {
                      "What draws shadow maps: the GPU's rasterizer or compute shaders.");
     p.widgets.choose("shadow blur", r.shadows.blur, shadow_blur_names(),
                      "How vsm and evsm are blurred: in one pass, in two, or in two as the article's listing does.");
+    choose_atlas(p);
     p.widgets.write("shadow lights", r.shadows.lights, "How many of the first lights cast shadows, or all.");
     p.widgets.write("shadow budget", r.shadows.budget, "Texels of shadow maps that are drawn in a frame, or all.");
     Widgets::steady(3, [&] {

@@ -95,7 +95,7 @@ void times_panel(PanelFrame& p) {
                                        : "not counted: pick a pixel, or an overlay");
   p.widgets.check("list lengths", p.state.list_lengths, "Counts with every picture how long the cells' lists are.");
   if (p.state.list_lengths && !p.shown.first.lengths.empty()) draw_lengths(p.shown.first.lengths);
-  Widgets::row("overflowed", fmt::format("{} cells", overflowed_cells(stats)));
+  Widgets::row("overflowed", cell_words(overflowed_cells(stats)));
   const std::string reason = overflowed_cells(stats) == 0 ? "every list fits"
                              : p.shown.first.full         ? "lists are as long as options and device allow"
                              : p.state.request.grow       ? "they are being enlarged"

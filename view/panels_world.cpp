@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "render/mirror_pass.h"
 #include "view/panels.h"
 
 namespace lamp::app {
@@ -35,6 +36,8 @@ void world_panel(PanelFrame& p) {
                   p.shown.captured ? OF_A_CAPTURE : "");
   p.widgets.choose("probes show", r.probes_show, probes_show_names(),
                    "What each saw from its place, or a colour each, which shows how they are blended.");
+  p.widgets.slide("probe budget", r.probe_budget, {.min = 0, .max = 64},
+                  "Probes that are captured anew in a frame, while lights move.");
   p.widgets.check("probe boxes", p.state.probe_boxes,
                   "Draws the volumes of all reflection probes; those that weigh at the picked pixel are yellow.",
                   p.shown.probe_volumes.empty() ? "there are no probes" : "");
@@ -42,6 +45,9 @@ void world_panel(PanelFrame& p) {
   with_mirror.mirror = std::max(r.mirror, 0.5F);
   p.widgets.slide("mirror", r.mirror, {}, "Surfaces less rough than this mirror what is around them; 0: none do.",
                   p.shown.captured ? OF_A_CAPTURE : why_refused(with_mirror));
+  if (r.mirror > 0.0F)
+    p.widgets.choose("mirror lists", r.mirror_lists, mirror_list_names(),
+                     "What lights are looked up in where mirrored rays arrive.");
   Request moving = r;
   moving.moving = true;
   p.widgets.check("moving things", r.moving, "Small things of the scene move with the frames, as lights do.",

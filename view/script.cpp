@@ -74,15 +74,17 @@ glm::vec2 widget_at(Player& player, const ScriptLine& line, const std::string& l
   frames(player, 2);  // a list that has just opened finds its place in the frame after its first
   try {
     static_cast<void>(player.viewer.places().find(label));
-    if (!player.viewer.places().in_sight(label)) {
-      player.viewer.places().scroll_to(label);
-      frames(player, 3);
-    }
-    const ScreenRect rect = player.viewer.places().find(label);
-    return 0.5F * glm::vec2(rect.min + rect.max);
   } catch (const Error& error) {
     fail(line, error.what());
   }
+  if (!player.viewer.places().in_sight(label)) {
+    player.viewer.places().scroll_to(label);
+    frames(player, 3);
+  }
+  if (!player.viewer.places().in_sight(label))
+    fail(line, fmt::format("{} cannot be scrolled into sight", label), Exit::check_failed);
+  const ScreenRect rect = player.viewer.places().find(label);
+  return 0.5F * glm::vec2(rect.min + rect.max);
 }
 
 void play_set(Player& player, const ScriptLine& line) { read_state(player.viewer.state(), line.value, line.name); }

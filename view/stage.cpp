@@ -38,8 +38,10 @@ Stage::~Stage() = default;
 
 MethodChoice Stage::choice(const Request& request, const std::string& method, const std::vector<std::string>& options) {
   if (!is_auto(method)) return {.method = &parse_method(method), .options = options};
-  std::string key = fmt::format("{} {} {} {} {} {} {} {}", request.scene, request.size, request.lights, request.spots,
-                                request.range, request.seed, request.decals, request.probes);
+  // While somebody flies or time goes on, the method stays.
+  std::string key =
+      fmt::format("{} {} {} {} {} {} {} {} {} {}", request.scene, request.camera, request.projection, request.size,
+                  request.lights, request.spots, request.range, request.seed, request.decals, request.probes);
   if (key != auto_key_) {
     auto_choice_ = chooser_.choose(
         *renderer_,

@@ -89,9 +89,10 @@ void Widgets::before(const std::string& label) {
 void Widgets::done(const std::string& label, const std::string& tip, const std::string& reason) {
   const ImVec2 min = ImGui::GetItemRectMin();
   const ImVec2 max = ImGui::GetItemRectMax();
-  // Its middle is in sight, where a script clicks.
-  const ImVec2 middle{0.5F * (min.x + max.x), 0.5F * (min.y + max.y)};
-  const bool in_sight = ImGui::IsRectVisible(middle, {middle.x + 1.0F, middle.y + 1.0F});
+  // Its middle row, where a script clicks; at its left, since what spans a table is clipped to the first column here.
+  const float half = 0.5F * (max.y - min.y);
+  const ImVec2 left{min.x + half, min.y + half};
+  const bool in_sight = ImGui::IsRectVisible(left, {left.x + 1.0F, left.y + 1.0F});
   places_.add(label, {.min = {min.x, min.y}, .max = {max.x, max.y}}, in_sight);
   tooltip(tip, reason);
 }

@@ -1,6 +1,7 @@
 // Plays every script below tests/view/scripts on one device with validation on, and holds pictures that are saved
 // against what `lamp render` makes.
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -49,6 +50,32 @@ TEST_F(Play, EndsWhereAnExpectationIsNotMet) {
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::check_failed);
     EXPECT_STREQ(error.what(), "wrong: line 1: /method is \"tiled\", expected \"clustered\"");
+  }
+}
+
+TEST_F(Play, WidgetsAreClickedWhereTheyAreInSight) {
+  HeadlessInfo info = small_viewer();
+  info.screen = {720, 4};
+  try {
+    run_headless(view_context(), info,
+                 [](Player& player) { play(player, parse_script(R"({"click": "prove the picture"})", "small")); });
+    FAIL() << "the screen has no room for it";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::check_failed);
+    EXPECT_STREQ(error.what(), "small: line 1: prove the picture cannot be scrolled into sight");
+  }
+}
+
+TEST_F(Play, AScreenIsNoLargerThanTheDevicesImages) {
+  HeadlessInfo info = small_viewer();
+  const std::uint32_t limit = view_context().device().traits.max_image_size;
+  info.screen = {20, limit + 1};
+  try {
+    run_headless(view_context(), info, [](Player& player) { play(player, parse_script(R"({"wait": 1})", "large")); });
+    FAIL() << "the device has no such image";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(),
+              fmt::format("screen of 20x{}: expected at most {} pixels a side on this device", limit + 1, limit));
   }
 }
 
