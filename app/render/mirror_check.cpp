@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
-#include "gpu/check.h"
 #include "gpu/transfer.h"
 #include "oracle/points.h"
+#include "render/answers.h"
 
 namespace lamp::app {
 namespace {
@@ -38,31 +38,13 @@ std::vector<T> read_back(Renderer& renderer, const vulkan::Buffer& from, std::si
 }
 
 std::vector<gpu::MirrorAsked> read_rays(Renderer& renderer, const ShaderLibrary& shaders) {
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   const Targets& targets = renderer.targets();
-  const std::size_t pixels = std::size_t{targets.width} * targets.height;
-  const vulkan::Buffer rays = readback_buffer(renderer.device(), "mirror rays", pixels * sizeof(gpu::MirrorAsked));
-  const vulkan::Resource written = vulkan::Resource::storage(rays.handle());
-  std::vector<vulkan::Bound> bound = gbuffer_bound(targets);
-  bound.push_back({0, renderer.data().frame_constants()});
-  std::vector<vulkan::Use> uses;
-  for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
-  uses.push_back({.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
-  bound.push_back({2, written});
-  vulkan::PipelineInfo info{.name = "mirror rays"};
-  for (const vulkan::Bound& b : bound) info.bindings.push_back({b.binding, b.resource.type});
-  const vulkan::Pipeline pipeline =
-      take(vulkan::Pipeline::compute(renderer.device(), info, shaders.spirv("mirror_rays")));
-  renderer.also([&](vulkan::Recorder& recorder) {
-    recorder.begin_pass("mirror rays", uses);
-    recorder.bind(pipeline, bound);
-    vkCmdDispatch(recorder.commands(), (targets.width + GROUP_PX - 1) / GROUP_PX,
-                  (targets.height + GROUP_PX - 1) / GROUP_PX, 1);
-    recorder.end_pass();
-    recorder.barrier({host_reads(written)});
-  });
-  renderer.forget(rays);
-  return first_values<gpu::MirrorAsked>(rays, pixels);
+  AnswersPass pass{.shader = "mirror_rays",
+                   .bound = gbuffer_bound(targets),
+                   .answers_at = 2,
+                   .groups = (glm::uvec2(targets.width, targets.height) + GROUP_PX - 1U) / GROUP_PX};
+  pass.bound.push_back({0, renderer.data().frame_constants()});
+  return answers_of<gpu::MirrorAsked>(renderer, shaders, std::move(pass), std::size_t{targets.width} * targets.height);
 }
 
 /// Every so many of the pixels that have a ray.

@@ -2,61 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/pixel_lights.h"
 
-#include <algorithm>
 #include <bit>
-#include <cstring>
 
-#include "gpu/check.h"
 #include "gpu/transfer.h"
-#include "render/pass_uses.h"
+#include "render/answers.h"
 
 namespace lamp::app {
 namespace {
 
 constexpr std::uint32_t LIGHT_GROUP = 64;  // threads of light_shares.comp and explain.comp
 
-/// A dispatch of one thread a light: frame at binding 0, the lights' ids at 2, all lights at 3, answers at 8.
-struct LightPass {
-  const char* shader = nullptr;
-  std::vector<vulkan::Constant> constants;
-  std::vector<vulkan::Bound> bound;  ///< besides; read
-  std::vector<std::uint32_t> push;
-  std::size_t answers = 0;
-};
-
+/// One thread a light: frame at binding 0, the lights' ids at 2, all lights at 3.
 template <class Answer>
 std::vector<Answer> for_lights(Renderer& renderer, const ShaderLibrary& shaders, std::span<const std::uint32_t> lights,
-                               LightPass pass) {
-  constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+                               AnswersPass pass, std::size_t count) {
   const vulkan::Buffer ids =
       upload_buffer(renderer.context(), "lights of a pixel", std::as_bytes(lights), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const vulkan::Buffer answers = readback_buffer(renderer.device(), pass.shader, pass.answers * sizeof(Answer));
-  const vulkan::Resource written = vulkan::Resource::storage(answers.handle());
-  std::vector<vulkan::Bound>& bound = pass.bound;
-  bound.push_back({0, renderer.data().frame_constants()});
-  bound.push_back({2, vulkan::Resource::storage(ids.handle())});
-  bound.push_back({3, renderer.data().lights()});
-  std::vector<vulkan::Use> uses;
-  for (const vulkan::Bound& b : bound) uses.push_back(reads(b.resource, COMPUTE));
-  uses.push_back({.resource = written, .stages = COMPUTE, .access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
-  bound.push_back({8, written});
-  const auto push_bytes = static_cast<std::uint32_t>(pass.push.size() * sizeof(std::uint32_t));
-  vulkan::PipelineInfo info{.name = pass.shader, .constants = pass.constants, .push_constant_bytes = push_bytes};
-  for (const vulkan::Bound& b : bound) info.bindings.push_back({b.binding, b.resource.type});
-  const vulkan::Pipeline pipeline =
-      take(vulkan::Pipeline::compute(renderer.device(), info, shaders.spirv(pass.shader)));
-  renderer.also([&](vulkan::Recorder& recorder) {
-    recorder.begin_pass(pass.shader, uses);
-    recorder.bind(pipeline, bound);
-    vkCmdPushConstants(recorder.commands(), pipeline.layout(), VK_SHADER_STAGE_ALL, 0, push_bytes, pass.push.data());
-    vkCmdDispatch(recorder.commands(), static_cast<std::uint32_t>(pass.answers) / LIGHT_GROUP + 1, 1, 1);
-    recorder.end_pass();
-    recorder.barrier({host_reads(written)});
-  });
+  pass.bound.push_back({0, renderer.data().frame_constants()});
+  pass.bound.push_back({2, vulkan::Resource::storage(ids.handle())});
+  pass.bound.push_back({3, renderer.data().lights()});
+  pass.answers_at = 8;
+  pass.groups.x = static_cast<std::uint32_t>(count) / LIGHT_GROUP + 1;
+  std::vector<Answer> found = answers_of<Answer>(renderer, shaders, std::move(pass), count);
   renderer.forget(ids);
-  renderer.forget(answers);
-  std::vector<Answer> found(pass.answers);
-  if (!found.empty()) std::memcpy(found.data(), answers.mapped().data(), found.size() * sizeof(Answer));
   return found;
 }
 
@@ -111,26 +79,27 @@ std::vector<std::uint32_t> probes_at(Renderer& renderer, Lighting& lighting, std
 std::vector<ProbeWeight> probe_weights(Renderer& renderer, const ShaderLibrary& shaders, const glm::vec3& position,
                                        std::span<const std::uint32_t> probes) {
   if (probes.empty()) return {};
-  LightPass pass{.shader = "probe_weights",
-                 .constants = {{CONSTANT_PROBES, renderer.probes().kind()}},
-                 .bound = renderer.probes().bound(),
-                 .push = {std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y),
-                          std::bit_cast<std::uint32_t>(position.z), static_cast<std::uint32_t>(probes.size())},
-                 .answers = probes.size()};
-  return for_lights<ProbeWeight>(renderer, shaders, probes, std::move(pass));
+  const std::uint32_t push[] = {std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y),
+                                std::bit_cast<std::uint32_t>(position.z), static_cast<std::uint32_t>(probes.size())};
+  return for_lights<ProbeWeight>(renderer, shaders, probes,
+                                 {.shader = "probe_weights",
+                                  .constants = {{CONSTANT_PROBES, renderer.probes().kind()}},
+                                  .bound = renderer.probes().bound(),
+                                  .push = std::as_bytes(std::span(push))},
+                                 probes.size());
 }
 
 PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuScene& scene, const LightingInfo& info,
                     std::uint32_t pixel, const PixelEntities& walked) {
   if (info.path == ShadingPath::forward) renderer.need_surfaces();
   const Targets& targets = renderer.targets();
-  LightPass pass{
-      .shader = "light_shares",
-      .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
-      .bound = gbuffer_bound(targets),
-      .push = {pixel % targets.width, pixel / targets.width, static_cast<std::uint32_t>(walked.lights.size()),
-               static_cast<std::uint32_t>(walked.probes.size())},
-      .answers = walked.lights.size() + 1};
+  const std::uint32_t push[] = {pixel % targets.width, pixel / targets.width,
+                                static_cast<std::uint32_t>(walked.lights.size()),
+                                static_cast<std::uint32_t>(walked.probes.size())};
+  AnswersPass pass{.shader = "light_shares",
+                   .constants = {{CONSTANT_BRDF, static_cast<std::uint32_t>(info.brdf)}, shadow_constant(info.shadows)},
+                   .bound = gbuffer_bound(targets),
+                   .push = std::as_bytes(std::span(push))};
   pass.constants.push_back({CONSTANT_PROBES, info.probes});
   pass.constants.push_back(mirror_limit_constant(info.mirror));
   for (const vulkan::Bound& b : renderer.probes().bound()) pass.bound.push_back(b);
@@ -138,7 +107,8 @@ PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuS
   for (const vulkan::Bound& b : renderer.shadow_bound()) pass.bound.push_back(b);
   std::vector<std::uint32_t> ids(walked.lights.begin(), walked.lights.end());
   ids.insert(ids.end(), walked.probes.begin(), walked.probes.end());
-  const std::vector<glm::vec4> terms = for_lights<glm::vec4>(renderer, shaders, ids, std::move(pass));
+  const std::vector<glm::vec4> terms =
+      for_lights<glm::vec4>(renderer, shaders, ids, std::move(pass), walked.lights.size() + 1);
   return {.lights = {terms.begin(), terms.end() - 1},
           .surroundings = glm::vec3(terms.back()),
           .left_by_mirror = terms.back().w};
@@ -147,10 +117,8 @@ PixelTerms terms_at(Renderer& renderer, const ShaderLibrary& shaders, const GpuS
 std::vector<gpu::Explained> explain(Renderer& renderer, const ShaderLibrary& shaders, gpu::ExplainedCell cell,
                                     std::span<const std::uint32_t> lights) {
   cell.count = static_cast<std::uint32_t>(lights.size());
-  std::vector<std::uint32_t> push(sizeof(cell) / sizeof(std::uint32_t));
-  std::memcpy(push.data(), &cell, sizeof(cell));
   return for_lights<gpu::Explained>(renderer, shaders, lights,
-                                    {.shader = "explain", .push = std::move(push), .answers = lights.size()});
+                                    {.shader = "explain", .push = std::as_bytes(std::span(&cell, 1))}, lights.size());
 }
 
 }  // namespace lamp::app
