@@ -48,7 +48,7 @@ TEST(LightCells, SayWhatIsMissing) {
   const Overlaid made = make_light_cells({.width = 2, .visits = visits, .listed = listed, .reached = reached});
   EXPECT_EQ(made.pixels[0], rgba(SIGNAL, SIGNAL_ALPHA));
   EXPECT_EQ(words_of_light_cells(made.legend, 9),
-            "light 9: listed in no cell of the picture; missing in 1 cells in which it reaches a pixel");
+            "light 9: listed in no cell of the picture; missing in 1 cell in which it reaches a pixel");
 }
 
 /// For every method: no cell that the light reaches lacks it, and a pixel that is said to have it has it in its list.
