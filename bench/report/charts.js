@@ -11,6 +11,36 @@ function axisTitle(text) {
   return {display: true, text};
 }
 
+/** Ticks of a logarithmic axis at `values`, without those whose labels would run into the one before. */
+function ticksAt(values, axis) {
+  let free = -Infinity;
+  axis.ticks = values.filter(value => value >= axis.min && value <= axis.max).map(value => ({value})).filter(({value}) => {
+    const [at, room] = axis.isHorizontal() ? [axis.width, 12 + 7 * value.toLocaleString('en-US').length] : [axis.height, 16];
+    const place = at * Math.log(value / axis.min) / Math.log(axis.max / axis.min);
+    if (place < free) return false;
+    free = place + room;
+    return true;
+  });
+}
+
+/** The same at 1, 2 and 5 of each power of ten, or at the powers alone where these are many. */
+function decadeTicks(axis) {
+  const decades = Math.log10(axis.max / axis.min);
+  const steps = decades < 1 ? [1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9] : decades < 4 ? [1, 2, 5] : [1];
+  const values = [];
+  for (let power = Math.floor(Math.log10(axis.min)); power <= Math.log10(axis.max); ++power)
+    values.push(...steps.map(step => step * 10 ** power));
+  ticksAt(values, axis);
+}
+
+/** An axis of values, from 0 unless it is logarithmic. */
+function valueAxis(y, isLog) {
+  return {
+    type: isLog ? 'logarithmic' : 'linear', title: axisTitle(DATA.words[y]), beginAtZero: !isLog,
+    afterBuildTicks: isLog ? decadeTicks : undefined, ticks: {callback: value => short(value)},
+  };
+}
+
 /** Draws p5 to p95 over bars whose datasets carry `whiskers`, one [low, high] or null a bar. */
 const WHISKERS = {
   id: 'whiskers',
@@ -57,7 +87,7 @@ function sweepDatasets(run, panel, y) {
     return [
       {
         label: line.label, data: points.map(p => ({x: p.x, y: p.of.median, of: p.of})), borderColor: color,
-        backgroundColor: color, borderDash: dash, pointStyle: mark, pointRadius: 3.5, borderWidth: 2, tension: 0,
+        backgroundColor: color, borderDash: dash, pointStyle: mark, pointRadius: 3.5, borderWidth: 2, tension: 0, clip: 8,
       },
       edge('p5', false), edge('p95', '-1'),
     ];
@@ -73,8 +103,7 @@ function toggleLine(event, item, legend) {
 }
 
 function sweepChart(run, panel, state) {
-  const xs = [...new Set(panel.lines.flatMap(line => line.points.map(p => p.x)))];
-  const shown = new Set(xs);
+  const xs = [...new Set(panel.lines.flatMap(line => line.points.map(p => p.x)))].sort((a, b) => a - b);
   return {
     type: 'line',
     data: {datasets: sweepDatasets(run, panel, state.y)},
@@ -82,15 +111,12 @@ function sweepChart(run, panel, state) {
       interaction: {mode: 'x', intersect: false},
       scales: {
         x: {
-          type: state.logX ? 'logarithmic' : 'linear', title: axisTitle(AXES[panel.x] || panel.x), min: Math.min(...xs),
-          max: Math.max(...xs),
-          afterBuildTicks: state.logX ? axis => { axis.ticks = [...shown].sort((a, b) => a - b).map(value => ({value})); } : undefined,
-          ticks: {callback: value => Number(value).toLocaleString('en-US'), maxRotation: 0, autoSkipPadding: 12},
+          type: state.logX ? 'logarithmic' : 'linear', title: axisTitle(AXES[panel.x] || panel.x),
+          ...(xs.length > 1 ? {min: xs[0], max: xs[xs.length - 1]} : {}),
+          afterBuildTicks: state.logX ? axis => ticksAt(xs, axis) : undefined,
+          ticks: {callback: value => Number(value).toLocaleString('en-US'), maxRotation: 0, autoSkip: !state.logX, autoSkipPadding: 12},
         },
-        y: {
-          type: state.logY ? 'logarithmic' : 'linear', title: axisTitle(DATA.words[state.y]), beginAtZero: !state.logY,
-          ticks: {callback: value => short(value)},
-        },
+        y: valueAxis(state.y, state.logY),
       },
       plugins: {
         legend: {position: 'bottom', onClick: toggleLine,
@@ -126,8 +152,7 @@ function groupedChart(run, panel, state) {
     options: {
       scales: {
         x: {title: axisTitle(AXES[panel.x] || panel.x.replace('option:', 'option '))},
-        y: {type: state.logY ? 'logarithmic' : 'linear', title: axisTitle(DATA.words[state.y]), beginAtZero: !state.logY,
-            ticks: {callback: value => short(value)}},
+        y: valueAxis(state.y, state.logY),
       },
       plugins: {legend: {position: 'bottom'},
                 tooltip: {callbacks: {label: item => `${item.dataset.label}: ${short(item.parsed.y)}`}}},
@@ -150,7 +175,8 @@ function horizontal(labels, datasets, title, cut, more = {}) {
     options: {
       indexAxis: 'y',
       interaction: {mode: 'index', axis: 'y', intersect: false},
-      scales: {x: {stacked: true, max: cut || undefined, title: axisTitle(title), ticks: {callback: value => short(value)}},
+      scales: {x: {stacked: true, max: cut || undefined, title: axisTitle(title),
+                   ticks: {includeBounds: false, callback: value => short(value)}},
                y: {stacked: true, ticks: {autoSkip: false}, grid: {display: false}}},
       plugins: {legend: {position: 'bottom', display: more.legend !== false},
                 tooltip: {filter: item => item.parsed.x > 0,

@@ -83,7 +83,8 @@ function panelPart(run, panel) {
 function seriesPart(run, series) {
   const results = run.results.filter(r => r.series === series.name);
   if (results.length === 0) return null;
-  const part = el('section', {class: 'card', id: `series-${run.place}-${series.name}`}, el('h2', {}, series.title), el('p', {class: 'soft'}, series.about));
+  const part = el('section', {class: 'card', id: `series-${run.place}-${series.name}`}, el('h2', {}, series.title), el('p', {class: 'soft'}, series.about),
+    note(`The same in all: ${commonParameters(series, results)}.`));
   for (const panel of run.panels.filter(p => p.series === series.name)) part.append(...panelPart(run, panel));
   part.append(...pictureSection(run, series.name), el('h3', {}, 'All numbers'), resultTable(results), ...remarks(results));
   return part;

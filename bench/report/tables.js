@@ -62,6 +62,15 @@ function changingParameters(results) {
   return keys.filter(k => results.some(r => parameterOf(r, k) !== parameterOf(results[0], k)));
 }
 
+/** What all results of a series have in common, in words; where a flight changes lights, they are no part of it. */
+function commonParameters(series, results) {
+  const changing = [...changingParameters(results), 'method', ...(series.flight ? ['lights'] : [])];
+  const first = ['scene', 'size', 'lights'];
+  const keys = [...first, ...Object.keys(results[0].parameters).filter(key => !first.includes(key))];
+  const shown = value => typeof value === 'number' ? value.toLocaleString('en-US') : value;
+  return keys.filter(key => !changing.includes(key)).map(key => `${key.replace('option:', '')} ${shown(results[0].parameters[key])}`).join(', ');
+}
+
 function resultTable(results) {
   const parameters = changingParameters(results).map(k => ({
     name: k.replace('option:', ''), text: !results.some(r => typeof parameterOf(r, k) === 'number'), value: r => parameterOf(r, k),

@@ -55,6 +55,14 @@ const menu = document.querySelector('.controls select');
 menu.value = 'excess';
 menu.dispatchEvent(new Event('change'));
 seen.axis = Chart.getChart(document.querySelector('canvas')).options.scales.x.title.text;
+const sweep = Chart.getChart(document.querySelector('canvas[aria-label="lights: cull and shade, ms"]'));
+const gaps = axis => axis.ticks.slice(1).map((tick, i) => Math.abs(axis.getPixelForTick(i + 1) - axis.getPixelForTick(i)));
+seen.gaps = [Math.min(...gaps(sweep.scales.x)), Math.min(...gaps(sweep.scales.y))];
+const marker = sweep.getDatasetMeta(0).data[0];
+const copy = Object.assign(document.createElement('canvas'), {width: 1, height: 1}).getContext('2d');
+copy.drawImage(sweep.canvas, sweep.chartArea.left - 2, Math.round(marker.y), 1, 1, 0, 0, 1, 1);
+seen.beside = [...copy.getImageData(0, 0, 1, 1).data];
+seen.common = document.getElementById('series-0-lights').querySelector('.note').textContent;
 seen.facts = document.querySelector('dl.facts').textContent;
 seen.summary = [...document.querySelectorAll('.words li')].map(item => item.textContent);
 document.body.append(Object.assign(document.createElement('pre'), {id: 'seen', textContent: btoa(unescape(encodeURIComponent(JSON.stringify(seen))))}));
@@ -156,6 +164,10 @@ TEST_F(ReportBrowser, ChartsAreDrawnTablesSortAndEverythingIsThere) {
   EXPECT_EQ(seen.at("clip"), "inset(0px 80% 0px 0px)");
   for (const json& width : seen.at("images")) EXPECT_GT(width.get<int>(), 0);
   EXPECT_EQ(seen.at("axis"), "excess (1 is perfect)");
+  EXPECT_GE(seen.at("gaps")[0].get<double>(), 40.0) << "labels of the lights";
+  EXPECT_GE(seen.at("gaps")[1].get<double>(), 16.0) << "labels of a logarithmic axis";
+  EXPECT_EQ(seen.at("beside")[3], 255) << "the first marker is cut at the axis: " << seen.at("beside");
+  EXPECT_NE(seen.at("common").get<std::string>().find("scene atrium, size 320x180, "), std::string::npos);
   for (const char* fact : {"command", "llvmpipe", "Mesa", "commit"})
     EXPECT_NE(seen.at("facts").get<std::string>().find(fact), std::string::npos) << fact;
   EXPECT_GE(seen.at("summary").size(), 5U);
