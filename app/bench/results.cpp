@@ -121,6 +121,7 @@ std::vector<std::string> csv_row(const json& entry) {
   for (const char* key : FOUND) cells.push_back(csv_cell(value_or_null(stats, key)));
   const json regret = value_or_null(entry, "regret");
   for (const char* key : REGRET) cells.push_back(csv_cell(regret.is_null() ? json() : regret[key]));
+  cells.push_back(csv_cell(fmt::format("{}", fmt::join(stats.value("notes", std::vector<std::string>()), "; "))));
   return cells;
 }
 
@@ -135,6 +136,7 @@ std::vector<std::string> csv_header() {
   names.emplace_back("bytes");
   names.insert(names.end(), FOUND.begin(), FOUND.end());
   for (const char* key : REGRET) names.push_back(fmt::format("regret_{}", key));
+  names.emplace_back("notes");
   return names;
 }
 

@@ -117,6 +117,7 @@ constexpr auto RULES = std::to_array<Rule>({
     {.at = RESULT, .key = "stats", .want = Want::object, .required = true},
     {.at = STATS, .key = "method", .want = Want::text},
     {.at = STATS, .key = "options", .want = Want::named_texts},
+    {.at = STATS, .key = "notes", .want = Want::texts},
     {.at = STATS, .key = "bytes", .want = Want::object},
     count("results/*/stats/bytes", "total", /* required= */ true),
     count(STATS, "overflowed_cells", /* required= */ false),

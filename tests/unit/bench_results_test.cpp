@@ -62,6 +62,7 @@ TEST_F(BenchResults, WhatNoBenchWritesIsNamed) {
            {"/results/1/parameters/spots", "2", "result 1 parameters: spots is 2, expected a number 0 .. 1"},
            {"/results/1/stats/options/tile", "16",
             "result 1 stats: options is an object, expected an object of strings"},
+           {"/results/1/stats/notes", "5", "result 1 stats: notes is 5, expected an array of strings"},
            {"/results/1/stats/missed", "-5", "result 1 stats: missed is -5, expected an integer 0 .. "},
            {"/results/1/samples", R"([{"frame": 0, "lights": 1, "cull": 1, "shade": -2, "frame_ms": 3}])",
             "result 1 sample 0: shade is -2, expected a number >= 0"},
@@ -203,10 +204,13 @@ TEST_F(BenchResults, WhatWouldBeLostIsRefused) {
 TEST_F(BenchResults, TheTableHasARowAResult) {
   json results = test::run_of(test::SWEEP);
   results["results"][0]["label"] = "a \"label\", quoted";
+  results["results"][0]["stats"]["notes"] = {"first, of a device", "second"};
   const std::string csv = results_csv(results);
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4);
   EXPECT_NE(csv.find("\"a \"\"label\"\", quoted\""), std::string::npos);
   EXPECT_NE(csv.substr(0, csv.find('\n')).find("cull_ms_median"), std::string::npos);
+  EXPECT_NE(csv.find(",regret_factor,regret_best,notes\n"), std::string::npos);
+  EXPECT_NE(csv.find(",\"first, of a device; second\"\n"), std::string::npos) << csv;
   results["results"][1]["verdict"] = "impossible";
   results["results"][1]["stats"] = json::object();
   results["results"][1]["times"] = nullptr;
