@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -26,15 +25,19 @@ using nlohmann::json;
 constexpr std::string_view CALIBRATION_FORMAT = "lamplight-calibration";
 constexpr int VERSION = 5;  // of the file and of the model: grows when an old file would mislead
 
+/// Throws Error unless the key has this very value.
+void expect(const JsonObject& object, std::string_view key, const json& wanted) {
+  const json& value = object.at(key, shown(wanted));
+  if (value != wanted) object.fail(fmt::format("{} is {}, expected {}", key, shown(value), shown(wanted)));
+}
+
 template <std::size_t COUNT>
-std::array<double, COUNT> parse_terms(const json& entry, const char* key, const std::string& where) {
+std::array<double, COUNT> parse_terms(const JsonObject& entry, std::string_view key) {
+  const std::vector<double> numbers = entry.numbers(key, COUNT);
   std::array<double, COUNT> terms{};
-  const bool is_list = entry.contains(key) && entry[key].is_array() && entry[key].size() == COUNT;
   for (std::size_t i = 0; i < COUNT; ++i) {
-    const bool is_cost = is_list && entry[key][i].is_number() && std::isfinite(entry[key][i].get<double>()) &&
-                         entry[key][i].get<double>() >= 0.0;
-    if (!is_cost) throw Error(fmt::format("{}: {}: expected {} numbers, none below 0", where, key, COUNT));
-    terms[i] = entry[key][i].get<double>();
+    if (numbers[i] < 0.0) entry.fail(fmt::format("{}[{}] is {}, expected a number >= 0", key, i, shown(numbers[i])));
+    terms[i] = numbers[i];
   }
   return terms;
 }
@@ -57,27 +60,23 @@ json to_json(const Calibration& calibration) {
 
 Calibration parse_calibration(std::string_view text, const std::string& source) {
   const json document = parse_json(text, source);
-  if (!document.is_object() || document.value("format", json()) != CALIBRATION_FORMAT)
-    throw Error(source + ": is no calibration of lamp");
-  if (document.value("version", json()) != VERSION)
-    throw Error(
-        fmt::format("{}: version: expected {}, got {}", source, VERSION, shown(document.value("version", json()))));
-  Calibration calibration;
-  for (const auto& [key, out] : {std::pair{"device", &calibration.device}, {"driver", &calibration.driver}}) {
-    if (!document.contains(key) || !document[key].is_string())
-      throw Error(fmt::format("{}: {}: expected a name", source, key));
-    *out = document[key].get<std::string>();
-  }
+  const JsonObject object{.json = document, .file = source, .element = ""};
+  if (!document.is_object()) object.fail(fmt::format("is {}, expected an object", shown(document)));
+  expect(object, "format", CALIBRATION_FORMAT);
+  expect(object, "version", VERSION);
+  Calibration calibration{.device = object.text("device", "a name"), .driver = object.text("driver", "a name")};
   const std::span<const AutoCandidate> candidates = auto_candidates();
-  const json list = document.value("candidates", json());
-  if (!list.is_array() || list.size() != candidates.size())
-    throw Error(fmt::format("{}: candidates: expected a list of {}", source, candidates.size()));
+  const std::string expected = fmt::format("an array of {} candidates", candidates.size());
+  const json& list = object.at("candidates", expected);
+  if (!list.is_array()) object.fail(fmt::format("candidates is {}, expected {}", shown(list), expected));
+  if (list.size() != candidates.size())
+    object.fail(fmt::format("candidates is an array of {}, expected {}", list.size(), expected));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const std::string where = fmt::format("{}: candidates: {}", source, candidates[i].label());
-    if (!list[i].is_object() || list[i].value("candidate", json()) != candidates[i].label())
-      throw Error(where + ": is not in its place");
-    calibration.costs.push_back({.cull = parse_terms<CULL_TERMS>(list[i], "cull", where),
-                                 .shade = parse_terms<SHADE_TERMS>(list[i], "shade", where)});
+    const JsonObject entry{.json = list[i], .file = source, .element = fmt::format("candidates[{}]", i)};
+    if (!list[i].is_object()) entry.fail(fmt::format("is {}, expected an object", shown(list[i])));
+    expect(entry, "candidate", candidates[i].label());
+    calibration.costs.push_back(
+        {.cull = parse_terms<CULL_TERMS>(entry, "cull"), .shade = parse_terms<SHADE_TERMS>(entry, "shade")});
   }
   return calibration;
 }

@@ -102,7 +102,7 @@ TEST_F(Auto, RefusesWhatMakesNoSense) {
   }
   write("bad.json", R"({"format": "lamplight-calibration", "version": 99})");
   expect_error(BAD_INPUT, small({"render", "--calibration", "bad.json"}),
-               {"--calibration 'bad.json'", "version: expected 5, got 99"});
+               {"--calibration 'bad.json'", "version is 99, expected 5"});
   write("mine.json", R"({"version": 1, "name": "mine", "series": [{"name": "small",
     "methods": [{"name": "auto", "options": ["tile=8"]}]}]})");
   expect_error(BAD_INPUT, {"bench", "mine.json"}, {"mine.json", "auto"});

@@ -72,31 +72,40 @@ TEST_F(CalibrationFile, IsKeyedByDeviceAndDriver) {
 TEST_F(CalibrationFile, WhatIsDamagedIsNotTrusted) {
   const std::string file = (folder_.path() / "calibration.json").string();
   const std::string whole = to_json(some_calibration()).dump(1);
-  std::vector<std::string> bad{"", "{}", "[]", "3", whole.substr(0, whole.size() / 2)};
-  const auto with = [&](const std::function<void(json&)>& change) {
+  struct Bad {
+    std::string text, error;
+  };
+  std::vector<Bad> bad{{"", ""},
+                       {whole.substr(0, whole.size() / 2), ""},
+                       {"{}", "format is missing, expected \"lamplight-calibration\""},
+                       {"[]", "is [], expected an object"},
+                       {"3", "is 3, expected an object"}};
+  const auto with = [&](const std::string& error, const std::function<void(json&)>& change) {
     json document = json::parse(whole);
     change(document);
-    bad.push_back(document.dump());
+    bad.push_back({document.dump(), error});
   };
-  with([](json& d) { d["version"] = 1; });
-  with([](json& d) { d["format"] = "lamplight-results"; });
-  with([](json& d) { d["device"] = 5; });
-  with([](json& d) { d.erase("candidates"); });
-  with([](json& d) { d["candidates"].erase(0); });
-  with([](json& d) { std::swap(d["candidates"][0], d["candidates"][1]); });
-  with([](json& d) { d["candidates"][2] = 7; });
-  with([](json& d) { d["candidates"][2]["cull"][1] = -1.0; });
-  with([](json& d) { d["candidates"][2]["cull"][1] = "1"; });
-  with([](json& d) { d["candidates"][2]["shade"].erase(0); });
-  with([](json& d) { d["candidates"][2].erase("shade"); });
-  for (const std::string& text : bad) {
+  with("version is 1, expected 5", [](json& d) { d["version"] = 1; });
+  with("format is \"lamplight-results\", expected ", [](json& d) { d["format"] = "lamplight-results"; });
+  with("device is 5, expected a name", [](json& d) { d["device"] = 5; });
+  with("candidates is missing, expected an array of ", [](json& d) { d.erase("candidates"); });
+  with("candidates is an array of 10, expected an array of 11 ", [](json& d) { d["candidates"].erase(0); });
+  with("candidates[0]: candidate is \"tiled\", expected \"all\"",
+       [](json& d) { std::swap(d["candidates"][0], d["candidates"][1]); });
+  with("candidates[2]: is 7, expected an object", [](json& d) { d["candidates"][2] = 7; });
+  with("candidates[2]: cull[1] is -1.0, expected a number >= 0", [](json& d) { d["candidates"][2]["cull"][1] = -1.0; });
+  with("candidates[2]: cull[1] is \"1\", expected a finite ", [](json& d) { d["candidates"][2]["cull"][1] = "1"; });
+  with("candidates[2]: shade has 3 elements, expected 4 numbers",
+       [](json& d) { d["candidates"][2]["shade"].erase(0); });
+  with("candidates[2]: shade is missing, expected 4 numbers", [](json& d) { d["candidates"][2].erase("shade"); });
+  for (const auto& [text, problem] : bad) {
     std::ofstream(file, std::ios::binary) << text;
     EXPECT_FALSE(read_cached_calibration(file, "Some GPU", "1.2").has_value()) << text.substr(0, 200);
     try {
       static_cast<void>(parse_calibration(text, "mine.json"));
       ADD_FAILURE() << "was taken: " << text.substr(0, 200);
     } catch (const Error& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with("mine.json: ")) << error.what();
+      EXPECT_TRUE(std::string(error.what()).starts_with("mine.json: " + problem)) << error.what();
     }
   }
   std::ofstream(file, std::ios::binary) << whole;
