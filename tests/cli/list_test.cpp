@@ -43,6 +43,9 @@ TEST_F(List, OneMethodWithItsOptions) {
   for (const char* part : {"tiled", "Stewart", "tile ", "8 | 16 | 32", "default 16"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(text.find("clustered"), std::string::npos);
+  const std::string bins = output_of({"list", "methods", "drobot-zbin"});
+  EXPECT_NE(bins.find("last bin"), std::string::npos) << bins;
+  EXPECT_EQ(bins.find("slice"), std::string::npos) << bins;
   EXPECT_EQ(json_of({"list", "methods", "tiled", "--json"}), json_of({"list", "methods", "--json"}).at(1));
 }
 

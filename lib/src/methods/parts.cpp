@@ -111,17 +111,12 @@ OptionSpec slice_scale_option(std::string_view key, std::string_view fallback) {
           .choices = {"log", "linear"}};
 }
 
-OptionSpec slice_near_option() {
-  return {
-      .key = "near_mm", .help = "far end of the first slice, millimetres", .fallback = "500", .min = 1, .max = 1000};
+OptionSpec slice_near_option(std::string_view help) {
+  return {.key = "near_mm", .help = help, .fallback = "500", .min = 1, .max = 1000};
 }
 
-OptionSpec slice_far_option() {
-  return {.key = "far_m",
-          .help = "near end of the last slice, metres; it reaches to infinity",
-          .fallback = "500",
-          .min = 2,
-          .max = 1000000};
+OptionSpec slice_far_option(std::string_view help) {
+  return {.key = "far_m", .help = help, .fallback = "500", .min = 2, .max = 1000000};
 }
 
 std::uint32_t slice_scale(std::string_view word) {

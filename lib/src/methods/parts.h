@@ -89,8 +89,9 @@ enum class Container : std::uint8_t { list, bits };
 /// How depth is cut into slices or bins: options and their values. `scale`: "log" or "linear"; the first slice ends at
 /// `near_mm`, the last begins at `far_m` and reaches to infinity.
 [[nodiscard]] OptionSpec slice_scale_option(std::string_view key, std::string_view fallback);
-[[nodiscard]] OptionSpec slice_near_option();
-[[nodiscard]] OptionSpec slice_far_option();
+[[nodiscard]] OptionSpec slice_near_option(std::string_view help = "far end of the first slice, millimetres");
+[[nodiscard]] OptionSpec slice_far_option(
+    std::string_view help = "near end of the last slice, metres; it reaches to infinity");
 /// shared::SLICES_LOG or SLICES_LINEAR.
 [[nodiscard]] std::uint32_t slice_scale(std::string_view word);
 
