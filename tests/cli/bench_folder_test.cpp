@@ -110,7 +110,7 @@ TEST_F(BenchFolder, AnotherCalibrationOfAutoIsMeasuredAgain) {
 
   write("costs.json", "{}");
   expect_error(BAD_INPUT, {"bench", "plane", "--method", "auto", "--calibration", "costs.json"},
-               {"--calibration 'costs.json'", "is no calibration"});
+               {"--calibration 'costs.json'", "format is missing"});
 }
 
 TEST_F(BenchFolder, MethodsThatAreAddedMeasureThoseBesideThemAgain) {
