@@ -127,11 +127,6 @@ gpu::ExplainedCell volume_of(const CellPixels& cell, const gpu::CellMask& mask) 
           .count = 0};
 }
 
-/// Where the GPU has it.
-std::uint32_t record_of(const Inspected& of, std::uint32_t light) {
-  return of.still == nullptr ? light : app::record_of(light, of.still->first, of.still->boxes);
-}
-
 bool reaches_any(const Inspected& of, const CellPixels& cell, std::uint32_t light) {
   return std::ranges::any_of(
       cell.pixels, [&](std::size_t pixel) { return reach(of.lights[light], position_of(of, pixel)) == Reach::inside; });
@@ -152,9 +147,9 @@ void add_reasons(const Inspected& of, const CellPixels& cell, const Truth& truth
   std::vector<ListedLight>& lights = found.lights;
   const std::set<std::uint32_t> reaching(truth.lights.begin(), truth.lights.end());
   std::vector<std::uint32_t> ids;
-  for (const ListedLight& light : lights) ids.push_back(record_of(of, light.light));
+  for (const ListedLight& light : lights) ids.push_back(of.renderer.record_of(light.light));
   const bool looks = of.light && *of.light < of.lights.size();
-  if (looks) ids.push_back(record_of(of, *of.light));
+  if (looks) ids.push_back(of.renderer.record_of(*of.light));
   const std::vector<gpu::Explained> explained = explain(of.renderer, of.shaders, volume_of(cell, found.mask), ids);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     lights[i].reaches_cell =
@@ -174,7 +169,7 @@ void add_listed(const Inspected& of, std::uint32_t pixel, std::span<const std::u
   const std::size_t of_picture = ids.size();
   if (of.still != nullptr) std::ranges::copy(of.still->lights_at(pixel), std::back_inserter(ids));
   std::vector<std::uint32_t> records;
-  for (const std::uint32_t id : ids) records.push_back(record_of(of, id));
+  for (const std::uint32_t id : ids) records.push_back(of.renderer.record_of(id));
   const PixelTerms terms =
       terms_at(of.renderer, of.shaders, of.scene, of.lighting.info(), pixel, {.lights = records, .probes = probes});
   found.mirrored = 1.0F - terms.left_by_mirror;

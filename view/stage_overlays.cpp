@@ -46,7 +46,7 @@ Overlaid Stage::shadow_overlay(const Overlaying& o) {
   renderer_->forget(buffer);
   const std::vector<float> texels = first_values<float>(buffer, count);
   std::optional<std::uint32_t> record;
-  if (state.light) record = record_of(*state.light, listed_count(), renderer_->entities().boxes.count());
+  if (state.light) record = renderer_->record_of(*state.light);
   return make_shadow_overlay(state.palette, {.texels = texels,
                                              .side = side,
                                              .maps = shadows.maps(),

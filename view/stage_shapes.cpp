@@ -97,7 +97,7 @@ std::optional<ShownShadow> Stage::read_shadow(const ViewState& state) {
   const Shadows* shadows = renderer_->shadows();
   if (shadows == nullptr || !state.light || *state.light >= lights_->lights->size()) return std::nullopt;
   ShownShadow read{.light = *state.light};
-  const std::uint32_t record = record_of(read.light, listed_count(), renderer_->entities().boxes.count());
+  const std::uint32_t record = renderer_->record_of(read.light);
   if (record >= shadows->maps().size()) return read;
   read.map = shadows->maps()[record];
   if (read.map.kind == shared::SHADOW_NONE) return read;

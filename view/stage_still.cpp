@@ -61,7 +61,6 @@ std::optional<StillPixels> Stage::still_pixels(std::span<const float> depth) {
                  .on_gpu = *still_->lists,
                  .lights = still_->lights,
                  .first = static_cast<std::uint32_t>(listed_count()),
-                 .boxes = renderer_->entities().boxes.count(),
                  .occluders = still_->occluders ? &*still_->occluders : nullptr,
                  .points = {}};
   if (!still_->made.tree) {

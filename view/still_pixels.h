@@ -11,11 +11,6 @@
 
 namespace lamp::app {
 
-/// Where the GPU has a light's record: behind `boxes` others, if it is none of the `listed` first.
-[[nodiscard]] inline std::uint32_t record_of(std::uint32_t light, std::size_t listed, std::uint32_t boxes) {
-  return light < listed ? light : light + boxes;
-}
-
 /// Lists, on the host and on the GPU. Lights have their numbers of the frame.
 struct StillPixels {
   Context& context;
@@ -24,7 +19,6 @@ struct StillPixels {
   const StillLists& on_gpu;
   std::span<const shared::Light> lights;  ///< that stand still
   std::uint32_t first = 0;                ///< the first of them; all before are the picture's
-  std::uint32_t boxes = 0;                ///< records between these and those
   const Occluders* occluders = nullptr;   ///< null: lists leave out nothing that is hidden
   std::vector<gpu::StillPoint> points;    ///< of all pixels, row by row
 

@@ -225,6 +225,11 @@ class Renderer {
   /// That is drawn, through its sample.
   [[nodiscard]] const View& view() const { return shown_view_; }
   [[nodiscard]] EntityRanges entities() const { return data_.entities(); }
+  /// Where the GPU has the record of a light of the frame: those of still lights are behind the boxes'.
+  [[nodiscard]] std::uint32_t record_of(std::uint32_t light) const {
+    const EntityRanges all = entities();
+    return light < all.lights.count() ? light : light + all.boxes.count();
+  }
 
  private:
   void draw_surfaces(Lighting* decals = nullptr);

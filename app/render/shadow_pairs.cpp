@@ -18,7 +18,9 @@ std::vector<gpu::ShadowAnswer> ask_shadows(Renderer& renderer, const ShaderLibra
   const Targets& targets = renderer.targets();
   renderer.make_reach(ShadowReach::Kind::radial);
   const vulkan::Buffer* radial = renderer.shadows()->reach(ShadowReach::Kind::radial);
-  const vulkan::Buffer asked = upload_buffer(renderer.context(), "pairs of pixel and light", std::as_bytes(pairs),
+  std::vector<gpu::ShadowPair> of_records(pairs.begin(), pairs.end());
+  for (gpu::ShadowPair& pair : of_records) pair.light = renderer.record_of(pair.light);
+  const vulkan::Buffer asked = upload_buffer(renderer.context(), "pairs of pixel and light", bytes_of(of_records),
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   AnswersPass pass{.shader = "shadow_pairs",
                    .constants = {shadow_constant(renderer.shadows()->settings().filter)},

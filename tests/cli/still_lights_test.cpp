@@ -105,6 +105,27 @@ TEST_F(Still, LightsAreInTheHeatMapOfEveryViewAndOfSamples) {
   }
 }
 
+/// Behind decals and probes, where records of still lights are.
+TEST_F(Still, LightsAreAskedForTheirOwnShadows) {
+  const auto truth = [&](const std::string& lists) {
+    const Outcome run = lamp({"verify",        "corridor", "--lights",  "40",    "--size",  "64x36", "--still",  "0.5",
+                              "--still-lists", lists,      "--shadows", "hard",  "--atlas", "512",   "--decals", "3",
+                              "--probes",      "2",        "--method",  "tiled", "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(run.out).at(0).at("shadows").at("truth");
+  };
+  const nlohmann::json with = truth("triangle-lists");
+  const nlohmann::json without = truth("off");
+  ASSERT_EQ(with.size(), without.size());
+  EXPECT_GT(without.at("in_shadow").get<int>(), 0);
+  for (const auto& [key, value] : without.items()) {
+    SCOPED_TRACE(key);
+    if (value.is_number_integer()) {
+      EXPECT_EQ(with.at(key), value);
+    }
+  }
+}
+
 TEST_F(Still, ListsAreCheckedInEveryView) {
   for (const char* lists : {"world-tree", "triangle-lists"}) {
     SCOPED_TRACE(lists);
