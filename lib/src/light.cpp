@@ -39,6 +39,11 @@ std::string show(const Vec3& value) {
   return text.str();
 }
 
+std::string fault_of_inner(float inner, float outer) {
+  if (within(inner, 0.0F, outer)) return {};
+  return expected("inner angle must be 0 .. outer angle (" + show(outer) + ") radians", inner);
+}
+
 // What is wrong with a light, or an empty text.
 std::string fault(const Light& light) {
   if (light.type != LightType::point && light.type != LightType::spot) {
@@ -61,11 +66,7 @@ std::string fault(const Light& light) {
   if (!within(light.outer_angle, 0.0F, RIGHT_ANGLE)) {
     return expected("outer angle must be 0 .. pi/2 radians", light.outer_angle);
   }
-  if (!within(light.inner_angle, 0.0F, light.outer_angle)) {
-    return expected("inner angle must be 0 .. outer angle (" + show(light.outer_angle) + ") radians",
-                    light.inner_angle);
-  }
-  return {};
+  return fault_of_inner(light.inner_angle, light.outer_angle);
 }
 
 constexpr shared::LightSphere NO_SPHERE{.center = {}, .radius = shared::REACHES_NOTHING};
@@ -90,7 +91,8 @@ std::string fault_of_packed(const shared::Light& light) {
     return "type must be LIGHT_POINT or LIGHT_SPOT, got " + std::to_string(light.type);
   if (!is_finite(Vec3(light.position))) return expected("position must be finite", Vec3(light.position));
   if (!(light.range >= 0.0F)) return expected("range must be >= 0 m", light.range);
-  if (!is_finite(light.intensity)) return expected("intensity must be finite", light.intensity);
+  if (!is_finite(light.intensity) || !at_least_zero(light.intensity))
+    return expected("intensity must be finite and >= 0 candela", light.intensity);
   if (light.type == shared::LIGHT_POINT) return {};
   const Vec3 direction = light.direction;
   const float length = direction.x * direction.x + direction.y * direction.y + direction.z * direction.z;
@@ -101,7 +103,7 @@ std::string fault_of_packed(const shared::Light& light) {
   const double sine_error = std::abs(double{light.sin_outer} - std::sin(double{light.outer_angle}));
   if (!(cosine_error < 1e-3)) return expected("cos_outer must be the cosine of outer_angle", light.cos_outer);
   if (!(sine_error < 1e-3)) return expected("sin_outer must be the sine of outer_angle", light.sin_outer);
-  return {};
+  return fault_of_inner(light.inner_angle, light.outer_angle);
 }
 
 std::optional<Error> check_lights(std::span<const Light> lights) {

@@ -14,8 +14,8 @@ namespace lamp {
 [[nodiscard]] std::string expected(std::string_view what, float value);
 [[nodiscard]] std::string expected(std::string_view what, const Vec3& value);
 
-/// What is wrong with a packed light, or an empty text. `pack` makes none of these of a light that `check_lights` lets
-/// pass.
+/// What is wrong with a packed light, or an empty text: all that `check_lights` refuses, and numbers that are not those
+/// that `pack` derives.
 [[nodiscard]] std::string fault_of_packed(const shared::Light& light);
 
 }  // namespace lamp

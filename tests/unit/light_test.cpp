@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "lamplight/world_tree.h"
+
 namespace {
 
 using lamp::Light;
@@ -72,12 +74,26 @@ void expect_named(const Light& good, const Fault& fault) {
   EXPECT_NE(error->text().find("got"), std::string::npos) << error->text();
 }
 
+/// What builds lists ahead gets packed lights and refuses the same.
+void expect_named_when_packed(const Light& good, const Fault& fault) {
+  std::vector<Light> lights(5, good);
+  fault.make(lights[3]);
+  const auto tree = lamp::WorldTree::build({.lights = lamp::pack(lights)});
+  ASSERT_FALSE(tree.ok()) << fault.field;
+  EXPECT_EQ(tree.error().source, "light 3") << fault.field;
+}
+
 TEST(CheckLights, NamesTheLightAndTheField) {
   for (const Fault& fault : faults_of_any_light()) {
     expect_named(Light{}, fault);
     expect_named(spot(), fault);
+    expect_named_when_packed(Light{}, fault);
+    expect_named_when_packed(spot(), fault);
   }
-  for (const Fault& fault : faults_of_spots()) expect_named(spot(), fault);
+  for (const Fault& fault : faults_of_spots()) {
+    expect_named(spot(), fault);
+    expect_named_when_packed(spot(), fault);
+  }
 }
 
 TEST(CheckLights, PointLightsLeaveDirectionAndAnglesUnread) {
@@ -100,6 +116,7 @@ TEST(CheckLights, AcceptsTheEdgesOfEveryRange) {
   wide.inner_angle = wide.outer_angle = RIGHT_ANGLE;
   const std::vector<Light> lights{Light{}, spot(), dark, wide};
   EXPECT_FALSE(lamp::check_lights(lights).has_value());
+  EXPECT_TRUE(lamp::WorldTree::build({.lights = lamp::pack(lights)}).ok());
   EXPECT_FALSE(lamp::check_lights({}).has_value());
 }
 

@@ -229,6 +229,23 @@ TEST(ShadowAtlas, TheLeastRecentlySeenGoesFirst) {
   EXPECT_NE(next.maps[4].kind, shared::SHADOW_NONE);
 }
 
+/// A map that nobody looks up makes none smaller that is looked up.
+TEST(ShadowAtlas, WhoIsNotSeenGoesBeforeSizesFall) {
+  const ShadowAtlasInfo info{.size = 256, .light_capacity = 4, .texels_per_pixel = 1e6F};
+  ShadowAtlas atlas = make(info);
+  std::vector<shared::Light> lights;
+  for (int i = 0; i < 4; ++i) lights.push_back(spot_at({1000.0F * static_cast<float>(i), 0.0F, 0.0F}));
+  const auto look_at = [&](const std::vector<int>& seen) {
+    std::vector<View> views;
+    for (const int i : seen) views.push_back(view_from({1000.0 * i, 0.0, 20.0}, {1000.0 * i, 0.0, 0.0}));
+    return atlas.schedule({.views = views, .lights = lights}).value();
+  };
+  EXPECT_EQ(look_at({0, 1, 2}).maps[0].side, 128U);
+  const ShadowFrame next = look_at({3});
+  EXPECT_EQ(next.maps[3].side, 256U);
+  EXPECT_EQ(next.counts.evicted, 3U);
+}
+
 TEST(ShadowAtlas, EveryMovingLightGetsItsTurn) {
   const ShadowAtlasInfo info{.size = 1024, .light_capacity = 64, .points = lamp::PointShadows::octahedron};
   ShadowAtlas atlas = make(info);

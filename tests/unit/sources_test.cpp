@@ -1,10 +1,12 @@
-// What the tool's code does in one place, it does nowhere else.
+// What the tool's code does in one place, it does nowhere else; default bindings of look-ups.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <regex>
 #include <string>
 
 namespace {
@@ -45,6 +47,22 @@ TEST(Sources, KeepToTheirOwnMeans) {
           << path << " says " << reserved.text << "; use " << reserved.instead;
   }
   EXPECT_GT(files, 100);
+}
+
+/// A shader that includes several look-ups and says nothing else has one resource at each binding.
+TEST(Sources, DefaultBindingsOfLookUpsDiffer) {
+  const std::regex given(R"(#ifndef (\w+_BINDING)\s+#define \1 (\d+))");
+  std::map<std::string, std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(LAMPLIGHT_SOURCE_DIR) / "lib" / "shaders")) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream stream(entry.path(), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (std::sregex_iterator found(text.begin(), text.end(), given), end; found != end; ++found) {
+      const auto [other, is_new] = names.emplace((*found)[2], (*found)[1]);
+      EXPECT_TRUE(is_new) << other->second << " and " << (*found)[1] << " are both " << (*found)[2];
+    }
+  }
+  EXPECT_EQ(names.size(), 4U) << "look-ups, shadows, lists of triangles, the world tree";
 }
 
 }  // namespace

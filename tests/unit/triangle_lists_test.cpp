@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "lamplight/light.h"
 #include "oracle/reference.h"
@@ -193,6 +194,25 @@ TEST(TriangleLists, BudgetsCoarsenAndSaySo) {
   ASSERT_EQ(lists.notes.size(), 1U);
   EXPECT_NE(lists.notes[0].find("more than the 100 bytes"), std::string::npos) << lists.notes[0];
   expect_complete(info, lists, random, 1000);
+}
+
+/// Builds that are too fine end when the budget is used up. Whole, they would ask for each patch twice and more.
+TEST(TriangleLists, BudgetsAreLookedAtAsListsGrow) {
+  RandomDoubles random(12);
+  const std::vector<lamp::shared::Light> lights = random_lights(random, 3000, 10.0, 2.0);
+  const std::vector<StillTriangle> triangles{triangle_of({-10, 0, -10}, {10, 0, -10}, {-10, 0, 10})};
+  std::uint64_t asked = 0;
+  TriangleListsInfo info{.triangles = triangles, .lights = lights, .patch = 0.05F};
+  info.hides = [&](std::uint32_t, std::span<const lamp::DVec3>) {
+    ++asked;
+    return false;
+  };
+  const std::uint64_t fine = made(info).bytes();
+  const std::uint64_t asked_whole = std::exchange(asked, 0);
+  info.budget_bytes = fine / 8;
+  const TriangleLists lists = made(info);
+  EXPECT_LE(lists.bytes(), info.budget_bytes);
+  EXPECT_LT(asked, asked_whole);
 }
 
 /// What is hidden is asked for with points around all positions, and is not listed.

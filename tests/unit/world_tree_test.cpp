@@ -268,6 +268,32 @@ TEST(WorldTree, FollowsAChangeOfALight) {
   EXPECT_FALSE(tree.change(300, gone).ok()) << "a gap";
 }
 
+/// Large ones are in finer leaves than their own cells.
+TEST(WorldTree, ALightThatIsTakenAwayIsInNoLeaf) {
+  PackedLights lights = lights_around({}, 10.0F, 0.5F, 1.0F, 200);
+  const PackedLights large = lights_around({1, 2, 3}, 10.0F, 5.0F, 20.0F, 50);
+  lights.insert(lights.end(), large.begin(), large.end());
+  WorldTree tree = built({.lights = lights});
+  for (std::uint32_t i = 200; i < 250; ++i) {
+    lights[i].range = 0.0F;
+    change(tree, i, lights[i]);
+  }
+  for (const glm::vec3& point : points_in(1, 20'000, glm::vec3(-30.0F), glm::vec3(30.0F)))
+    for (const std::uint32_t light : tree.lights_at(lamp::Vec3(point))) EXPECT_LT(light, 200U);
+}
+
+/// Lists of the large ones are not copied for each place of the small ones.
+TEST(WorldTree, TakesLittleMemoryForSmallLightsAmongLargeOnes) {
+  const PackedLights small = lights_around({}, 10.0F, 0.5F, 1.0F, 200);
+  const PackedLights large = lights_around({}, 10.0F, 15.0F, 20.0F, 50);
+  PackedLights lights = small;
+  lights.insert(lights.end(), large.begin(), large.end());
+  const WorldTree tree = built({.lights = lights});
+  EXPECT_LT(tree.counts().peak_entries,
+            built({.lights = small}).counts().peak_entries + built({.lights = large}).counts().peak_entries);
+  expect_no_miss(tree, points_in(1, 1000, glm::vec3(-30.0F), glm::vec3(30.0F)));
+}
+
 TEST(WorldTree, IsBuiltAnewWhenThereIsNoRoomForAChange) {
   const PackedLights lights = lights_around({}, 10.0F, 1.0F, 4.0F, 50);
   WorldTree tree = built({.lights = lights, .detail = 4});

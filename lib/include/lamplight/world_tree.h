@@ -44,7 +44,8 @@ struct WorldTreeCounts {
   double cell_m = 0.0;        ///< side of the finest cell that there may be
   double detail = 0.0;        ///< cells in a light's range, at most; less than asked for where the budget holds no more
   double coarser = 1.0;       ///< and lights of an average cell, over those before cells were merged to keep the budget
-  bool every_light = false;   ///< the budget holds no list at all: every point walks every light
+  std::uint64_t peak_entries = 0;  ///< that lists held at once while the tree was built, 16 bytes each
+  bool every_light = false;        ///< the budget holds no list at all: every point walks every light
 };
 
 /// A part of `words` that is no longer what it was.

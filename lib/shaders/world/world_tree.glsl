@@ -13,7 +13,7 @@
 #define WORLD_TREE_SET 0
 #endif
 #ifndef WORLD_TREE_BINDING
-#define WORLD_TREE_BINDING 14
+#define WORLD_TREE_BINDING 15
 #endif
 #ifdef LAMP_HLSL
 [[vk::binding(WORLD_TREE_BINDING, WORLD_TREE_SET)]] StructuredBuffer<uint> world_tree_words;

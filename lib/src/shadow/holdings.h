@@ -41,7 +41,8 @@ class Holdings {
 
   void release(Holding& holding);
   /// Squares of `level` or, where that does not fit, the next less, but none as small as it has now: then it keeps
-  /// those. Lights that no view showed since `frame` lose theirs for it, the longest unseen first. False: it has none.
+  /// those. Lights that no view showed since `frame` lose theirs before it takes less, the longest unseen first:
+  /// `level` is what fits beside all that are seen. False: it has none.
   bool resize(Holding& holding, std::uint32_t squares, int level, std::uint64_t frame);
   /// Lights that lost their squares to `resize` since the last call.
   [[nodiscard]] std::uint32_t take_evicted();

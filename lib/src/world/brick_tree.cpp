@@ -1,5 +1,5 @@
-// Makes the tree from the root down, its nodes' own lists from the leaves up.
-// SPDX-License-Identifier: Apache-2.0
+// Makes the tree from the root down, its nodes' own lists from the leaves up, and drops children as soon as their
+// parent is better without them. SPDX-License-Identifier: Apache-2.0
 #include "brick_tree.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace lamp::world {
 namespace {
@@ -47,6 +48,18 @@ std::uint64_t cells_of_parent(std::uint64_t cells, std::uint32_t child) {
   return found;
 }
 
+// Leaves that agree merge, and those that nearly do: 64 MiB of them are worth a sixtieth of a light at a point.
+constexpr double LEAST_PRICE = 1e-9;
+constexpr double CHILDREN_WORDS = 8.0;
+
+double cost_as_leaf(const BrickNode& node, double price) {
+  return node.walked + price * static_cast<double>(node.words);
+}
+
+/// What is so at a price is so at every higher one: the node is walked no less than what is below it, so it can only be
+/// better for its fewer words.
+bool is_better_as_leaf(double as_leaf, double below) { return as_leaf <= below * (1.0 + 1e-12); }
+
 class Making {
  public:
   Making(std::span<const LitBrick> bricks, std::uint32_t levels, std::span<const std::uint64_t> surfaces)
@@ -54,53 +67,83 @@ class Making {
 
   BrickTree run() {
     tree_.nodes.emplace_back();
-    node(0, 0, 0, {}, bricks_);
+    node(0, {}, {}, bricks_);
     return std::move(tree_);
   }
 
  private:
   using Entries = std::vector<Entry>;
+  struct Place {
+    std::uint32_t level = 0;
+    std::uint64_t corner = 0;  ///< the low one
+    std::uint64_t all = 0;     ///< lights in all of its cells that nodes above it keep
+  };
 
-  /// `place`: of its low corner. `from_above`: lights of coarser bricks. `own`: bricks in it.
-  void node(std::uint32_t number, std::uint32_t level, std::uint64_t place, const Entries& from_above,
-            std::span<const LitBrick> own) {
-    const auto deeper = std::ranges::find_if(own, [&](const LitBrick& b) { return b.level != level; });
+  /// `from_above`: lights of coarser bricks in some of its cells. `bricks`: those in it. The cost at the least price.
+  double node(std::uint32_t number, Place place, const Entries& from_above, std::span<const LitBrick> bricks) {
+    const auto deeper = std::ranges::find_if(bricks, [&](const LitBrick& b) { return b.level != place.level; });
     Entries at_level;
-    for (auto brick = own.begin(); brick != deeper; ++brick)
+    for (auto brick = bricks.begin(); brick != deeper; ++brick)
       at_level.push_back({.light = brick->light, .cells = brick->cells});
-    Entries entries;
-    std::ranges::merge(from_above, at_level, std::back_inserter(entries), {}, &Entry::light, &Entry::light);
-    const std::span<const LitBrick> rest(deeper, own.end());
-    std::uint32_t children = 0;
+    Entries own;
+    std::ranges::merge(from_above, at_level, std::back_inserter(own), {}, &Entry::light, &Entry::light);
+    Entries all;
+    std::ranges::copy_if(own, std::back_inserter(all), [](const Entry& e) { return e.cells == ALL_CELLS; });
+    std::erase_if(own, [](const Entry& e) { return e.cells == ALL_CELLS; });
+    place.all += all.size();
+    const std::span<const LitBrick> rest(deeper, bricks.end());
+    const auto first_child = static_cast<std::uint32_t>(tree_.nodes.size());
+    const std::size_t first_entry = tree_.entries.size();
+    double below = std::numeric_limits<double>::infinity();
     if (!rest.empty()) {
-      children = static_cast<std::uint32_t>(tree_.nodes.size());
-      tree_.nodes.resize(tree_.nodes.size() + 8);
-      split(children, level, place, entries, rest);
-      entries = merged(children);
+      tree_.nodes.resize(first_child + std::size_t{8});
+      below = split(first_child, place, own, rest);
+      own = merged(first_child);
     }
-    finish(number, level, place, children, entries);
+    BrickNode made = leaf(place, own);
+    const double as_leaf = cost_as_leaf(made, LEAST_PRICE);
+    const bool keeps_children = !is_better_as_leaf(as_leaf, below);
+    if (keeps_children) {
+      made.children = first_child;
+    } else {
+      tree_.nodes.resize(first_child);
+      tree_.entries.resize(first_entry);
+    }
+    made.first = tree_.entries.size();
+    made.all = static_cast<std::uint32_t>(all.size());
+    made.own = static_cast<std::uint32_t>(own.size());
+    tree_.entries.insert(tree_.entries.end(), all.begin(), all.end());
+    tree_.entries.insert(tree_.entries.end(), own.begin(), own.end());
+    tree_.peak_entries = std::max(tree_.peak_entries, tree_.entries.size());
+    tree_.nodes[number] = made;
+    return keeps_children ? below : as_leaf;
   }
 
-  void split(std::uint32_t children, std::uint32_t level, std::uint64_t place, const Entries& entries,
-             std::span<const LitBrick> rest) {
-    const std::uint64_t size = 1ULL << 3 * (levels_ - level - 1);  // finest bricks of a child
+  double split(std::uint32_t children, const Place& place, const Entries& own, std::span<const LitBrick> rest) {
+    const std::uint64_t size = 1ULL << 3 * (levels_ - place.level - 1);  // finest bricks of a child
+    double cost = LEAST_PRICE * CHILDREN_WORDS;
     for (std::uint32_t child = 0; child < 8; ++child) {
       Entries of_child;
-      for (const Entry& entry : entries)
+      for (const Entry& entry : own)
         if (const std::uint64_t cells = cells_of_child(entry.cells, child); cells != 0)
           of_child.push_back({.light = entry.light, .cells = cells});
-      const std::uint64_t begin = place + child * size;
-      const auto end = std::ranges::lower_bound(rest, begin + size, {}, &LitBrick::place);
-      node(children + child, level + 1, begin, of_child, {rest.begin(), end});
+      const std::uint64_t corner = place.corner + child * size;
+      const auto end = std::ranges::lower_bound(rest, corner + size, {}, &LitBrick::place);
+      cost += node(children + child, {.level = place.level + 1, .corner = corner, .all = place.all}, of_child,
+                   {rest.begin(), end});
       rest = {end, rest.end()};
     }
+    return cost;
   }
 
   [[nodiscard]] Entries merged(std::uint32_t children) const {
     Entries all;
-    for (std::uint32_t child = 0; child < 8; ++child)
-      for (const Entry& entry : tree_.of(tree_.nodes[children + child]))
-        all.push_back({.light = entry.light, .cells = cells_of_parent(entry.cells, child)});
+    for (std::uint32_t child = 0; child < 8; ++child) {
+      const BrickNode& node = tree_.nodes[children + child];
+      for (const std::span<const Entry> part : {tree_.all_of(node), tree_.own_of(node)})
+        for (const Entry& entry : part)
+          all.push_back({.light = entry.light, .cells = cells_of_parent(entry.cells, child)});
+    }
     std::ranges::sort(all, {}, &Entry::light);
     Entries entries;
     for (const Entry& entry : all)
@@ -111,23 +154,18 @@ class Making {
     return entries;
   }
 
-  void finish(std::uint32_t number, std::uint32_t level, std::uint64_t place, std::uint32_t children,
-              const Entries& entries) {
-    BrickNode& node = tree_.nodes[number];
-    node.first = tree_.entries.size();
-    node.count = static_cast<std::uint32_t>(entries.size());
-    node.children = children;
-    node.weight = std::ldexp(1.0, -3 * static_cast<int>(level));
+  [[nodiscard]] BrickNode leaf(const Place& place, const Entries& own) const {
+    double weight = std::ldexp(1.0, -3 * static_cast<int>(place.level));
     if (!surfaces_.empty()) {
-      const std::uint64_t end = place + (1ULL << 3 * (levels_ - level));
-      const auto on_surfaces = std::ranges::lower_bound(surfaces_, end) - std::ranges::lower_bound(surfaces_, place);
-      node.weight += static_cast<double>(on_surfaces) / static_cast<double>(surfaces_.size());
+      const std::uint64_t end = place.corner + (1ULL << 3 * (levels_ - place.level));
+      const auto on_surfaces =
+          std::ranges::lower_bound(surfaces_, end) - std::ranges::lower_bound(surfaces_, place.corner);
+      weight += static_cast<double>(on_surfaces) / static_cast<double>(surfaces_.size());
     }
-    std::uint64_t lights = 0;
-    for (const Entry& entry : entries) lights += static_cast<std::uint64_t>(std::popcount(entry.cells));
-    node.walked = node.weight * static_cast<double>(lights) / 64.0;
-    node.words = leaf_words(entries.size(), is_plain(entries));
-    tree_.entries.insert(tree_.entries.end(), entries.begin(), entries.end());
+    std::uint64_t lights = 64 * place.all;
+    for (const Entry& entry : own) lights += static_cast<std::uint64_t>(std::popcount(entry.cells));
+    return {.walked = weight * static_cast<double>(lights) / 64.0,
+            .words = leaf_words(place.all + own.size(), is_plain(own))};
   }
 
   std::span<const LitBrick> bricks_;
@@ -151,15 +189,15 @@ class Pruning {
  private:
   double cost(std::uint32_t number) {
     const BrickNode& node = tree_.nodes[number];
-    const double as_leaf = node.walked + price_ * static_cast<double>(node.words);
+    const double as_leaf = cost_as_leaf(node, price_);
     if (node.children == 0) {
       pruned_.leaves[number] = true;
       return as_leaf;
     }
-    double as_inner = price_ * 8.0;
-    for (std::uint32_t child = 0; child < 8; ++child) as_inner += cost(node.children + child);
-    pruned_.leaves[number] = as_leaf <= as_inner * (1.0 + 1e-12);
-    return std::min(as_leaf, as_inner);
+    double below = price_ * CHILDREN_WORDS;
+    for (std::uint32_t child = 0; child < 8; ++child) below += cost(node.children + child);
+    pruned_.leaves[number] = is_better_as_leaf(as_leaf, below);
+    return pruned_.leaves[number] ? as_leaf : below;
   }
 
   void mark(std::uint32_t number) {
@@ -203,8 +241,6 @@ BrickTree make_tree(std::span<const LitBrick> bricks, std::uint32_t levels, std:
 }
 
 Pruned prune(const BrickTree& tree, std::uint64_t words) {
-  // Leaves that agree merge, and those that nearly do: 64 MiB of them are worth a sixtieth of a light at a point.
-  constexpr double LEAST_PRICE = 1e-9;
   Pruned best = Pruning(tree, LEAST_PRICE).run();
   if (best.words <= words) return best;
   double low = std::log(LEAST_PRICE);

@@ -17,27 +17,34 @@ struct Entry {
   std::uint64_t cells = 0;
 };
 
+/// Lights in all cells of a node are in all cells below it, too: only the highest node that has them keeps them, for
+/// all of its children.
 struct BrickNode {
-  std::uint64_t first = 0;  ///< of the entries, as a leaf
-  std::uint32_t count = 0;
+  std::uint64_t first = 0;     ///< of the entries
+  std::uint32_t all = 0;       ///< lights in all of its cells that no node above it keeps
+  std::uint32_t own = 0;       ///< as a leaf, the lights besides these and those above; behind them
   std::uint32_t children = 0;  ///< the first of 8; 0: none
-  double weight = 0.0;         ///< of its points: how often they are asked for
-  double walked = 0.0;         ///< as a leaf: weight times the lights of an average cell
+  double walked = 0.0;         ///< as a leaf: how often its points are asked for, times the lights of an average cell
   std::uint64_t words = 0;     ///< as a leaf
 };
 
-/// Bricks at the finest level of each place, and what each larger one would be without its children.
+/// Bricks at the finest level of each place at which they are worth their words at the least price, and what each
+/// larger one would be without its children.
 struct BrickTree {
   std::vector<BrickNode> nodes;  ///< the first is the root
   std::vector<Entry> entries;
+  std::size_t peak_entries = 0;  ///< while it was made
 
-  [[nodiscard]] std::span<const Entry> of(const BrickNode& node) const {
-    return {entries.data() + node.first, node.count};
+  [[nodiscard]] std::span<const Entry> all_of(const BrickNode& node) const {
+    return {entries.data() + node.first, node.all};
+  }
+  [[nodiscard]] std::span<const Entry> own_of(const BrickNode& node) const {
+    return {entries.data() + node.first + node.all, node.own};
   }
 };
 
-/// `bricks` ascend by place, then level, then light. `surfaces`: places (Morton codes) of points on surfaces,
-/// ascending, which are asked for as often as all the air together.
+/// `bricks` ascend by place, then level, then light; those of one light do not overlap. `surfaces`: places (Morton
+/// codes) of points on surfaces, ascending, which are asked for as often as all the air together.
 [[nodiscard]] BrickTree make_tree(std::span<const LitBrick> bricks, std::uint32_t levels,
                                   std::span<const std::uint64_t> surfaces);
 

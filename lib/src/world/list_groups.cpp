@@ -101,9 +101,9 @@ void ListGroups::close() {
   together_.clear();
 }
 
-bool ListGroups::finish(std::size_t words_before) {
+bool ListGroups::finish(std::size_t words_before, std::size_t most_words) {
   close();
-  return whole_units(words_before) + words_.size() <= MOST_LIST_WORDS;
+  return whole_units(words_before) + words_.size() <= most_words;
 }
 
 void ListGroups::store(std::vector<std::uint32_t>& words) const {

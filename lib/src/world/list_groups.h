@@ -20,8 +20,10 @@ class ListGroups {
  public:
   /// The list that a word stands for; lists of neighbours come one after the other.
   void add(std::size_t word, std::vector<std::uint32_t> list);
-  /// Closes the last group. False: lists behind so many words take more than words can name.
-  [[nodiscard]] bool finish(std::size_t words_before);
+  /// Closes the last group. False: with so many words before them, lists take more than `most_words`.
+  [[nodiscard]] bool finish(std::size_t words_before, std::size_t most_words);
+  /// Of closed groups.
+  [[nodiscard]] std::size_t words() const { return words_.size(); }
 
   /// Writes the lists behind `words`, and into its words what names them.
   void store(std::vector<std::uint32_t>& words) const;

@@ -143,6 +143,7 @@ class Cutting {
   }
 
   void part(const Polygon& polygon, std::span<const std::uint32_t> near, std::size_t word, const Square& square) {
+    if (how_.is_too_much()) return;
     if (polygon.count == 0) return leaf(word, {});
     const Bounds box = bounds_of(polygon);
     const double slack = slack_of(box);

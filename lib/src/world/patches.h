@@ -19,6 +19,7 @@ struct Patching {
   double slack = 0.0;            ///< m, of the positions
   double patch = 0.25;           ///< side over range
   std::function<void(std::size_t word, std::vector<std::uint32_t> list)> found;
+  std::function<bool()> is_too_much;  ///< then the rest of all patches is left out
 };
 
 /// Where a triangle's tables go, and what is counted of them.

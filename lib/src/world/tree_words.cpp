@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace lamp::world {
@@ -32,6 +33,13 @@ std::vector<std::uint32_t> header(const TreeGrid& grid) {
   return words;
 }
 
+std::vector<Entry> both(std::span<const Entry> some, std::span<const Entry> others) {
+  std::vector<Entry> entries;
+  entries.reserve(some.size() + others.size());
+  std::ranges::merge(some, others, std::back_inserter(entries), {}, &Entry::light, &Entry::light);
+  return entries;
+}
+
 }  // namespace
 
 TreeWords TreeWords::of_every_light(const TreeGrid& grid) {
@@ -48,19 +56,22 @@ TreeWords::TreeWords(const TreeGrid& grid, const BrickTree& tree, const Pruned& 
   std::vector<Entry> entries;
   for (const std::uint32_t light : outside) entries.push_back({.light = light, .cells = ALL_CELLS});
   words_[TREE_OUTSIDE] = append(entries);
-  write_node(TREE_ROOT, tree, pruned, 0);
+  write_node(TREE_ROOT, tree, pruned, 0, {});
 }
 
-void TreeWords::write_node(std::uint64_t node, const BrickTree& tree, const Pruned& pruned, std::uint32_t number) {
+void TreeWords::write_node(std::uint64_t node, const BrickTree& tree, const Pruned& pruned, std::uint32_t number,
+                           std::span<const Entry> all) {
+  const BrickNode& from = tree.nodes[number];
+  const std::vector<Entry> all_here = both(all, tree.all_of(from));
   if (pruned.leaves[number]) {
-    words_[node] = append(tree.of(tree.nodes[number]));
+    words_[node] = append(both(all_here, tree.own_of(from)));
     return;
   }
   const std::uint64_t children = words_.size();
   words_.resize(children + 8);
   words_[node] = node_of(TREE_INNER, children);
   for (std::uint32_t child = 0; child < 8; ++child)
-    write_node(children + child, tree, pruned, tree.nodes[number].children + child);
+    write_node(children + child, tree, pruned, from.children + child, all_here);
 }
 
 std::uint32_t TreeWords::append(std::span<const Entry> entries) {

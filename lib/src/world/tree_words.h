@@ -37,7 +37,9 @@ class TreeWords {
   [[nodiscard]] std::vector<std::uint32_t> lights_at(const Vec3& position, std::uint32_t light_count) const;
 
  private:
-  void write_node(std::uint64_t node, const BrickTree& tree, const Pruned& pruned, std::uint32_t number);
+  /// `all`: lights that nodes above it keep.
+  void write_node(std::uint64_t node, const BrickTree& tree, const Pruned& pruned, std::uint32_t number,
+                  std::span<const Entry> all);
   [[nodiscard]] std::uint32_t append(std::span<const Entry> entries);
   void write_bits(std::uint64_t first, std::span<const Entry> entries);
   void visit(std::uint64_t node, std::uint32_t level, const glm::uvec3& brick, const Enter& enter,

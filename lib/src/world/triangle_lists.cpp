@@ -77,16 +77,18 @@ struct Fineness {
   std::uint32_t merged = 1;
 };
 
-/// One way to make all lists.
+/// One way to make all lists. As soon as they take more than `most_words`, it leaves the rest.
 class Build {
  public:
-  Build(const TriangleListsInfo& info, std::span<const StillLight> lights, const Fineness& fineness)
-      : info_(info), lights_(lights), merged_(fineness.merged) {
+  Build(const TriangleListsInfo& info, std::span<const StillLight> lights, const Fineness& fineness,
+        std::size_t most_words)
+      : info_(info), lights_(lights), merged_(fineness.merged), most_words_(most_words) {
     how_ = {.lights = lights,
             .hides = info.hides ? &info.hides : nullptr,
             .slack = info.slack_m,
             .patch = fineness.patch,
-            .found = [this](std::size_t word, std::vector<std::uint32_t> list) { found(word, std::move(list)); }};
+            .found = [this](std::size_t word, std::vector<std::uint32_t> list) { found(word, std::move(list)); },
+            .is_too_much = [this] { return is_too_much(); }};
     made_.stats.patch = fineness.patch;
     made_.stats.merged = fineness.merged;
     made_.triangles = static_cast<std::uint32_t>(info.triangles.size());
@@ -94,7 +96,7 @@ class Build {
     made_.words.assign(std::max<std::size_t>(1, info.triangles.size()), shared::TRIANGLE_UNLIT);
   }
 
-  /// False: more than words can name.
+  /// False: they take more.
   [[nodiscard]] bool run() {
     std::vector<std::uint32_t> triangles(info_.triangles.size());
     std::iota(triangles.begin(), triangles.end(), 0U);
@@ -102,7 +104,7 @@ class Build {
     std::iota(all.begin(), all.end(), 0U);
     if (!triangles.empty()) halve(triangles, all);
     flush();
-    if (!groups_.finish(made_.words.size())) return false;
+    if (!groups_.finish(made_.words.size(), most_words_)) return false;
     groups_.store(made_.words);
     made_.stats.groups = groups_.groups();
     made_.stats.lists = groups_.lists();
@@ -112,12 +114,15 @@ class Build {
   [[nodiscard]] TriangleLists take() { return std::move(made_); }
 
  private:
+  [[nodiscard]] bool is_too_much() const { return made_.words.size() + groups_.words() > most_words_; }
+
   [[nodiscard]] double slack_of(const Bounds& box) const {
     const glm::dvec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
     return info_.slack_m + 1e-5 * std::max({far.x, far.y, far.z});  // more than a patch's own
   }
 
   void halve(std::span<std::uint32_t> triangles, const std::vector<std::uint32_t>& lights) {
+    if (is_too_much()) return;
     Bounds box = box_of(info_.triangles[triangles.front()]);
     Bounds middles{middle_of(triangles.front()), middle_of(triangles.front())};
     for (const std::uint32_t triangle : triangles) {
@@ -175,6 +180,7 @@ class Build {
   const TriangleListsInfo& info_;
   std::span<const StillLight> lights_;
   std::uint32_t merged_;
+  std::size_t most_words_;
   world::Patching how_;
   world::ListGroups groups_;
   TriangleLists made_;
@@ -213,11 +219,11 @@ Result<TriangleLists> make_triangle_lists(const TriangleListsInfo& info) {
   for (const shared::Light& light : info.lights) lights.push_back(world::still_light(light));
   Fineness fineness{.patch = info.patch};
   while (true) {
-    Build build(info, lights, fineness);
-    const bool fits_words = build.run();
-    TriangleLists made = build.take();
     const std::optional<Fineness> next = coarser(fineness);
-    if (fits_words && (made.bytes() <= info.budget_bytes || !next)) {
+    const std::uint64_t budget_words = next ? info.budget_bytes / sizeof(std::uint32_t) : world::MOST_LIST_WORDS;
+    Build build(info, lights, fineness, std::min<std::uint64_t>(budget_words, world::MOST_LIST_WORDS));
+    if (build.run()) {
+      TriangleLists made = build.take();
       note(made, info);
       return made;
     }

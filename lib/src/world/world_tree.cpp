@@ -108,6 +108,7 @@ struct WorldTree::State {
   WorldTreeInfo info;  ///< its lights are `lights`
   std::vector<shared::Light> lights;
   TreeGrid grid;
+  std::optional<world::BrickLevels> levels;  ///< as built
   TreeWords words;
   std::uint64_t capacity = 0;
   WorldTreeCounts counts;
@@ -119,8 +120,8 @@ struct WorldTree::State {
 void WorldTree::State::build() {
   info.lights = lights;
   grid = world::grid_of(info);
-  const world::BrickLevels levels(info, grid);
-  counts = {.cell_m = grid.cell_m, .detail = levels.detail()};
+  levels.emplace(info, grid);
+  counts = {.cell_m = grid.cell_m, .detail = levels->detail()};
   std::vector<std::uint32_t> outside;
   LightCells reach(1);
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -129,13 +130,14 @@ void WorldTree::State::build() {
   }
   const std::vector<std::uint64_t> surfaces =
       info.occluders ? surface_places(*info.occluders, grid) : std::vector<std::uint64_t>{};
-  const BrickTree tree = world::make_tree(lit_bricks(info, grid, levels), grid.levels, surfaces);
+  const BrickTree tree = world::make_tree(lit_bricks(info, grid, *levels), grid.levels, surfaces);
   const std::uint64_t fixed = shared::TREE_HEADER + 1 + world::leaf_words(outside.size(), true);
   const std::uint64_t most = std::min<std::uint64_t>(info.budget / 4, shared::TREE_PLACE);
   const Pruned whole = world::prune(tree, ~0ULL);
   const Pruned pruned = most > fixed ? world::prune(tree, most - fixed) : Pruned{};
   counts.every_light = most <= fixed || pruned.words > most - fixed;
   counts.outside = outside.size();
+  counts.peak_entries = tree.peak_entries;
   if (counts.every_light) {
     words = TreeWords::of_every_light(grid);
   } else {
@@ -166,9 +168,12 @@ void WorldTree::State::change_leaves(std::uint32_t id, const shared::Light& now,
     glm::uvec3 brick;
   };
   std::vector<Leaf> leaves;
+  // Below the cells of its bricks the light is wherever the cell around is.
+  const std::uint32_t cells_at = levels->of(lights[id]) + 2;
   words.leaves(
       [&](std::uint32_t level, const glm::uvec3& brick) {
-        return before.reaches_brick(level, brick) || after.reaches_brick(level, brick);
+        const std::uint32_t below = level > cells_at ? level - cells_at : 0;
+        return before.reaches_brick(level - below, brick >> below) || after.reaches_brick(level, brick);
       },
       [&](std::uint64_t node, std::uint32_t level, const glm::uvec3& brick) {
         leaves.push_back({node, level, brick});
