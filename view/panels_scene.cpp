@@ -74,20 +74,11 @@ void choose_still(PanelFrame& p) {
 }  // namespace
 
 std::string named_by_widgets(std::string_view error) {
-  const auto is_letter = [&](std::size_t at) { return at < error.size() && error[at] >= 'a' && error[at] <= 'z'; };
-  std::string words;
-  bool in_name = false;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const bool begins = i == 0 || error[i - 1] == ' ';
-    if (begins && error.substr(i, 2) == "--" && is_letter(i + 2)) {
-      in_name = true;
-      ++i;
-      continue;
-    }
-    in_name = in_name && (error[i] == '-' || is_letter(i));
-    words += in_name && error[i] == '-' ? ' ' : error[i];
-  }
-  return words;
+  return with_options_named(error, [](std::string_view option) {
+    std::string words(option);
+    std::ranges::replace(words, '-', ' ');
+    return words;
+  });
 }
 
 std::string why_refused(const Request& request) {

@@ -68,6 +68,7 @@ std::vector<GroupEntry> entries_of(const Series& series) {
                          .host = method.host,
                          .still_lists = method.still_lists,
                          .still_occlusion = method.still_occlusion,
+                         .still_bytes = method.still_bytes,
                          .swept = swept};
         if (series.paths.size() > 1 && method.path.empty() && series.chart.x != "path") entry.label += ", " + path;
         for (const auto& [key, value] : swept) entry.options.push_back(fmt::format("{}={}", key, value));
@@ -206,7 +207,7 @@ std::string shadow_words(const Group& group) {
   const ShadowChoice usual;
   std::string words;
   for (const auto& [name, value] : SHADOW_WORDS) {
-    if (group.shadows.*value == usual.*value) continue;
+    if (group.shadows.filter == usual.filter || group.shadows.*value == usual.*value) continue;
     words += fmt::format(" {}={}", name, group.shadows.*value);
     if (value == &ShadowChoice::filter) words += fmt::format(" atlas={}", group.shadows.atlas);
   }
@@ -219,6 +220,7 @@ std::string host_words(const GroupEntry& entry) {
   if (entry.host != Host::plan) words += fmt::format(" host={}", host_names()[static_cast<std::size_t>(entry.host)]);
   if (entry.still_lists != "off")
     words += fmt::format(" still_lists={} still_occlusion={}", entry.still_lists, entry.still_occlusion);
+  if (entry.still_bytes != SuiteMethod{}.still_bytes) words += fmt::format(" still_bytes={}", entry.still_bytes);
   return words;
 }
 

@@ -18,6 +18,7 @@ struct GroupEntry {
   Host host = Host::plan;
   std::string still_lists = "off";
   std::uint32_t still_occlusion = 0;
+  double still_bytes = 16.0;
   std::vector<std::pair<std::string, std::string>> swept;  ///< the series' options here: for the chart's x axis
   std::string calibration_hash;  ///< of what `auto` goes by; empty: no concern of this method's
 };

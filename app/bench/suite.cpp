@@ -92,8 +92,11 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
     if (object.has("options") && object.at("options") != json::array()) object.read("options", method.options);
     object.read("label", method.label);
     object.read("path", method.path);
+    if (!method.path.empty() && std::ranges::find(path_names(), method.path) == path_names().end())
+      object.wrong("path", joined(path_names()));
     object.read("still_lists", method.still_lists);
     object.read("still_occlusion", method.still_occlusion, 0, 1024);
+    object.read("still_bytes", method.still_bytes, 0.0, 1e9);
     const bool known = method.still_lists == "triangle-lists" || method.still_lists == "world-tree";
     if (method.still_lists != "off" && (!known || method.path == "standard-deferred"))
       object.wrong("still_lists", "off, triangle-lists or world-tree; none with standard-deferred");
@@ -109,6 +112,7 @@ SuiteMethod parse_method_entry(const json& value, const std::string& where) {
       method.label += fmt::format(", {}", host_names()[static_cast<std::size_t>(method.host)]);
     if (method.still_lists != "off") method.label += ", " + method.still_lists;
     if (method.still_occlusion != 0) method.label += fmt::format(" {}", method.still_occlusion);
+    if (method.still_bytes != SuiteMethod{}.still_bytes) method.label += fmt::format(", {} bytes", method.still_bytes);
   }
   return method;
 }
@@ -176,18 +180,18 @@ std::optional<LightWave> parse_flight(SuiteJson& object) {
   return wave;
 }
 
-/// Keys that nothing would read.
+/// Keys that nothing would read. What is off by name may be followed by what it would read, as on the command line.
 void check_pairs(SuiteJson& object, const Series& series) {
   if (series.frame >= 0 && object.has("cameras")) object.wrong("cameras", "none beside a frame, which has its own");
   if (series.flight)
     for (const char* key : {"lights", "cameras", "frame"})
       if (object.has(key)) object.wrong(key, "none where there is a flight, which has its own");
-  if (series.mirror == 0.0 && object.has("mirror_lists")) object.wrong("mirror_lists", "none without mirror");
+  if (!object.has("mirror") && object.has("mirror_lists")) object.wrong("mirror_lists", "none without mirror");
   const std::string& filter = series.shadows.filter;
-  if (filter == "off" && object.has("atlas")) object.wrong("atlas", "none without shadows");
+  const bool casts = object.has("shadows");
+  if (!casts && object.has("atlas")) object.wrong("atlas", "none without shadows");
   for (const ShadowWord& word : SHADOW_WORDS)
-    if (filter == "off" && word.value != &ShadowChoice::filter && object.has(word.name))
-      object.wrong(word.name, "none without shadows");
+    if (!casts && object.has(word.name)) object.wrong(word.name, "none without shadows");
   if ((filter == "hard" || filter == "pcf") && object.has("shadow_blur"))
     object.wrong("shadow_blur", fmt::format("none with {}, which is filtered where it is looked up", filter));
 }
@@ -239,7 +243,7 @@ void check_repeats(SuiteJson& object, const Series& series) {
       std::vector<std::string> words = method.options;
       std::ranges::sort(words);
       words.insert(words.end(), {method.name, path, method.still_lists, std::to_string(method.still_occlusion),
-                                 std::to_string(static_cast<int>(method.host))});
+                                 std::to_string(method.still_bytes), std::to_string(static_cast<int>(method.host))});
       const auto [first, is_new] = labels.emplace(fmt::format("{}", fmt::join(words, "\n")), method.label);
       if (!is_new)
         throw Error(fmt::format("{}: methods: '{}' and '{}' ask for the same, by the path {}; expected it once",

@@ -27,6 +27,7 @@ struct SuiteMethod {
   Host host = Host::plan;
   std::string still_lists = "off";    ///< what lights that stand still are looked up in, as `--still-lists`
   std::uint32_t still_occlusion = 0;  ///< as `--still-occlusion`
+  double still_bytes = 16.0;          ///< as `--still-bytes`
 };
 
 /// How many lights a frame of a flight has: from + (to - from) t², with t going 0 → 1 → 0 `waves` times over the

@@ -96,7 +96,8 @@ Suite suite_of_scene(const BenchOptions& o, const Scene& scene) {
                               .options = r.options,
                               .label = name,
                               .still_lists = r.still_lists,
-                              .still_occlusion = r.still_occlusion});
+                              .still_occlusion = r.still_occlusion,
+                              .still_bytes = r.still_bytes});
     if (!is_auto(name)) static_cast<void>(parse_method(name));
   }
   return scene_suite(std::move(series));
@@ -336,6 +337,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
   add_decal_option(*command, o->request);
   add_probe_option(*command, o->request);
   add_still_options(*command, o->request);
+  add_still_bytes_option(*command, o->request);
   add_mirror_options(*command, o->request);
   add_out_option(*command, o->out, "write to this folder; what it has results of is not measured again")
       .type_name("FOLDER");

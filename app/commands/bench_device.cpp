@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "files/content_hash.h"
-#include "scene/flight.h"
 #include "scene/number_triangles.h"
 #include "scene/place_lights.h"
 
@@ -22,41 +21,10 @@ std::uint32_t scene_frame(const Group& group, std::uint32_t number, std::uint32_
   return static_cast<std::uint32_t>(std::uint64_t{number} * path_frames / group.frames);
 }
 
-Camera camera_of(const Scene& scene, const Group& group, std::uint32_t frame) {
-  if (!group.flight && group.frame < 0) return find_camera(scene, group.camera);
-  if (!group.flight) return frame_camera(scene, group.frame);
-  if (!scene.flight) throw Error(fmt::format("scene '{}': has no camera flight", group.scene));
-  return flight_camera(*scene.flight, frame);
-}
-
-View view_at(const Scene& scene, const Group& group, std::uint32_t frame) {
-  glm::uvec2 size = parse_size(group.size);
-  const HostDepth depth = host_depth_of(group);
-  if (group.stereo_m > 0.0 && (size.x % 2 != 0 || scene.captured))
-    throw Error(fmt::format("stereo: expected an even width and a scene that is no captured frame, got {} of {}",
-                            group.size, group.scene));
-  if (scene.captured) {
-    const View& view = scene.captured->view;
-    if (size != glm::uvec2(view.width(), view.height()) || group.projection != "camera" || group.frame >= 0 ||
-        group.flight)
-      throw Error(fmt::format("scene '{}': is a captured frame of {}x{} pixels, with one camera of its own; got {}{}{}",
-                              group.scene, view.width(), view.height(), group.size,
-                              group.projection != "camera" ? ", projection " + group.projection : "",
-                              group.frame >= 0 || group.flight ? ", a frame of a flight" : ""));
-    if (!depth.reversed || depth.samples != 1)
-      throw Error(fmt::format("scene '{}': is a captured frame with reversed depth of one sample a pixel; got {} of {}",
-                              group.scene, group.depth, depth.samples));
-    return view;
-  }
-  if (group.stereo_m > 0.0) size.x /= 2;
-  const View view = view_of(camera_of(scene, group, frame), size.x, size.y, group.projection);
-  return depth.reversed ? view : with_standard_depth(view);
-}
-
 std::vector<View> views_at(const Scene& scene, const Group& group, std::uint32_t frame) {
-  const View view = view_at(scene, group, frame);
-  if (group.stereo_m > 0.0) return both_eyes(view, group.stereo_m);
-  return {view};
+  Request request = request_of(group, group.entries.front());
+  if (group.flight) request.frame = static_cast<int>(frame);
+  return requested_views(request, scene);
 }
 
 }  // namespace
@@ -122,8 +90,15 @@ void SceneCheck::check(Group& group) {
     hash_ = hash_of_files(scene_.files);
     name_ = group.scene;
   }
-  static_cast<void>(view_at(scene_, group, 0));
+  static_cast<void>(views_at(scene_, group, 0));
   static_cast<void>(shadows_of(group, scene_));
+  static_cast<void>(mirror_of(group, scene_));
+  for (const GroupEntry& entry : group.entries) check_still(request_of(group, entry), scene_);
+  if (scene_.captured) {  // which has no place for them; elsewhere they are placed when they are needed
+    const Request request = request_of(group, group.entries.front());
+    static_cast<void>(requested_decals(request, scene_));
+    static_cast<void>(requested_probes(request, scene_));
+  }
   group.scene_hash = hash_;
 }
 
@@ -154,6 +129,7 @@ BenchFrame bench_frame(BenchScene& scene, const Group& group, std::uint32_t numb
 Request request_of(const Group& group, const GroupEntry& entry) {
   return {.scene = group.scene,
           .size = group.size,
+          .size_given = true,
           .lights = group.lights,
           .spots = static_cast<float>(group.spots),
           .range = group.range,
@@ -168,6 +144,7 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .still = static_cast<float>(group.still),
           .still_lists = entry.still_lists,
           .still_occlusion = entry.still_occlusion,
+          .still_bytes = static_cast<float>(entry.still_bytes),
           .mirror = static_cast<float>(group.mirror),
           .mirror_lists = group.mirror_lists,
           .shadows = group.shadows,

@@ -62,8 +62,8 @@ struct BenchFrame {
 /// Looks at scenes before any work, one group after the other.
 class SceneCheck {
  public:
-  /// Throws Error for a scene, camera, flight or projection that is not there, and for shadows of a captured
-  /// frame. Fills in the hash of the scene's files.
+  /// Throws Error for a scene, camera, flight or projection that is not there, and for what a captured frame cannot
+  /// have. Fills in the hash of the scene's files.
   void check(Group& group);
 
  private:

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "commands/bench_device.h"
@@ -16,14 +17,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs a check of a group. Errors begin with the suite and the series; with neither where a scene was named (empty).
+/// An option as suites call it: "shadow-blur" is shadow_blur, and what they have a list of is named so, "size" sizes.
+std::string suite_key(std::string_view option) {
+  constexpr std::array<std::string_view, 7> LISTS{"size", "range", "path", "projection", "camera", "option", "method"};
+  std::string key(option);
+  std::ranges::replace(key, '-', '_');
+  return std::ranges::find(LISTS, option) == LISTS.end() ? key : key + "s";
+}
+
+/// Runs a check of a group. Errors begin with the suite and the series, and name its keys; where a scene was named
+/// (empty), they name options.
 template <class Check>
 void check_in(const std::string& suite, const Group& group, const Check& check) {
   try {
     check();
   } catch (const Error& error) {
     if (suite.empty()) throw;
-    throw Error(fmt::format("{}: series '{}': {}", suite, group.series, error.what()), error.exit());
+    throw Error(fmt::format("{}: series '{}': {}", suite, group.series, with_options_named(error.what(), suite_key)),
+                error.exit());
   }
 }
 

@@ -59,10 +59,12 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
   if (group.probes != 0) parameters["probes"] = group.probes;
   if (entry.still_lists != "off") parameters["still_lists"] = entry.still_lists;
   if (entry.still_occlusion != 0) parameters["still_occlusion"] = entry.still_occlusion;
+  if (entry.still_bytes != SuiteMethod{}.still_bytes) parameters["still_bytes"] = entry.still_bytes;
   if (group.stereo_m != 0.0) parameters["stereo"] = group.stereo_m;
   const ShadowChoice usual;
   for (const auto& [name, value] : SHADOW_WORDS)
-    if (group.shadows.*value != usual.*value) parameters[name] = group.shadows.*value;
+    if (group.shadows.filter != usual.filter && group.shadows.*value != usual.*value)
+      parameters[name] = group.shadows.*value;
   if (group.shadows.filter != usual.filter) parameters["atlas"] = group.shadows.atlas;
   if (group.mirror != 0.0) parameters["mirror"] = group.mirror;
   if (group.mirror != 0.0) parameters["mirror_lists"] = group.mirror_lists;

@@ -44,9 +44,8 @@ namespace lamp::app {
 void check_repeats(const CLI::App& command);
 /// Throws Error for options that contradict each other, or that nobody would read without another.
 void check_pairs(const CLI::App& command);
-/// The same of shadows, whose filter and whose method's options a state may say. With `--shadows off` others may stay
-/// where they are; but a method that cuts by shadows would be another than its name says.
-void check_shadow_options(const CLI::App& command, std::string_view filter, std::span<const std::string> options);
+/// The same of shadows, whose filter a state may say. With `--shadows off` others may stay where they are.
+void check_shadow_options(const CLI::App& command, std::string_view filter);
 /// Throws Error for an option that is given an empty value.
 void check_values(const CLI::App& command);
 

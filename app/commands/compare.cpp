@@ -67,9 +67,6 @@ void check_side(const CompareOptions& o, const std::string& typed, const MethodW
   } catch (const Error& error) {
     throw Error(fmt::format("compare '{}': {}", typed, error.what()));
   }
-  if (const auto cut = cut_by_shadows(word.options); cut && request.shadows.filter == "off")
-    throw Error(
-        fmt::format("compare '{}': {} cuts lights by their shadow maps; expected --shadows FILTER too", typed, *cut));
 }
 
 /// The two methods, as options ask for them.

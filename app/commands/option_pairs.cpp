@@ -62,7 +62,7 @@ void check_point_options(const CLI::App& command) {
 
 }  // namespace
 
-void check_shadow_options(const CLI::App& command, std::string_view filter, std::span<const std::string> options) {
+void check_shadow_options(const CLI::App& command, std::string_view filter) {
   const bool off = filter == "off";
   if (off && !is_given(command, "--shadows"))
     for (const CLI::Option* option : command.get_options())
@@ -71,9 +71,6 @@ void check_shadow_options(const CLI::App& command, std::string_view filter, std:
   if (is_given(command, "--shadow-blur") && (filter == "hard" || filter == "pcf"))
     throw Error(
         fmt::format("--shadow-blur: blurs vsm and evsm, and --shadows {} is filtered where it is looked up", filter));
-  if (!off) return;
-  if (const auto cut = cut_by_shadows(options))
-    throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", *cut));
 }
 
 void check_pairs(const CLI::App& command) {
@@ -87,9 +84,7 @@ void check_pairs(const CLI::App& command) {
   check_point_options(command);
   const bool casts = command.get_option_no_throw("--shadows") != nullptr;
   if (casts && !is_given(command, "--state")) {  // which the command looks into
-    const std::string filter = is_given(command, "--shadows") ? value_of(command, "--shadows") : "off";
-    const CLI::Option* options = command.get_option_no_throw("--option");
-    check_shadow_options(command, filter, options == nullptr ? std::vector<std::string>() : options->results());
+    check_shadow_options(command, is_given(command, "--shadows") ? value_of(command, "--shadows") : "off");
   }
   check_panel_options(command);
   check_numbers_and_places(command);

@@ -370,7 +370,7 @@ Run add_render(CLI::App& app) {
       "  lamp render city.glb --method tiled --option tile=32 --path forward --size 1920x1080");
   return [o, command] {
     o->state_file = value_of(*command, "--state");
-    check_shadow_options(*command, o->state.request.shadows.filter, o->state.request.options);
+    check_shadow_options(*command, o->state.request.shadows.filter);
     return render(*o);
   };
 }

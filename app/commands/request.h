@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -124,6 +125,10 @@ void check_once(std::string_view option, std::vector<std::string> values);
 /// table), its options, size, path, BRDF.
 void check_request(const Request& request, const std::string& method);
 
+/// An error of these checks for those who do not type options: "--shadow-blur" is what `name` makes of "shadow-blur".
+[[nodiscard]] std::string with_options_named(std::string_view error,
+                                             const std::function<std::string(std::string_view)>& name);
+
 /// A request made concrete on the host: nothing of it needs a device.
 struct Setup {
   Scene scene;
@@ -220,6 +225,8 @@ void check_mirror(const Request& request);
 [[nodiscard]] std::span<const std::string_view> still_lists_names();
 /// Throws Error for `--still-lists` and what goes with it, as far as it is known before a scene is loaded.
 void check_still(const Request& request);
+/// The same with a look at the scene, which a capture has no triangles of.
+void check_still(const Request& request, const Scene& scene);
 [[nodiscard]] std::span<const std::string_view> depth_names();
 /// What `--brdf`, `--verifier` take.
 [[nodiscard]] std::span<const std::string_view> brdf_names();

@@ -83,7 +83,11 @@ std::optional<ShadowSettings> requested_shadows(const Request& request, const Sc
 }
 
 void check_shadow_choice(const Request& request) {
-  if (!requested_shadows(request)) return;
+  if (!requested_shadows(request)) {
+    if (const auto cut = cut_by_shadows(request.options))
+      throw Error(fmt::format("--option {}: cuts lights by their shadow maps; expected --shadows FILTER too", *cut));
+    return;
+  }
   const std::uint32_t size = request.shadows.atlas;
   static_cast<void>(take(ShadowAtlas::create({.size = size, .max_image_size = size})));  // the device may take less
 }

@@ -84,7 +84,7 @@ std::uint32_t still_kind(const std::string& lists) {
 void check_still(const Request& request) {
   static_cast<void>(parse_name("--still-lists", request.still_lists, LISTS));
   if (request.still_lists != OFF && request.path == "standard-deferred")
-    throw Error(fmt::format("--still-lists {}: path standard-deferred walks no lists, expected another --path",
+    throw Error(fmt::format("--path standard-deferred: walks no lists, expected another, or no --still-lists {}",
                             request.still_lists));
   if (request.still_lists == OFF && request.still_bytes != Request{}.still_bytes)
     throw Error(
@@ -95,6 +95,12 @@ void check_still(const Request& request) {
         fmt::format("--still-occlusion {}: there are no lists to leave lights out of, expected --still-lists "
                     "triangle-lists or world-tree",
                     request.still_occlusion));
+}
+
+void check_still(const Request& request, const Scene& scene) {
+  if (request.still_lists != OFF && scene.captured)
+    throw Error(fmt::format("--still-lists {}: the capture {} has no triangles, expected off", request.still_lists,
+                            request.scene));
 }
 
 bool generated_first(const Request& request) { return request.still > 0.0F || request.still_lists != OFF; }
@@ -119,9 +125,7 @@ float still_margin(const Request& request, const Box& scene, std::span<const Vie
 }
 
 StillSetup make_still(const Request& request, const StillInfo& of) {
-  if (of.scene.captured)
-    throw Error(fmt::format("--still-lists {}: the capture {} has no triangles, expected off", request.still_lists,
-                            request.scene));
+  check_still(request, of.scene);
   const auto begin = std::chrono::steady_clock::now();
   StillSetup made{.triangles = still_surfaces(of.scene, of.painted)};
   const bool is_tree = still_kind(request.still_lists) == gpu::STILL_TREE;

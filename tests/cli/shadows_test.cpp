@@ -141,7 +141,8 @@ TEST_F(Shadows, SayWhatIsWrong) {
   for (const char* option : {"--shadow-lights", "--shadow-budget", "--atlas", "--point-shadows", "--shadow-raster"})
     expect_error(BAD_INPUT, {"render", "plane", option, "4"}, {option, "expected --shadows FILTER too"});
   for (const char* cut : {"occlusion=radial", "proxy=cut"})
-    expect_error(BAD_INPUT, {"render", "plane", "--option", cut}, {cut, "expected --shadows FILTER too"});
+    expect_error(BAD_INPUT, {"render", "plane", "--method", "drobot-raster-tile", "--option", cut},
+                 {cut, "expected --shadows FILTER too"});
   expect_error(BAD_INPUT, {"compare", "tiled", "lamplight:occlusion=radial", "plane"},
                {"lamplight:occlusion=radial", "expected --shadows FILTER too"});
   expect_error(BAD_INPUT, {"render", "plane", "--lights", "1", "--shadows", "pcf", "--atlas", "1000"},

@@ -66,6 +66,9 @@ TEST(BenchSuite, KeysThatNothingWouldRead) {
   expect_error(suite_with(R"("shadow_budget": "9")"), {"shadow_budget", "none without shadows"});
   expect_error(suite_with(R"("shadows": "pcf", "shadow_blur": "lines")"), {"shadow_blur", "none with pcf"});
   expect_error(suite_with(R"("mirror_lists": "brute-force")"), {"mirror_lists", "none without mirror"});
+  for (const char* off :
+       {R"("shadows": "off", "atlas": 1024, "shadow_blur": "lines")", R"("mirror": 0, "mirror_lists": "brute-force")"})
+    EXPECT_EQ(error_of(suite_with(off)), "no error") << "what is off by name may have them, as on the command line";
 }
 
 TEST(BenchSuite, HostsThatCannotHaveIt) {
@@ -87,11 +90,13 @@ TEST(BenchSuite, LabelsTellEntriesApart) {
   const Suite suite = parse_suite(
       suite_with(
           R"("still": 1, "methods": ["tiled", {"name": "tiled", "path": "forward"}, {"name": "tiled", "host": "culler"},
-      {"name": "tiled", "still_lists": "world-tree", "still_occlusion": 32}])"),
+      {"name": "tiled", "still_lists": "world-tree", "still_occlusion": 32},
+      {"name": "tiled", "still_lists": "world-tree", "still_bytes": 64}])"),
       "mine.json");
   std::vector<std::string> labels;
   for (const SuiteMethod& method : suite.series[0].methods) labels.push_back(method.label);
-  EXPECT_EQ(labels, (std::vector<std::string>{"tiled", "tiled, forward", "tiled, culler", "tiled, world-tree 32"}));
+  EXPECT_EQ(labels, (std::vector<std::string>{"tiled", "tiled, forward", "tiled, culler", "tiled, world-tree 32",
+                                              "tiled, world-tree, 64 bytes"}));
   expect_error(suite_with(R"("methods": ["tiled", {"name": "tight", "label": "tiled"}])"),
                {"two have the label 'tiled'"});
   expect_error(suite_with(R"("methods": ["tiled", "tiled"])"), {"two have the label 'tiled'"});
