@@ -1,11 +1,12 @@
 // Makes levels of images.
 // SPDX-License-Identifier: Apache-2.0
+#include "render/mirror_images.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/glm.hpp>
-
-#include "render/mirror_scene.h"
 
 namespace lamp::app {
 namespace {
@@ -63,7 +64,50 @@ std::uint32_t packed(const glm::vec4& texel, bool srgb) {
   return word;
 }
 
+/// Of a level and all coarser ones.
+std::uint64_t texel_count(const Image& image, std::uint32_t first) {
+  std::uint64_t count = 0;
+  for (std::uint32_t level = first;; ++level) {
+    const std::uint32_t width = side_at(image.width, level);
+    const std::uint32_t height = side_at(image.height, level);
+    count += std::uint64_t{width} * height;
+    if (width == 1 && height == 1) return count;
+  }
+}
+
 }  // namespace
+
+std::uint32_t side_at(std::uint32_t side, std::uint32_t level) { return std::max(side >> level, 1U); }
+
+std::vector<bool> cuts_holes(const Scene& scene) {
+  std::vector<bool> cuts(scene.images.size(), false);
+  for (const Material& material : scene.materials)
+    if (material.alpha_mode == AlphaMode::mask && material.base_color_texture.image >= 0)
+      cuts[static_cast<std::size_t>(material.base_color_texture.image)] = true;
+  return cuts;
+}
+
+std::vector<std::uint32_t> levels_that_fit(const Scene& scene, std::uint64_t most_texels) {
+  const std::vector<bool> cuts = cuts_holes(scene);
+  std::vector<std::uint32_t> firsts(scene.images.size(), 0);
+  std::uint64_t sum = 0;
+  for (const Image& image : scene.images) sum += texel_count(image, 0);
+  for (const bool holes : {false, true}) {
+    const auto to_lose = [&](std::size_t i) {
+      const std::uint64_t texels = texel_count(scene.images[i], firsts[i]);
+      return cuts[i] == holes && texels > 1 ? texels : 0;
+    };
+    while (sum > most_texels) {
+      std::size_t largest = 0;
+      for (std::size_t i = 1; i < firsts.size(); ++i)
+        if (to_lose(i) > to_lose(largest)) largest = i;
+      if (to_lose(largest) == 0) break;
+      sum -= texel_count(scene.images[largest], firsts[largest]);
+      sum += texel_count(scene.images[largest], ++firsts[largest]);
+    }
+  }
+  return firsts;
+}
 
 std::vector<std::uint32_t> texels_of(const Image& image, std::uint32_t first, std::uint32_t& levels) {
   std::vector<std::uint32_t> words;
@@ -78,6 +122,17 @@ std::vector<std::uint32_t> texels_of(const Image& image, std::uint32_t first, st
     level = halved(level);
   }
   return words;
+}
+
+Image image_at(const Image& image, std::uint32_t level) {
+  std::uint32_t levels = 0;
+  const std::vector<std::uint32_t> texels = texels_of(image, level, levels);
+  Image made = image;
+  made.width = side_at(image.width, level);
+  made.height = side_at(image.height, level);
+  made.rgba.resize(std::size_t{made.width} * made.height * 4);
+  std::memcpy(made.rgba.data(), texels.data(), made.rgba.size());
+  return made;
 }
 
 }  // namespace lamp::app

@@ -34,8 +34,11 @@ glm::dvec3 wide(const Vec3& v) { return glm::dvec3(glm::vec3(v)); }
 
 }  // namespace
 
-MirrorReference::MirrorReference(const Scene& scene, const Bvh& bvh)
-    : occluders_(scene_occluders(scene)), sides_(drawn_sides(scene)), origins_(scene.instances.size()), bvh_(bvh) {
+MirrorReference::MirrorReference(const Scene& scene, const Bvh& bvh, std::span<const std::uint32_t> first_levels)
+    : occluders_(scene_occluders(scene, first_levels)),
+      sides_(drawn_sides(scene)),
+      origins_(scene.instances.size()),
+      bvh_(bvh) {
   for (const gpu::BvhInstance& instance : bvh.instances) origins_[instance.scene_instance] = wide(instance.origin);
   const Box box = bounds(scene);
   reach_ = glm::length(glm::dvec3(box.max) - glm::dvec3(box.min)) + 1.0;

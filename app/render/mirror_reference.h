@@ -29,8 +29,8 @@ struct MirrorCompared {
 
 class MirrorReference {
  public:
-  /// Both must outlive it; the hierarchy is that of the scene.
-  MirrorReference(const Scene& scene, const Bvh& bvh);
+  /// Both must outlive it; the hierarchy is that of the scene. `first_levels` of images: as rays read them.
+  MirrorReference(const Scene& scene, const Bvh& bvh, std::span<const std::uint32_t> first_levels = {});
 
   /// `position`: of the surface that was made of the hit, m; of no meaning where the ray meets nothing.
   [[nodiscard]] MirrorCompared compare(const gpu::MirrorAsked& ray, const gpu::MirrorHit& hit,

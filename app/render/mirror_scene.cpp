@@ -10,6 +10,7 @@
 
 #include "gpu/check.h"
 #include "render/gpu_scene.h"
+#include "render/mirror_images.h"
 #include "render/pass_uses.h"
 
 namespace lamp::app {
@@ -40,35 +41,6 @@ gpu::MirrorMaterial mirror_material(const Material& m) {
           .emissive = mirror_texture(factors.emissive_texture, m.emissive_texture)};
 }
 
-std::uint32_t side_at(std::uint32_t side, std::uint32_t level) { return std::max(side >> level, 1U); }
-
-/// Of a level and all coarser ones.
-std::uint64_t texel_count(const Image& image, std::uint32_t first) {
-  std::uint64_t count = 0;
-  for (std::uint32_t level = first;; ++level) {
-    const std::uint32_t width = side_at(image.width, level);
-    const std::uint32_t height = side_at(image.height, level);
-    count += std::uint64_t{width} * height;
-    if (width == 1 && height == 1) return count;
-  }
-}
-
-/// The first level that each image is read from, so that all fit: the largest ones lose a level, one by one.
-std::vector<std::uint32_t> first_levels(std::span<const Image> images, std::uint64_t most_texels) {
-  std::vector<std::uint32_t> firsts(images.size(), 0);
-  std::uint64_t sum = 0;
-  for (const Image& image : images) sum += texel_count(image, 0);
-  while (sum > most_texels) {
-    std::size_t largest = 0;
-    for (std::size_t i = 1; i < images.size(); ++i)
-      if (texel_count(images[i], firsts[i]) > texel_count(images[largest], firsts[largest])) largest = i;
-    if (texel_count(images[largest], firsts[largest]) == 1) break;
-    sum -= texel_count(images[largest], firsts[largest]);
-    sum += texel_count(images[largest], ++firsts[largest]);
-  }
-  return firsts;
-}
-
 }  // namespace
 
 MirrorScene::MirrorScene(Context& context, const GpuScene& drawn) : drawn_(drawn), bvh_(make_bvh(drawn.scene())) {
@@ -92,25 +64,30 @@ void MirrorScene::upload_bvh(Context& context) {
 }
 
 void MirrorScene::upload_images(Context& context, const Scene& scene) {
-  const std::uint64_t most = context.device().traits.max_storage_buffer_bytes / sizeof(std::uint32_t);
-  const std::vector<std::uint32_t> firsts = first_levels(scene.images, most);
+  first_levels_ = levels_that_fit(scene, context.device().traits.max_storage_buffer_bytes / sizeof(std::uint32_t));
   std::vector<std::vector<std::uint32_t>> texels(scene.images.size());
   std::vector<gpu::MirrorImage> images(scene.images.size());
   tbb::parallel_for(std::size_t{0}, texels.size(), [&](std::size_t i) {
     const Image& image = scene.images[i];
-    images[i] = {.width = side_at(image.width, firsts[i]),
-                 .height = side_at(image.height, firsts[i]),
+    images[i] = {.width = side_at(image.width, first_levels_[i]),
+                 .height = side_at(image.height, first_levels_[i]),
                  .is_srgb = image.srgb ? 1U : 0U};
-    texels[i] = texels_of(image, firsts[i], images[i].levels);
+    texels[i] = texels_of(image, first_levels_[i], images[i].levels);
   });
   std::vector<std::uint32_t> all;
   for (std::size_t i = 0; i < texels.size(); ++i) {
     images[i].first = static_cast<std::uint32_t>(all.size());
     all.insert(all.end(), texels[i].begin(), texels[i].end());
   }
-  if (const auto coarser = std::ranges::count_if(firsts, [](std::uint32_t first) { return first != 0; }); coarser != 0)
-    notes_.push_back(fmt::format("{} images of {} do not fit the device's largest buffer: mirrors show them coarser",
-                                 coarser, scene.images.size()));
+  const auto coarser = std::ranges::count_if(first_levels_, [](std::uint32_t first) { return first != 0; });
+  if (coarser != 0) {
+    const std::vector<bool> holes = cuts_holes(scene);
+    std::size_t of_holes = 0;
+    for (std::size_t i = 0; i < holes.size(); ++i) of_holes += holes[i] && first_levels_[i] != 0 ? 1U : 0U;
+    notes_.push_back(fmt::format("{} images of {} do not fit the device's largest buffer: mirrors show them coarser{}",
+                                 coarser, scene.images.size(),
+                                 of_holes == 0 ? "" : fmt::format("; {} of them cut holes", of_holes)));
+  }
   images_ = upload_buffer(context, "images of rays", bytes_of(images), STORAGE);
   texels_ = upload_buffer(context, "texels of rays", bytes_of(all), STORAGE);
 }

@@ -1,7 +1,7 @@
 // A scene as rays read it on the GPU, for mirrors and for the truth of shadows: its hierarchy, vertices, materials, and
 // images as plain texels.
-// Promise: no more texels than a buffer of the device holds; images that do not fit are read from a coarser level on,
-// and a note says so. SPDX-License-Identifier: Apache-2.0
+// Promise: no more texels than a buffer of the device holds; images that do not fit are read from a coarser level on
+// (mirror_images.h), and a note says so. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -26,6 +26,8 @@ class MirrorScene {
   void record_upload(vulkan::Recorder& recorder);
 
   [[nodiscard]] const Bvh& bvh() const { return bvh_; }
+  /// Of each image of the scene: the level that rays read as its finest.
+  [[nodiscard]] const std::vector<std::uint32_t>& first_levels() const { return first_levels_; }
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// At the bindings of common/bvh_scene.glsl, whose BVH_FIRST_BINDING is `first`.
@@ -38,13 +40,10 @@ class MirrorScene {
   const GpuScene& drawn_;
   Bvh bvh_;
   std::vector<std::string> notes_;
+  std::vector<std::uint32_t> first_levels_;
   vulkan::Buffer nodes_, triangles_, instances_, materials_, images_, texels_;
   vulkan::Buffer staging_;  ///< of instances, then of the upper level's nodes
   bool moved_ = false;      ///< since the last upload
 };
-
-/// An image's levels, one behind the other, from the level that is `first` on: eight bits each of red, green, blue,
-/// alpha. A texel of a level is the mean of those that it covers, in linear light.
-[[nodiscard]] std::vector<std::uint32_t> texels_of(const Image& image, std::uint32_t first, std::uint32_t& levels);
 
 }  // namespace lamp::app

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "render/mirror_images.h"
 #include "scene/triangles.h"
 
 namespace lamp::app {
@@ -44,7 +46,10 @@ double alpha_at(const Image& image, const Texture& texture, const glm::dvec2& uv
                   between.y);
 }
 
-bool is_there(const Scene& scene, const Origin& origin, double u, double v) {
+/// By images' numbers: those that are read from a coarser level.
+using CoarserImages = std::map<std::size_t, Image>;
+
+bool is_there(const Scene& scene, const CoarserImages& coarser, const Origin& origin, double u, double v) {
   const Material& material = scene.materials[origin.mesh->material];
   if (material.alpha_mode != AlphaMode::mask) return true;
   glm::dvec2 uv(0.0);
@@ -57,8 +62,11 @@ bool is_there(const Scene& scene, const Origin& origin, double u, double v) {
     alpha += weights[i] * vertex.color.a / 255.0;
   }
   alpha *= material.base_color.a;
-  if (const Texture& texture = material.base_color_texture; texture.image >= 0)
-    alpha *= alpha_at(scene.images[static_cast<std::size_t>(texture.image)], texture, uv);
+  if (const Texture& texture = material.base_color_texture; texture.image >= 0) {
+    const auto number = static_cast<std::size_t>(texture.image);
+    const auto found = coarser.find(number);
+    alpha *= alpha_at(found == coarser.end() ? scene.images[number] : found->second, texture, uv);
+  }
   return alpha >= drawn_alpha(material);
 }
 
@@ -74,17 +82,22 @@ void for_each_occluder(const Scene& scene, Use use) {
 
 }  // namespace
 
-Occluders scene_occluders(const Scene& scene) {
+Occluders scene_occluders(const Scene& scene, std::span<const std::uint32_t> first_levels) {
+  CoarserImages coarser;
+  const std::vector<bool> holes = cuts_holes(scene);
+  for (std::size_t i = 0; i < first_levels.size(); ++i)
+    if (holes[i] && first_levels[i] != 0) coarser.emplace(i, image_at(scene.images[i], first_levels[i]));
+
   std::vector<Triangle> triangles;
   std::vector<Origin> origins;
   for_each_occluder(scene, [&](const Instance& instance, std::uint32_t t, const std::array<glm::dvec3, 3>& corners) {
     triangles.push_back({corners});
     origins.push_back({&scene.meshes[instance.mesh], t});
   });
-  return Occluders(std::move(triangles),
-                   [&scene, origins = std::move(origins)](std::uint32_t triangle, double u, double v) {
-                     return is_there(scene, origins[triangle], u, v);
-                   });
+  return Occluders(std::move(triangles), [&scene, coarser = std::move(coarser), origins = std::move(origins)](
+                                             std::uint32_t triangle, double u, double v) {
+    return is_there(scene, coarser, origins[triangle], u, v);
+  });
 }
 
 std::vector<DrawnSides> drawn_sides(const Scene& scene) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "oracle/occluders.h"
@@ -12,8 +13,9 @@
 
 namespace lamp::app {
 
-/// Refers to the scene, which must outlive it.
-[[nodiscard]] Occluders scene_occluders(const Scene& scene);
+/// Refers to the scene, which must outlive it. `first_levels`: of each image, the level that is read as its finest;
+/// empty: 0, of all.
+[[nodiscard]] Occluders scene_occluders(const Scene& scene, std::span<const std::uint32_t> first_levels = {});
 
 /// Which sides of a triangle are drawn, and where it lies.
 struct DrawnSides {

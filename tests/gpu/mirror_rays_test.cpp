@@ -31,7 +31,8 @@ class MirrorRays : public GpuTest {
                        .height = HEIGHT,
                        .light_capacity = 1});
     static_cast<void>(renderer.render(lighting));
-    const MirrorReference reference(scene.scene, renderer.mirrored()->scene().bvh());
+    const MirrorScene& traced = renderer.mirrored()->scene();
+    const MirrorReference reference(scene.scene, traced.bvh(), traced.first_levels());
     return check_mirror(renderer, shader_library(), reference, {}, std::size_t{WIDTH} * HEIGHT);
   }
 };

@@ -60,7 +60,8 @@ class Mirror : public GpuTest {
 };
 
 MirrorReference reference_of(const Renderer& renderer, const Scene& scene) {
-  return {scene, renderer.mirrored()->scene().bvh()};
+  const MirrorScene& traced = renderer.mirrored()->scene();
+  return {scene, traced.bvh(), traced.first_levels()};
 }
 
 class MirrorInScene : public Mirror, public ::testing::WithParamInterface<std::string_view> {};

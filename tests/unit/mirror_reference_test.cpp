@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "render/mirror_images.h"
+
 namespace lamp::app {
 namespace {
 
@@ -89,6 +91,41 @@ TEST(MirrorReference, AllowsWhatRoundingTakesOfLargeTriangles) {
   const Traced traced(scene);
   EXPECT_EQ(traced.moved(0.02), MirrorAnswer::unclear) << "two of the last places of a corner";
   EXPECT_EQ(traced.moved(1.0), MirrorAnswer::wrong);
+}
+
+/// Where not all images fit a device's buffer, rays see coarser holes.
+TEST(MirrorReference, SeesHolesAsRaysReadThem) {
+  Scene scene = floor_at(glm::vec3(0.0F), 10.0F);
+  Image leaf{.width = 2, .height = 2, .rgba = std::vector<std::uint8_t>(16, 255)};
+  leaf.rgba[3] = leaf.rgba[7] = 0;  // half of it is cut out; the mean of all is kept
+  scene.images = {leaf};
+  scene.materials[0].base_color_texture.image = 0;
+  scene.materials[0].alpha_mode = AlphaMode::mask;
+  scene.materials[0].alpha_cutoff = 0.4F;
+  for (Vertex& vertex : scene.vertices) vertex.uv[0] = glm::vec2(0.5F, 0.2F);
+  const Traced traced(scene);
+  EXPECT_EQ(traced.moved(0.0), MirrorAnswer::wrong) << "nothing is there";
+  const std::uint32_t levels[] = {1};
+  const MirrorReference coarser(scene, traced.bvh, levels);
+  EXPECT_EQ(coarser.compare(traced.ray, traced.hit, traced.position).answer, MirrorAnswer::same);
+}
+
+TEST(MirrorImages, ThoseThatCutHolesLoseLevelsLast) {
+  Scene scene;
+  for (const std::uint32_t side : {64U, 32U, 16U})
+    scene.images.push_back({.width = side, .height = side, .rgba = std::vector<std::uint8_t>(4 * side * side, 255)});
+  scene.materials.resize(2);
+  scene.materials[0].base_color_texture.image = 1;
+  scene.materials[1].base_color_texture.image = 0;
+  scene.materials[1].alpha_mode = AlphaMode::mask;
+  using Levels = std::vector<std::uint32_t>;
+  const std::uint64_t holes = (4 * 64 * 64 - 1) / 3;  // and all its levels
+  EXPECT_EQ(cuts_holes(scene), (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(levels_that_fit(scene, 2 * holes), (Levels{0, 0, 0}));
+  EXPECT_EQ(levels_that_fit(scene, holes + 341 + 341), (Levels{0, 1, 0}));
+  EXPECT_EQ(levels_that_fit(scene, holes + 2), (Levels{0, 5, 4}));
+  EXPECT_EQ(levels_that_fit(scene, holes + 1), (Levels{1, 5, 4}));
+  EXPECT_EQ(levels_that_fit(scene, 1), (Levels{6, 5, 4})) << "one texel of each is left";
 }
 
 TEST(MirrorReference, SaysWhatIsMetInstead) {
