@@ -61,15 +61,8 @@ std::vector<GroupEntry> entries_of(const Series& series) {
   for (const SuiteMethod& method : series.methods)
     for (const Swept& swept : combinations(series))
       for (const std::string& path : paths_of(series, method)) {
-        GroupEntry entry{.method = method.name,
-                         .options = method.options,
-                         .path = path,
-                         .label = method.label,
-                         .host = method.host,
-                         .still_lists = method.still_lists,
-                         .still_occlusion = method.still_occlusion,
-                         .still_bytes = method.still_bytes,
-                         .swept = swept};
+        GroupEntry entry{method, swept, {}};
+        entry.path = path;
         if (series.paths.size() > 1 && method.path.empty() && series.chart.x != "path") entry.label += ", " + path;
         for (const auto& [key, value] : swept) entry.options.push_back(fmt::format("{}={}", key, value));
         entries.push_back(std::move(entry));
@@ -78,38 +71,27 @@ std::vector<GroupEntry> entries_of(const Series& series) {
 }
 
 Group base_of(const Series& series, const Limits& limits) {
-  if (!series.timed)
-    return {.series = series.name,
-            .brdf = series.brdf,
-            .depth = series.depth,
-            .depth_samples = series.depth_samples,
-            .stereo_m = series.stereo_m,
-            .shadows = series.shadows,
-            .mirror = series.mirror,
-            .mirror_lists = series.mirror_lists,
-            .still = series.still,
-            .seed = series.seed,
-            .frame = series.frame,
-            .entries = entries_of(series)};
+  Group group{.series = series.name,
+              .brdf = series.brdf,
+              .depth = series.depth,
+              .depth_samples = series.depth_samples,
+              .stereo_m = series.stereo_m,
+              .shadows = series.shadows,
+              .mirror = series.mirror,
+              .mirror_lists = series.mirror_lists,
+              .still = series.still,
+              .seed = series.seed,
+              .frame = series.frame,
+              .entries = entries_of(series)};
+  if (!series.timed) return group;
   const std::uint32_t most = series.flight && limits.most_frames < ~0U / FLIGHT_FACTOR
                                  ? limits.most_frames * FLIGHT_FACTOR
                                  : limits.most_frames;
   const bool limited = !limits.frames && series.frames > most;
-  return {.series = series.name,
-          .brdf = series.brdf,
-          .depth = series.depth,
-          .depth_samples = series.depth_samples,
-          .stereo_m = series.stereo_m,
-          .shadows = series.shadows,
-          .mirror = series.mirror,
-          .mirror_lists = series.mirror_lists,
-          .still = series.still,
-          .seed = series.seed,
-          .frame = series.frame,
-          .frames = limits.frames.value_or(std::min(series.frames, most)),
-          .warm_up = limits.warm_up.value_or(limited ? 1 : series.warm_up),
-          .flight = series.flight,
-          .entries = entries_of(series)};
+  group.frames = limits.frames.value_or(std::min(series.frames, most));
+  group.warm_up = limits.warm_up.value_or(limited ? 1 : series.warm_up);
+  group.flight = series.flight;
+  return group;
 }
 
 /// Says what of a group is checked, and why not all.
@@ -272,7 +254,7 @@ std::string key_of(const Group& group, const GroupEntry& entry) {
       "frames={}+{} verify={}{}",
       group.series, group.scene, group.size, lights, group.spots, group.range.empty() ? "automatic" : group.range,
       group.seed, group.camera.empty() ? "first" : group.camera, group.projection, group.frame, group.brdf,
-      unusual_words(group), shadow_words(group), entry.method, fmt::join(options, " "), options.empty() ? "" : " ",
+      unusual_words(group), shadow_words(group), entry.name, fmt::join(options, " "), options.empty() ? "" : " ",
       entry.path, host_words(entry), group.warm_up, group.frames, words_of(group.verify),
       group.pictures ? " pictures" : ""));
 }

@@ -9,16 +9,8 @@
 
 namespace lamp::app {
 
-/// A method with its options and shading path.
-struct GroupEntry {
-  std::string method;
-  std::vector<std::string> options;  ///< KEY=VALUE, later ones win
-  std::string path;
-  std::string label;
-  Host host = Host::plan;
-  std::string still_lists = "off";
-  std::uint32_t still_occlusion = 0;
-  double still_bytes = 16.0;
+/// A method by one path, its options and then the swept ones, of which later ones win.
+struct GroupEntry : SuiteMethod {
   std::vector<std::pair<std::string, std::string>> swept;  ///< the series' options here: for the chart's x axis
   std::string calibration_hash;  ///< of what `auto` goes by; empty: no concern of this method's
 };

@@ -121,7 +121,7 @@ void name_calibration(BenchDevice& device, std::span<Group> groups) {
   std::string hash;
   for (Group& group : groups)
     for (GroupEntry& entry : group.entries) {
-      if (!is_auto(entry.method) || group.frames == 0) continue;
+      if (!is_auto(entry.name) || group.frames == 0) continue;
       if (hash.empty()) hash = hash_text(hash_of(json_text(to_json(device.chooser().calibration()), -1)));
       entry.calibration_hash = hash;
     }

@@ -41,7 +41,7 @@ std::optional<ShadowFilter> filter_of(const std::optional<ShadowSettings>& shado
 }  // namespace
 
 LightingInfo lighting_info(const BenchScene& scene, const Group& group, const GroupEntry& entry) {
-  const Method& method = parse_method(entry.method);
+  const Method& method = parse_method(entry.name);
   const glm::uvec2 size = parse_size(group.size);
   const bool listed = entry.still_lists != "off";
   return {.method = &method,
@@ -116,7 +116,7 @@ const HdrImage& Checker::reference(ShadingPath path) {
   std::optional<HdrImage>& image = forward ? forward_ : deferred_;
   if (!image) {
     LightingInfo info =
-        lighting_info(device_.scene(group_), group_, {.method = "all", .path = forward ? "forward" : "deferred"});
+        lighting_info(device_.scene(group_), group_, {{.name = "all", .path = forward ? "forward" : "deferred"}});
     info.shaded = rows_;
     const StillLists* still = renderer_.still();
     show(nullptr);

@@ -137,7 +137,7 @@ Request request_of(const Group& group, const GroupEntry& entry) {
           .probes = group.probes,
           .probes_show = "flat",  // lists and look-ups are measured; captures would take their time
           .seed = group.seed,
-          .method = entry.method,
+          .method = entry.name,
           .options = entry.options,
           .path = entry.path,
           .brdf = group.brdf,

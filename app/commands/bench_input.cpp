@@ -66,13 +66,13 @@ void check_groups(const std::string& suite, std::span<Group> groups) {
   for (const Group& group : groups)
     for (const GroupEntry& entry : group.entries)
       check_in(suite, group, [&] {
-        check_request(request_of(group, entry), entry.method);
+        check_request(request_of(group, entry), entry.name);
         const auto cut = cut_by_shadows(entry.options);
         if (cut && has_culler(entry.host))
           throw Error(
               fmt::format("method {}: {}: a host with a Culler gives it no bounds of shadows here, expected "
                           "another host",
-                          entry.method, *cut));
+                          entry.name, *cut));
       });
   SceneCheck scenes;
   for (Group& group : groups) check_in(suite, group, [&] { scenes.check(group); });

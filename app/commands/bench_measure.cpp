@@ -43,9 +43,9 @@ MethodChoice choose_for(const MeasureInfo& info, const BenchScene& scene, Render
 
 /// The entry with the method and options that were chosen in place of `auto`, if anything was.
 GroupEntry resolved(GroupEntry entry, const MethodChoice& chosen) {
-  if (!is_auto(entry.method)) return entry;
+  if (!is_auto(entry.name)) return entry;
   if (chosen.method == nullptr) throw Error("auto looks at a frame's depth, and nothing is rendered here");
-  entry.method = chosen.method->name;
+  entry.name = chosen.method->name;
   entry.options = chosen.options;
   return entry;
 }

@@ -48,7 +48,7 @@ json parameters_json(const Group& group, const GroupEntry& entry) {
                   {"camera", group.camera.empty() ? "first" : group.camera},
                   {"projection", group.projection},
                   {"path", entry.path},
-                  {"method", entry.method}};
+                  {"method", entry.name}};
   if (group.seed != Series{}.seed) parameters["seed"] = group.seed;
   if (group.brdf != Series{}.brdf) parameters["brdf"] = group.brdf;
   if (group.frame >= 0) parameters["frame"] = group.frame;
@@ -108,7 +108,7 @@ std::string verified_words(const Group& group, const Candidate& candidate) {
 
 }  // namespace
 
-bool has_auto(const Group& group) { return std::ranges::any_of(group.entries, is_auto, &GroupEntry::method); }
+bool has_auto(const Group& group) { return std::ranges::any_of(group.entries, is_auto, &GroupEntry::name); }
 
 std::string full_label(const GroupEntry& entry) {
   std::string label = entry.label;

@@ -45,7 +45,7 @@ inline json result_of(const app::Group& group, const app::GroupEntry& entry, dou
             {"camera", "first"},
             {"projection", group.projection},
             {"path", entry.path},
-            {"method", entry.method}}},
+            {"method", entry.name}}},
           {"verdict", "exact"},
           {"reason", ""},
           {"times", {{"cull", cull}, {"shade", shade}, {"cull+shade", both}, {"frame", both}}},
@@ -63,7 +63,7 @@ inline json run_of(const app::Suite& suite, const app::RunInfo& run = RUN, doubl
   for (const app::Group& group : app::expand(suite, {}).groups) {
     std::vector<json> entries;
     for (const app::GroupEntry& entry : group.entries)
-      entries.push_back(result_of(group, entry, factor * (entry.method == "tight" ? group.lights / 8.0 : 4.0)));
+      entries.push_back(result_of(group, entry, factor * (entry.name == "tight" ? group.lights / 8.0 : 4.0)));
     app::add_group(results, entries);
   }
   results["run"]["complete"] = true;
