@@ -39,11 +39,12 @@ std::uint32_t block_size(std::uint32_t lights) {
   return std::clamp(wanted * SMALLEST_BLOCK, SMALLEST_BLOCK, LARGEST_BLOCK);
 }
 
-/// As every limit of the device allows: one work group each in the last pass and a span a tile; PIECE hits.
+/// As every limit of the device allows: one work group each in the last pass and a span a tile; PIECE hits, with a
+/// thread each where they are scattered.
 std::uint64_t most_pieces(const Problem& problem, const Sizes& s) {
   const std::uint64_t bytes = problem.traits.max_storage_buffer_bytes;
   const std::uint64_t groups = problem.traits.max_groups[0];
-  return std::min({MOST_ENTRIES / PIECE, groups, groups * group_threads(problem, THREADS) / PIECE,
+  return std::min({MOST_ENTRIES / PIECE, groups, groups * find_threads(problem) / PIECE,
                    bytes / s.row_bytes() / s.cell_rows, bytes / sizeof(shared::LightHit) / PIECE});
 }
 
