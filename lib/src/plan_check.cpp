@@ -218,9 +218,6 @@ class PassChecker {
     if (auto error = check_views(source, pass)) return error;
     if (auto error = check_extent(source, pass)) return error;
     if (auto error = check_storage_buffers(source, pass.bindings, traits_)) return error;
-    if (!raster && pass.shared_bytes > traits_.shared_memory_bytes)
-      return Error{source, "needs " + std::to_string(pass.shared_bytes) + " bytes of shared memory, the device has " +
-                               std::to_string(traits_.shared_memory_bytes)};
     if (auto error = check_full_subgroups(source, pass.full_subgroups, traits_)) return error;
     if (!raster) return check_shader(source, pass.shader, ".comp", traits_.compute_subgroups);
     if (auto error = check_raster(source, plan_, pass.raster, traits_)) return error;

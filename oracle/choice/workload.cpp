@@ -148,7 +148,7 @@ bool reaches(const Sphere& s, const Pixel& pixel, double slack) {
   const glm::dvec3 away = pixel.world - glm::dvec3(s.light->position);
   const double distance = glm::length(away);
   if (s.light->range < shared::INFINITE_RADIUS && distance > s.light->range + slack) return false;
-  if (s.light->type != shared::LIGHT_SPOT || distance <= slack) return true;
+  if (s.light->type != shared::LIGHT_SPOT) return true;
   const double along = glm::dot(away, glm::dvec3(s.light->direction));
   const double across = std::sqrt(std::max(0.0, distance * distance - along * along));
   return across * s.light->cos_outer - along * s.light->sin_outer <= slack;

@@ -205,19 +205,10 @@ class Pruning {
     if (pruned_.leaves[number]) {
       pruned_.words += node.words;
       pruned_.walked += node.walked;
-      forget_below(number);
       return;
     }
     pruned_.words += 8;
     for (std::uint32_t child = 0; child < 8; ++child) mark(node.children + child);
-  }
-
-  void forget_below(std::uint32_t number) {
-    const BrickNode& node = tree_.nodes[number];
-    for (std::uint32_t child = 0; node.children != 0 && child < 8; ++child) {
-      pruned_.leaves[node.children + child] = false;
-      forget_below(node.children + child);
-    }
   }
 
   const BrickTree& tree_;

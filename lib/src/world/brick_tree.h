@@ -53,7 +53,7 @@ struct BrickTree {
 [[nodiscard]] bool is_plain(std::span<const Entry> entries);
 
 struct Pruned {
-  std::vector<bool> leaves;  ///< of the nodes: whether it is one, and not below one
+  std::vector<bool> leaves;  ///< of the nodes: whether it is one, unless it is below one
   std::uint64_t words = 0;
   double walked = 0.0;
 };

@@ -109,7 +109,7 @@ class Cutting {
     for (const std::uint32_t id : list) ranges.push_back(how_.lights[id].range);
     const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
     std::ranges::nth_element(ranges, middle);
-    return std::isinf(*middle) ? 0.0 : std::max(how_.patch * *middle, LEAST_OVER_SLACK * slack);
+    return std::max(how_.patch * *middle, LEAST_OVER_SLACK * slack);
   }
 
   [[nodiscard]] bool table_for(const Bounds& box, const Square& square, double side, Table& table) const {

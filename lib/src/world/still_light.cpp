@@ -71,7 +71,7 @@ double distance2(const Polygon& polygon, const glm::dvec3& plane, const glm::dve
 }
 
 /// Of an edge's points in the cone, the one nearest to the apex is where the edge is nearest, at one of its ends, or
-/// where it meets the cone.
+/// where it meets the cone. Its end is where the next edge begins.
 bool meets_edge(const Sector& s, const glm::dvec3& from, const glm::dvec3& way) {
   const glm::dvec3 v = from - s.apex;
   const double cosine2 = s.cosine * s.cosine;
@@ -81,7 +81,7 @@ bool meets_edge(const Sector& s, const glm::dvec3& from, const glm::dvec3& way) 
   const double half_b = dv * dw - cosine2 * glm::dot(v, way);
   const double c = dv * dv - cosine2 * glm::dot(v, v);
   const auto at = [&](double share) { return share >= 0.0 && share <= 1.0 && holds(s, from + share * way); };
-  if (at(0.0) || at(1.0) || at(share_nearest(from, way, s.apex))) return true;
+  if (at(0.0) || at(share_nearest(from, way, s.apex))) return true;
   const double discriminant = std::sqrt(std::max(half_b * half_b - a * c, 0.0));
   const double q = -(half_b + std::copysign(discriminant, half_b));
   return (a != 0.0 && at(q / a)) || (q != 0.0 && at(c / q));

@@ -87,7 +87,6 @@ std::uint32_t TreeWords::append(std::span<const Entry> entries) {
 }
 
 void TreeWords::write_bits(std::uint64_t first, std::span<const Entry> entries) {
-  std::fill_n(words_.begin() + static_cast<std::ptrdiff_t>(first), 2 * entries.size(), 0U);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::size_t block = i / BLOCK * BLOCK;
     const std::uint64_t width = std::min<std::uint64_t>(entries.size() - block, BLOCK);
