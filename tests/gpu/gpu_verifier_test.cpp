@@ -194,7 +194,7 @@ TEST_F(GpuVerifierFaults, AWalkThatTheDeviceEndsIsNotCalledAMiss) {
   EXPECT_FALSE(findings.truth_sum);
 }
 
-// Ranges and cones whose boundary goes through pixels, and some whose does not.
+// Ranges, of spots too, and cones whose boundary goes through pixels, and some whose does not.
 TEST_F(GpuVerifierFaults, BoundaryPairsAreCountedAsTheOracleDoes) {
   std::vector<shared::Light> lights;
   for (std::uint32_t i = 0; i < COUNT; ++i) {
@@ -206,15 +206,17 @@ TEST_F(GpuVerifierFaults, BoundaryPairsAreCountedAsTheOracleDoes) {
     const glm::dvec3 away(0.3 * (i % 3) + 0.1, 1.0 + 0.1 * i, 0.2);
     const glm::vec3 position(at + away);
     const double distance = glm::length(at - glm::dvec3(position));
-    const bool by_cone = i % 2 == 1;
+    const bool is_spot = i % 2 == 1;
+    const bool by_cone = i % 4 == 1;
     const double steps = i % 8 < 6 ? 0.0 : 3.0 * BOUNDARY_BAND;  // the others are just beyond the band
     const glm::vec3 direction(0.0F, -1.0F, 0.0F);
     const double angle = std::acos(glm::dot(glm::normalize(at - glm::dvec3(position)), glm::dvec3(direction)));
-    lights.push_back(pack(Light{.type = by_cone ? LightType::spot : LightType::point,
-                                .position = position,
-                                .range = static_cast<float>(by_cone ? 2.0 * distance : distance * (1.0 + steps)),
-                                .direction = direction,
-                                .outer_angle = static_cast<float>(angle * (1.0 + steps))}));
+    lights.push_back(
+        pack(Light{.type = is_spot ? LightType::spot : LightType::point,
+                   .position = position,
+                   .range = static_cast<float>(by_cone ? 2.0 * distance : distance * (1.0 + steps)),
+                   .direction = direction,
+                   .outer_angle = static_cast<float>(by_cone ? angle * (1.0 + steps) : 0.5 * (angle + 1.57))}));
   }
   const LitCase lit = make_case(renderer_, view_, lights);
   Lighting lighting = make_lighting(renderer_, {.method = &brute_force(), .light_capacity = COUNT});

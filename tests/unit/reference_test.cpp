@@ -137,6 +137,16 @@ Light random_light(RandomDoubles& random) {
   return light;
 }
 
+lamp::shared::OrientedBox random_box(RandomDoubles& random) {
+  const glm::dvec3 x = random.direction();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+  return {.center = glm::vec3(random.vector(12.0)),
+          .axis_x = glm::vec3(x),
+          .axis_y = glm::vec3(y),
+          .axis_z = glm::vec3(glm::cross(x, y)),
+          .half_extents = glm::vec3(random.in(0.1, 4.0), random.in(0.1, 4.0), random.in(0.1, 4.0))};
+}
+
 // Depth of steps and slopes, with sky between them.
 std::vector<float> random_depth(RandomDoubles& random, const View& view) {
   std::vector<float> depth(std::size_t{view.width()} * view.height());
@@ -175,7 +185,9 @@ TEST(Truth, EqualsBruteForceOnRandomPictures) {
     for (Light& light : lights) light = random_light(random);
     ASSERT_FALSE(lamp::check_lights(lights).has_value());
     const auto packed = lamp::pack(lights);
-    const lamp::TruthQuery query{.view = view, .depth = depth, .lights = packed, .rows = view.height()};
+    std::vector<lamp::shared::OrientedBox> boxes(random.below(100));
+    for (lamp::shared::OrientedBox& box : boxes) box = random_box(random);
+    const lamp::TruthQuery query{.view = view, .depth = depth, .lights = packed, .rows = view.height(), .boxes = boxes};
     const lamp::Truth slow = lamp::brute_force_truth(query);
     expect_same(lamp::truth(query), slow);
     pairs += slow.lights.size();

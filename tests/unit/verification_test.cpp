@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "render/shaders/sky_cell.h"
+
 namespace lamp::app {
 namespace {
 
@@ -32,6 +34,76 @@ TEST(Verification, WhatOnlyOneLookUpGetsWrongIsKept) {
   }
   EXPECT_EQ(of_both(good, faulty).missed_fused, 2);
   EXPECT_EQ(of_both(faulty, good).missed_fused, 0);
+  EXPECT_EQ(of_both({}, {.repeated = 4}).repeated, 4U);
+}
+
+/// Of a picture of 2 x 2 pixels: a cell of two of them, sky, and a cell of its own.
+TEST(Verification, AddsUpPixelsAndTheirCells) {
+  const Truth truth{.rows = 2, .offsets = {0, 1, 3, 3, 4}, .lights = {0, 0, 2, 2}, .boundary_pairs = 5};
+  const std::vector<Visit> visits{{.visited = 2, .cell = 7},
+                                  {.visited = 2, .cell = 7, .missed = 1, .first_missed = 2, .unordered = true},
+                                  {.visited = 9, .cell = gpu::SKY_CELL},
+                                  {.visited = 5, .cell = 9}};
+  Verification verification(2);
+  verification.add(truth, visits);
+  const Findings found = verification.findings();
+  EXPECT_EQ(found.missed, 1U);
+  EXPECT_EQ(found.first_miss, "pixel (1, 0): light 2");
+  EXPECT_EQ(found.evaluations, 9U);
+  EXPECT_EQ(found.useful, 4U);
+  EXPECT_EQ(found.boundary_pairs, 5U);
+  EXPECT_EQ(found.list_max, 5U);
+  EXPECT_EQ(found.list_sum, 7U);
+  EXPECT_EQ(found.cells_seen, 2U);
+  EXPECT_EQ(found.truth_sum, 3U) << "light 0 of cell 7 once";
+  EXPECT_TRUE(found.unordered);
+  EXPECT_EQ(verification.misses().size(), 1U);
+  EXPECT_EQ(verification.misses()[0], (PixelMisses{.pixel = 1, .missed = 1}));
+
+  Truth next = truth;  // rows below, which see the same cells
+  next.first_row = 2;
+  verification.add(next, visits);
+  const Findings both = verification.findings();
+  EXPECT_EQ(both.missed, 2U);
+  EXPECT_EQ(both.list_sum, 7U);
+  EXPECT_EQ(both.cells_seen, 2U);
+  EXPECT_EQ(both.truth_sum, 3U);
+  EXPECT_EQ(both.first_miss, found.first_miss);
+  EXPECT_EQ(verification.misses()[1], (PixelMisses{.pixel = 5, .missed = 1}));
+}
+
+TEST(Verification, WhatTheDeviceEndsIsOfNoOtherNumber) {
+  const Truth truth{.rows = 1, .offsets = {0, 1, 2}, .lights = {0, 1}};
+  Verification verification(2);
+  verification.add(truth, std::vector<Visit>{{.visited = 1, .cell = 0},
+                                             {.visited = 7, .cell = 1, .missed = 1, .unordered = true, .ended = true}});
+  const Findings found = verification.findings();
+  EXPECT_EQ(found.unfollowed, 1U);
+  EXPECT_EQ(found.first_unfollowed, "pixel (1, 0)");
+  EXPECT_EQ(found.evaluations, 1U);
+  EXPECT_EQ(found.missed, 0U);
+  EXPECT_FALSE(found.unordered);
+  EXPECT_EQ(found.truth_sum, std::nullopt) << "its cell may have more";
+}
+
+TEST(Verification, PicturesOfSeveralViewsStandSideBySide) {
+  const HostDepth depth{.samples = 4, .views = 2};
+  const Truth truth{.first_row = 3, .rows = 1, .offsets = {0, 0, 1}, .lights = {8}};
+  Verification verification(2, depth);
+  verification.add(truth, std::vector<Visit>{{.visited = 1, .cell = 0}, {.cell = 1, .missed = 1, .first_missed = 8}},
+                   {.view = 1, .sample = 3});
+  EXPECT_EQ(verification.findings().first_miss, "view 1, sample 3, pixel (1, 3): light 8");
+  EXPECT_EQ(verification.misses()[0], (PixelMisses{.pixel = (3 * 2 + 1) * 2 + 1, .missed = 1}));
+}
+
+TEST(Verification, ListsAreTheSameInLengthAndLights) {
+  const std::vector<Visit> lists{{.visited = 2, .hash = 5}, {.visited = 1, .hash = 6}};
+  std::vector<Visit> others = lists;
+  EXPECT_TRUE(same_lists(lists, others));
+  others[1].visited = 3;
+  EXPECT_FALSE(same_lists(lists, others));
+  others[1] = {.visited = 1, .hash = 7};
+  EXPECT_FALSE(same_lists(lists, others));
 }
 
 TEST(Verification, TheGpuVerifiesWhereTheOracleIsSlow) {
@@ -60,6 +132,9 @@ TEST(Verification, SumsBeyondThirtyTwoBitsDifferOnlyWhereOnePictureHasThem) {
   EXPECT_EQ(max_abs_difference(beyond, image_with(9.0F)), INFINITE);
   const HdrImage broken = image_with(std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(max_abs_difference(broken, broken), INFINITE);
+  HdrImage translucent = beyond;
+  translucent.pixels[0].a = 0.25F;
+  EXPECT_EQ(max_abs_difference(beyond, translucent), 0.25F);
 }
 
 Verdict verdict_of(const Plan& plan, const Findings& findings, const std::optional<PictureDifference>& difference) {
@@ -128,6 +203,10 @@ TEST(Judgement, TheWorseOneCounts) {
   EXPECT_EQ(worse_of(failed, unchecked).reason, "a");
   EXPECT_EQ(worse_of(unchecked, failed).reason, "a");
   EXPECT_EQ(worse_of(unchecked, {}).reason, "b");
+  EXPECT_EQ(exit_of(Verdict::failed), Exit::check_failed);
+  EXPECT_EQ(exit_of(Verdict::unchecked), Exit::unchecked);
+  EXPECT_EQ(exit_of(Verdict::approximate), Exit::done);
+  EXPECT_EQ(exit_of(Verdict::ok), Exit::done);
 }
 
 }  // namespace
