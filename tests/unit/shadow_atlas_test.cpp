@@ -356,6 +356,8 @@ TEST(ShadowAtlas, SaysWhatIsWrong) {
   EXPECT_EQ(error({.size = 8}), "shadow atlas: size must be a power of two, 16 .. 32768 texels, got 8");
   EXPECT_EQ(error({.size = 32768, .max_image_size = 16384}),
             "shadow atlas: size must be at most 16384 texels on this device, got 32768");
+  EXPECT_EQ(error({.size = 65536, .max_image_size = 65536}),
+            "shadow atlas: size must be a power of two, 16 .. 32768 texels, got 65536");
   EXPECT_EQ(error({.light_capacity = 0}), "shadow atlas: light capacity must be >= 1, got 0");
   EXPECT_EQ(error({.texels_per_pixel = 0.0F}), "shadow atlas: texels per pixel must be finite and > 0, got 0.000000");
   EXPECT_EQ(error({.points = lamp::PointShadows(9)}), "shadow atlas: points must be faces or octahedron, got 9");

@@ -77,8 +77,11 @@ TEST(ShadowFrame, NamesLightsWhoseRadialBoundsAreToBeMadeAnew) {
   std::swap(lights[0], lights[2]);
   std::swap(ids[0], ids[2]);
   EXPECT_EQ(jobs_of_a_frame(), (Jobs{{0, 1}, {2, 1}}));  // nothing is drawn, but bounds lie by index
-  atlas.redraw_all();
-  EXPECT_EQ(jobs_of_a_frame(0), (Jobs{{0, 0}, {1, 0}, {2, 0}}));
+  for (int i = 0; i < 2; ++i) {                          // of lights with a map, and of those without
+    atlas.redraw_all();
+    EXPECT_EQ(jobs_of_a_frame(0), (Jobs{{0, 0}, {1, 0}, {2, 0}}));
+    EXPECT_EQ(jobs_of_a_frame(0), Jobs{});
+  }
 }
 
 // A host that keeps what each job made, as a buffer on the GPU does: no index may keep the bound of what its map was.

@@ -150,6 +150,42 @@ TEST(ShadowViews, FacesHaveTheirBorder) {
   }
 }
 
+/// One more than the farthest texel that a filter asks for.
+TEST(ShadowViews, BordersHoldWhatFiltersAskFor) {
+  const auto borders = [](ShadowFilter filter) {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t side : {16U, 32U, 64U, 2048U}) found.push_back(lamp::shadow_border(filter, side));
+    return found;
+  };
+  EXPECT_EQ(borders(ShadowFilter::hard), (std::vector<std::uint32_t>{1, 1, 1, 1}));
+  EXPECT_EQ(borders(ShadowFilter::pcf), (std::vector<std::uint32_t>{2, 2, 3, 3}));
+  EXPECT_EQ(borders(ShadowFilter::vsm), (std::vector<std::uint32_t>{1, 5, 13, 13}));
+  EXPECT_EQ(borders(ShadowFilter::evsm), borders(ShadowFilter::vsm));
+}
+
+TEST(ShadowViews, AMapShowsAllOfALightThatHasNotGrown) {
+  const Light spot{.type = LightType::spot, .range = 10.0F, .direction = {0.0F, -1.0F, 0.0F}, .outer_angle = 0.5F};
+  const ShadowAtlasInfo info{.filter = ShadowFilter::hard};
+  for (const Light& drawn : {spot, Light{.range = 10.0F}}) {
+    const bool is_spot = drawn.type == LightType::spot;
+    const shared::ShadowMap map = map_of(lamp::pack(drawn), info, 64);
+    const auto shows = [&](const auto& change) {
+      Light light = drawn;
+      change(light);
+      return lamp::shadow_shows_all(map, lamp::pack(light));
+    };
+    EXPECT_TRUE(shows([](Light&) {}));
+    EXPECT_TRUE(shows([](Light& light) { light.range = 9.0F; }));
+    EXPECT_FALSE(shows([](Light& light) { light.range = 10.1F; }));
+    EXPECT_FALSE(shows([](Light& light) { light.position.x = 0.1F; }));
+    EXPECT_EQ(shows([](Light& light) { light.direction = {0.0F, -1.0F, 0.1F}; }), !is_spot);
+    EXPECT_TRUE(shows([](Light& light) { light.outer_angle = 0.4F; }));
+    EXPECT_EQ(shows([](Light& light) { light.outer_angle = 0.6F; }), !is_spot);
+    EXPECT_EQ(shows([](Light& light) { light.type = LightType::point; }), !is_spot);
+  }
+  EXPECT_FALSE(lamp::shadow_shows_all({}, lamp::pack(spot)));
+}
+
 TEST(ShadowViews, ALightSeesNothingAtItsOwnPlace) {
   const shared::Light light = lamp::pack(Light{.position = {1.0F, 2.0F, 3.0F}, .range = 10.0F});
   EXPECT_EQ(lamp::shadow_place(map_of(light, {}, 64), light.position).w, 0.0F);
@@ -200,6 +236,17 @@ TEST(ShadowViews, SizesDoNotHangOnHowACameraIsWritten) {
   }
 }
 
+TEST(ShadowViews, SizesAreOfTheSideThatShowsMore) {
+  for (const lamp::Window& window : {lamp::Window{-1.0, 1.0, -1.0, 1.0}, lamp::Window{-2.0, 2.0, -0.5, 0.5}}) {
+    const double px = std::max(640.0 / (window.right - window.left), 360.0 / (window.top - window.bottom));
+    const glm::dmat4 here(1.0);
+    const View near = View::create(640, 360, lamp::perspective(window, 0.05, 100.0), here).value();
+    const View flat = View::create(640, 360, lamp::orthographic(window, 0.0, 100.0), here).value();
+    EXPECT_NEAR(lamp::shown_diameter_px(near, {.center = {0, 0, -10}, .radius = 0.5F}), px / 10.0, 0.01 * px / 10.0);
+    EXPECT_NEAR(lamp::shown_diameter_px(flat, {.center = {0, 0, -10}, .radius = 0.1F}), px * 0.2, 1e-2);
+  }
+}
+
 TEST(ShadowViews, WhatIsBesideOrBehindIsNotSeen) {
   for (const View& view : views_of_all_kinds()) {
     const auto seen = [&](const glm::dvec3& at, float radius) {
@@ -211,6 +258,7 @@ TEST(ShadowViews, WhatIsBesideOrBehindIsNotSeen) {
     EXPECT_EQ(seen({0.0, 0.0, -10.0}, -1.0F), 0.0) << "a sphere of nothing";
     EXPECT_EQ(seen({0.0, 0.0, -10.0}, std::numeric_limits<float>::infinity()), 640.0);
     EXPECT_EQ(seen({0.0, 0.0, 10.0}, 5.0F) == 0.0, !view.orthographic()) << "behind the eye";
+    EXPECT_GT(seen({0.0, 0.0, 1.0}, 1.5F), 0.0) << "it reaches ahead of the eye";
     EXPECT_EQ(seen({0.0, 0.0, -0.5}, 5.0F), view.orthographic() ? std::min(640.0, 10.0 * 360.0 / 5.0) : 640.0);
   }
 }
