@@ -46,6 +46,16 @@ void expect_inside(const Light& light, const glm::dvec3& point) {
   ASSERT_LE(glm::length(point - glm::dvec3(sphere.center)), double{sphere.radius} * (1.0 + 4e-6));
 }
 
+/// Half its sides, that are not at right angles.
+TEST(AreaLights, ASkewedRectanglesFarCornersAreInside) {
+  for (const float sign : {1.0F, -1.0F}) {
+    const RectangleLight skewed{.half_x = {1, 0, 0}, .half_y = {sign * 0.9F, 0.1F, 0}, .faces = Faces::both};
+    const Light light = lamp::bounding_light(skewed, 0.5F);
+    EXPECT_GE(light.range, 0.5F + 1.9F);
+    EXPECT_LT(light.range, 0.5F + 1.91F);
+  }
+}
+
 /// Points within the range of a point of the surface, on the side of the normal if the front alone shines: (0, 0, 0)
 /// for both. `farthest`: of all that is reached.
 void expect_reached(const Light& light, const std::function<glm::dvec3()>& surface, const glm::dvec3& normal,

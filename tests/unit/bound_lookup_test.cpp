@@ -89,6 +89,23 @@ TEST(LightLayout, IsThatOfAHostsRecord) {
   EXPECT_EQ(points.lights, (lamp::RecordPlaces{16, 48}));
 }
 
+TEST(LightLayout, OfPlacesIsOfWholeUnitsAndHoldsTheRecord) {
+  using lamp::LightForm;
+  const auto error_of = [](const lamp::LightLayout& layout) {
+    const auto error = layout.check();
+    return error ? error->text() : "none";
+  };
+  EXPECT_EQ(error_of({.lights = {.offset = 32, .stride = 80}}), "none");
+  EXPECT_EQ(error_of({.lights = {.offset = 8}}), "light offset: expected a multiple of 16 bytes, got 8");
+  const std::string stride = " stride: expected a multiple of 16 bytes, at least ";
+  EXPECT_EQ(error_of({.lights = {.stride = 72}}), "light" + stride + "64, got 72");
+  EXPECT_EQ(error_of({.lights = {.stride = 48}}), "light" + stride + "64, got 48");
+  EXPECT_EQ(error_of({.form = LightForm::points, .lights = {.stride = 48}}), "none");
+  EXPECT_EQ(error_of({.form = LightForm::spots, .cones = {.offset = 4}}),
+            "cone offset: expected a multiple of 16 bytes, got 4");
+  EXPECT_EQ(error_of({.form = LightForm::spots, .cones = {.stride = 24}}), "cone" + stride + "16, got 24");
+}
+
 // What does not fit would else be cut to 32 bits, or read as another layout that is sound.
 TEST(LightLayout, OfWhatIsNoRecordSaysWhatIsWrong) {
   const auto error_of = [](std::size_t bytes, std::size_t position, std::optional<std::size_t> direction = {}) {

@@ -51,6 +51,15 @@ TEST(FinerPasses, AreThoseOfAPlanForThatSize) {
   }
 }
 
+TEST(FinerPasses, AreForAsManyCellsAsTheySay) {
+  const Plan plan{.finer = {{.shift = 2, .cells = {.px = 8}, .most_cells = 16},
+                            {.shift = 1, .cells = {.px = 16}, .most_cells = 16}}};
+  EXPECT_EQ(plan.cell_shift(32, 32), 2U);
+  EXPECT_EQ(plan.cell_shift(33, 32), 1U);
+  EXPECT_EQ(plan.cell_shift(64, 64), 1U);
+  EXPECT_EQ(plan.cell_shift(65, 64), 0U);
+}
+
 TEST(FinerPasses, AreThereIfFramesAreSmaller) {
   EXPECT_TRUE(lamplight(LARGE, MANY_LIGHTS, false).finer.empty());
   EXPECT_TRUE(lamplight(SMALL, MANY_LIGHTS, true).finer.empty());  // its own cells have the fewest tiles

@@ -57,6 +57,25 @@ TEST(Growth, EveryCapacityGrowsToTheNeedAndAQuarterMore) {
   }
 }
 
+/// A quarter more than was needed, and by half more than there was.
+TEST(Growth, GrowsByNoLessThanItSays) {
+  const Planned p = planned("clustered", {"mean_capacity=64"});
+  const std::uint64_t entries = p.plan.capacities[0].entries;
+  for (const std::uint64_t needed : {entries + 1, 4 * entries + 1}) {
+    const auto grown = grow_plan(p.method, p.problem, p.plan, std::vector{static_cast<std::uint32_t>(needed)});
+    ASSERT_TRUE(grown);
+    const std::uint64_t wanted = std::max(needed + needed / 4, entries + entries / 2);
+    EXPECT_GE(grown->plan.capacities[0].entries, wanted);
+    EXPECT_LT(grown->plan.capacities[0].entries, wanted + p.plan.capacities[0].per_option);
+  }
+}
+
+/// A count that is wrong asks for more than every light in every cluster.
+TEST(Growth, EndsWhereThereIsRoomForEverything) {
+  const Planned p = planned("clustered", {"mean_capacity=100"}, 100);
+  EXPECT_FALSE(grow_plan(p.method, p.problem, p.plan, std::vector<std::uint32_t>{~0U}));
+}
+
 TEST(Growth, EndsWhereTheOptionEnds) {
   const Planned p = planned("tiled", {"capacity=2000"});
   const auto grown = grow_plan(p.method, p.problem, p.plan, std::vector<std::uint32_t>{4000});

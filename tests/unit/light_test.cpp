@@ -208,7 +208,9 @@ TEST(BoundingSphere, HoldsAllThatASpotReaches) {
       EXPECT_LE(glm::distance(glm::vec3(sphere.center), glm::vec3(light.position) + reach),
                 sphere.radius * 1.0001F + 1e-4F)
           << angle;
-    EXPECT_LE(sphere.radius, light.range * 1.0001F);
+    const float least =
+        angle < 45.0F * DEGREE ? light.range / (2.0F * packed.cos_outer) : light.range * packed.sin_outer;
+    EXPECT_LE(sphere.radius, least * 1.0001F);
   }
 }
 
@@ -221,6 +223,8 @@ TEST(BoundingSphere, TellsNothingFromEverything) {
       EXPECT_EQ(lamp::bounding_sphere(lamp::pack(far)).radius, 1e18F) << range;
       EXPECT_EQ(lamp::bounding_sphere(lamp::pack(far)).center, glm::vec3(0.0F)) << "around the origin";
     }
+  light.position = {3.0F, 4.0F, 5.0F};
+  EXPECT_EQ(lamp::bounding_sphere(lamp::pack(light)).center, glm::vec3(0.0F));
   light.range = 0.0F;
   EXPECT_LT(lamp::bounding_sphere(lamp::pack(light)).radius, 0.0F);
   Light narrow = spot();

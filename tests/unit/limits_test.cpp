@@ -342,6 +342,7 @@ TEST(LamplightMemory, CellsGatherNoMoreThanAPiece) {
   EXPECT_EQ(refusal(shared::PIECE, {"cells=gather"}), "");
   EXPECT_NE(refusal(shared::PIECE + 1, {"cells=gather"}).find("up to 128 lights"), std::string::npos);
   EXPECT_NE(refusal(64, {"cells=gather", "depth=none"}).find("option cells"), std::string::npos);
+  EXPECT_NE(refusal(64, {"prune=pixel", "depth=none"}).find("option prune"), std::string::npos);
   EXPECT_EQ(refusal(64, {"cells=gather", "occlusion=radial", "boxes=shape"}), "");
   traits.max_storage_buffer_bytes = 40 * 23 * 64 * 4 - 4;  // less than the lists of all tiles, of 64 lights each
   EXPECT_NE(refusal(64, {"cells=gather"}).find("option cells"), std::string::npos);
@@ -370,6 +371,7 @@ TEST(FramesInFlight, AreOneToFourAndWhatTheHostWritesHasASlotForEach) {
   EXPECT_GE(written, 4 * (100 + 8096)) << "the order of lights, a word for each bin";
   EXPECT_EQ(bytes(2), bytes(1) + written);
   EXPECT_EQ(bytes(4), bytes(1) + 3 * written);
+  EXPECT_GE(bytes(1), 2 * written) << "what shaders read, and a slot that the host writes";
   for (const std::uint32_t frames : {0U, 5U}) {
     problem.frames_in_flight = frames;
     EXPECT_EQ(make_plan(method, problem).error().text(),

@@ -167,6 +167,9 @@ TEST(PlanCheck, FinerPassesAreThoseOfThePlan) {
             "passes for cells of 8 pixels: are for 65536 cells, the device takes 65535 work groups");
   EXPECT_EQ(error_of([](FinerPasses& finer) { finer.passes.front().shared_bytes = 1U << 20; }),
             "pass fill: needs 1048576 bytes of shared memory, the device has 16384");
+  EXPECT_NE(
+      error_of([](FinerPasses& finer) { finer.passes.front().full_subgroups = 100; }).find("must be full subgroups"),
+      std::string::npos);
 }
 
 /// A rule: how a sound plan breaks it, and what the error must say.
@@ -210,6 +213,15 @@ const Rule BUFFER_RULES[] = {
      "at least 16 bytes, got 12"},
     {"StaleCounters", [](Plan& p) { p.buffers[COUNTERS - PLAN_BUFFER].zeroed = false; }, "counters", "not zeroed"},
     {"CountersInOtherMemory", [](Plan& p) { p.counters = LISTS; }, "counters", "must be in memory of counts"},
+    {"CountersOfAllViews", [](Plan& p) { p.buffers[COUNTERS - PLAN_BUFFER].all_views = true; }, "counters",
+     "must be in memory of counts, of each view"},
+    {"OddCells", [](Plan& p) { lists_of(p).zeroed_cells.px = 8, lists_of(p).cell_bytes = 6; }, "buffer lists",
+     "must be all of it"},
+    {"FewCells", [](Plan& p) { lists_of(p).zeroed_cells.px = 32, lists_of(p).cell_bytes = 12; }, "buffer lists",
+     "must be all of it"},
+    {"LargeConeBuffer",
+     [](Plan& p) { p.light_layout = {.form = lamp::LightForm::spots, .cones = {.stride = 1 << 18}}; }, "cone buffer",
+     "the device's storage buffers hold at most 134217728"},
     {"NoCell", [](Plan& p) { p.cells = 0; }, "cells", "at least one cell"},
 };
 
@@ -249,6 +261,15 @@ const Rule PASS_RULES[] = {
      "pass fill", "binds buffer lists, which is zeroed in every frame"},
     {"MuchSharedMemory", [](Plan& p) { p.passes[COUNT].shared_bytes = 16388; }, "pass count",
      "needs 16388 bytes of shared memory, the device has 16384"},
+    {"SubgroupsThatAreNotFull", [](Plan& p) { p.passes[COUNT].full_subgroups = 100; }, "pass count",
+     "groups of 100 threads must be full subgroups"},
+    {"SubgroupsBeyondAGroup", [](Plan& p) { p.passes[COUNT].full_subgroups = 256; }, "pass count",
+     "and at most 128 threads"},
+    {"KeptWithoutTheFusedOnes", [](Plan& p) { p.passes[FILL].on_projection_change = true; }, "pass fill",
+     "is kept, so the passes with and those without a fused look-up must have it"},
+    {"KeptWithTheFusedOnesAlone",
+     [](Plan& p) { (p.fused->passes[HOST].name = "other", p.fused->passes[HOST]).on_projection_change = true; },
+     "pass other", "is kept, so the passes with and those without a fused look-up must have it"},
     {"OnceIntoEachView", [](Plan& p) { p.passes[FILL].once = true; }, "pass fill",
      "runs once for all views, but binds what each has its own of"},
     {"EachViewIntoOne", [](Plan& p) { p.buffers[LISTS - PLAN_BUFFER].all_views = true; }, "pass fill",
@@ -296,6 +317,8 @@ const Rule RASTER_RULES[] = {
      "at least one pixel of the picture"},
     {"ThreeSamples", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.samples = 3; }, "pass draw",
      "samples must be 1 or 4, got 3"},
+    {"ConservativeOnADeviceWithout", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.conservative = true; },
+     "pass draw", "needs conservative rasterization"},
     {"WrongStage", [](Plan& p) { p.passes[FILL] = raster_pass(); }, "pass draw",
      "the shader 'methods/light_bounds' is not a .vert shader"},
     {"UnknownVertexShader", [](Plan& p) { (p.passes[FILL] = raster_pass()).raster.vertex_shader = "none"; },
@@ -319,6 +342,8 @@ const Rule LOOKUP_RULES[] = {
     {"FusedWrites", [](Plan& p) { p.fused->lookup.bindings[0].access = Access::write; }, "look-up fused", "read-only"},
     {"FusedNoThread", [](Plan& p) { p.fused->group_height = 0; }, "fused look-up fused", "must have 1 to 128 threads"},
     {"FusedManyThreads", [](Plan& p) { p.fused->group_height = 9; }, "fused look-up fused", "must have 1 to 128"},
+    {"FusedMuchSharedMemory", [](Plan& p) { p.fused->shared_bytes = 16388; }, "fused look-up fused",
+     "needs 16388 bytes of shared memory, the device has 16384"},
     {"FusedThreadsWrapAround", [](Plan& p) { p.fused->group_width = MANY, p.fused->group_height = 2; },
      "fused look-up fused", "must have 1 to 128 threads"},
 };
