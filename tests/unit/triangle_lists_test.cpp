@@ -59,6 +59,12 @@ TriangleLists made(const TriangleListsInfo& info) {
   return lists.ok() ? std::move(lists.value()) : TriangleLists{};
 }
 
+/// Now and then on a side.
+glm::dvec3 point_on_sides_too(RandomDoubles& random, StillTriangle t) {
+  if (random.below(3) == 0) t.corners[random.below(3)] = t.corners[random.below(3)];
+  return point_on(random, t);
+}
+
 /// Lights that surely reach positions on and near triangles are listed there; lists ascend. The mean length of lists.
 double expect_complete(const TriangleListsInfo& info, const TriangleLists& lists, RandomDoubles& random, int points) {
   double walked = 0.0;
@@ -66,7 +72,7 @@ double expect_complete(const TriangleListsInfo& info, const TriangleLists& lists
     const auto t = static_cast<std::uint32_t>(random.in(0.0, static_cast<double>(info.triangles.size()) - 1e-9));
     glm::dvec3 near = random.vector(1.0);
     near *= 0.99 * info.slack_m / std::max(1e-9, glm::length(near));
-    const glm::vec3 position(point_on(random, info.triangles[t]) + near);
+    const glm::vec3 position(point_on_sides_too(random, info.triangles[t]) + near);
     const std::vector<std::uint32_t> found = lights_at(lists, t, lamp::Vec3(position));
     EXPECT_TRUE(std::ranges::is_sorted(found, std::less_equal{}));
     walked += static_cast<double>(found.size());
@@ -99,6 +105,40 @@ TEST(TriangleLists, MissNothing) {
       const TriangleListsInfo info{.triangles = triangles, .lights = lights, .slack_m = slack, .patch = patch};
       expect_complete(info, made(info), random, 4000);
     }
+}
+
+/// Each at a place near a triangle that is cut, from any side.
+TEST(TriangleLists, KnowLightsThatJustReach) {
+  RandomDoubles random(13);
+  const std::vector<StillTriangle> triangles{triangle_of({-10, 0, -10}, {10, 0.5, -10}, {-10, 0, 10}),
+                                             triangle_of({-7, -7, 3}, {7, -7, 3}, {0, 7, 3})};
+  constexpr float SLACK = 0.02F;
+  std::vector<Light> lights;
+  std::vector<glm::vec3> places;
+  for (int i = 0; i < 3000; ++i) {
+    places.emplace_back(point_on_sides_too(random, triangles[i % 2]) + 0.99 * double{SLACK} * random.direction());
+    const double range = random.in(0.5, 3.0);
+    const glm::vec3 at(glm::dvec3(places.back()) + range * (1.0 - 2e-5) * random.direction());
+    lights.push_back({.position = at, .range = static_cast<float>(range)});
+  }
+  const std::vector<lamp::shared::Light> packed = lamp::pack(lights);
+  for (const float patch : {0.05F, 0.3F}) {
+    const TriangleLists lists = made({.triangles = triangles, .lights = packed, .slack_m = SLACK, .patch = patch});
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+      ASSERT_EQ(lamp::reach(packed[i], glm::dvec3(places[i])), lamp::Reach::inside);
+      EXPECT_TRUE(std::ranges::binary_search(lights_at(lists, i % 2, lamp::Vec3(places[i])), i)) << i;
+    }
+  }
+}
+
+/// Far from the origin, positions of 32 bits lie beside their triangle.
+TEST(TriangleLists, KnowThatPositionsAreRounded) {
+  constexpr float FAR = 1e5F;
+  const double y = double{FAR} + 0.003;
+  const std::vector<StillTriangle> triangles{
+      triangle_of({FAR - 1, y, FAR - 1}, {FAR - 1, y, FAR + 2}, {FAR + 2, y, FAR - 1})};
+  const std::vector<lamp::shared::Light> lights{lamp::pack(Light{.position = {FAR, FAR - 1, FAR}, .range = 1.001F})};
+  EXPECT_EQ(lights_at(made({.triangles = triangles, .lights = lights}), 0, {FAR, FAR, FAR}).size(), 1U);
 }
 
 TEST(TriangleLists, PatchesWasteLess) {
@@ -136,20 +176,26 @@ TEST(TriangleLists, ConesAreExact) {
 }
 
 TEST(TriangleLists, LightsBehindShadeNothing) {
-  const auto listed = [](const lamp::Vec3& at, float tilt, const std::array<lamp::Vec3, 3>& normals) {
-    StillTriangle floor = triangle_of({0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  const auto listed = [](const lamp::Vec3& at, float tilt, const std::array<lamp::Vec3, 3>& normals, double side = 4.0,
+                         float range = 20.0F, float slack_m = 0.0F) {
+    StillTriangle floor = triangle_of({0, 0, 0}, {0, 0, side}, {side, 0, 0});
     floor.normals = normals;
     floor.normal_tilt = tilt;
     const std::vector<StillTriangle> triangles{floor};
-    const std::vector<lamp::shared::Light> lights{lamp::pack(Light{.position = at, .range = 20.0F})};
-    return !lights_at(made({.triangles = triangles, .lights = lights}), 0, {1, 0, 1}).empty();
+    const std::vector<lamp::shared::Light> lights{lamp::pack(Light{.position = at, .range = range})};
+    return !lights_at(made({.triangles = triangles, .lights = lights, .slack_m = slack_m}), 0, {1, 0, 1}).empty();
   };
   constexpr std::array<lamp::Vec3, 3> UP{lamp::Vec3{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
   EXPECT_TRUE(listed({1, 1, 1}, 0.0F, UP));
   EXPECT_FALSE(listed({1, -1, 1}, 0.0F, UP));
   EXPECT_TRUE(listed({1, -1, 1}, lamp::ANY_NORMAL, UP));
-  EXPECT_TRUE(listed({1, -1, 1}, 0.5F, UP));    // a normal that leans towards it may see it
-  EXPECT_FALSE(listed({1, -10, 1}, 0.1F, UP));  // and one that leans less may not
+  EXPECT_TRUE(listed({1, -1, 1}, 0.5F, UP));                         // a normal that leans towards it may see it
+  EXPECT_FALSE(listed({1, -10, 1}, 0.1F, UP));                       // and one that leans less may not
+  EXPECT_FALSE(listed({1, -1, 1}, 0.1F, UP));                        // from wherever on the triangle
+  EXPECT_FALSE(listed({1, -1, 1}, 0.1F, UP, 100.0, 2.0F));           // from wherever it reaches
+  EXPECT_TRUE(listed({1, -1e-5F, 1}, 0.0F, UP));                     // rounded
+  EXPECT_TRUE(listed({1, -0.01F, 1}, 0.0F, UP, 4.0, 20.0F, 0.02F));  // from a position behind the triangle
+  EXPECT_FALSE(listed({1, -0.1F, 1}, 0.0F, UP, 4.0, 20.0F, 0.02F));
   EXPECT_TRUE(listed({9, -0.1F, 1}, 0.0F, {lamp::Vec3{0, 1, 0}, {0, 1, 0}, {1, 1, 0}}));  // rounded towards it
   EXPECT_TRUE(listed({1, -1, 1}, 0.0F, {}));                                              // no normals: not known
 }
@@ -181,19 +227,26 @@ TEST(TriangleLists, BudgetsCoarsenAndSaySo) {
   std::vector<StillTriangle> triangles = random_triangles(random);
   TriangleListsInfo info{.triangles = triangles, .lights = lights};
   const std::uint64_t fine = made(info).bytes();
-  for (const std::uint64_t budget : {fine / 2, fine / 3}) {
+  info.budget_bytes = fine;
+  EXPECT_EQ(made(info).bytes(), fine);
+  EXPECT_TRUE(made(info).notes.empty());
+  info.budget_bytes = 100;
+  const TriangleLists coarsest = made(info);
+  std::uint32_t merged = 1;
+  for (const std::uint64_t budget : {fine / 2, fine / 3, coarsest.bytes()}) {
     info.budget_bytes = budget;
     const TriangleLists lists = made(info);
     EXPECT_LE(lists.bytes(), budget);
     ASSERT_EQ(lists.notes.size(), 1U);
     EXPECT_NE(lists.notes[0].find(std::to_string(budget)), std::string::npos);
+    merged = lists.stats.merged;
+    EXPECT_EQ(lists.notes[0].find("neighbours share a list") != std::string::npos, merged > 1) << lists.notes[0];
     expect_complete(info, lists, random, 1000);
   }
-  info.budget_bytes = 100;
-  const TriangleLists lists = made(info);
-  ASSERT_EQ(lists.notes.size(), 1U);
-  EXPECT_NE(lists.notes[0].find("more than the 100 bytes"), std::string::npos) << lists.notes[0];
-  expect_complete(info, lists, random, 1000);
+  EXPECT_GT(merged, 1U);
+  ASSERT_EQ(coarsest.notes.size(), 1U);
+  EXPECT_NE(coarsest.notes[0].find("more than the 100 bytes"), std::string::npos) << coarsest.notes[0];
+  expect_complete(info, coarsest, random, 1000);
 }
 
 /// Builds that are too fine end when the budget is used up. Whole, they would ask for each patch twice and more.
@@ -287,6 +340,7 @@ TEST(TriangleLists, WrongInputIsNamed) {
     return lists.ok() ? std::string() : lists.error().text();
   };
   EXPECT_EQ(text({.slack_m = -1.0F}), "slack_m: must be >= 0 m and finite, got -1");
+  EXPECT_EQ(text({.slack_m = std::numeric_limits<float>::infinity()}), "slack_m: must be >= 0 m and finite, got inf");
   EXPECT_EQ(text({.patch = 0.0F}), "patch: must be > 0, got 0");
   EXPECT_EQ(text({.budget_bytes = 0}), "budget_bytes: must be > 0, got 0");
   lights[3].range = -1.0F;
@@ -294,6 +348,11 @@ TEST(TriangleLists, WrongInputIsNamed) {
   lights[3].range = 1.0F;
   lights[1].direction = {0, 0, 0};
   EXPECT_EQ(text({}), "light 1: direction must have a length of 1, got (0, 0, 0)");
+  lights[1].direction = {0, 0, 1};
+  triangles[0].normal_tilt = -0.5F;
+  EXPECT_EQ(text({}), "triangle 0: normal_tilt must be >= 0 radians, got -0.5");
+  triangles[0].normal_tilt = 0.0F;
+  lights[1].direction = {0, 0, 0};
   triangles[0].corners[1].x = 2e15;
   EXPECT_EQ(text({}), "triangle 0: corners must be finite and at most 1e15 m from the origin, got (2e+15, 0, 0)");
 }

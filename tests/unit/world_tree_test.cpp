@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "lamplight/shared/world_tree.h"
@@ -228,12 +229,55 @@ TEST(WorldTree, KnowsLightsAnywhere) {
   EXPECT_EQ(pile.lights_at({4, 2, 3}).size(), 0U);
 }
 
+/// At the ends of spheres along the axes, and along the sides of cones, where a cell beside is dark: a position is
+/// found there that rounding moves, by the size of its coordinates and by how far its eye is away.
+TEST(WorldTree, KnowsWhatLightsJustReachWhereRoundingMovesIt) {
+  for (const auto& [far_away, eyes_m] :
+       {std::pair(0.0F, 0.0F), {1e4F, 0.0F}, {1e5F, 0.0F}, {0.0F, 1e4F}, {1e3F, 1e5F}}) {
+    lamp::test::Random random(9);
+    std::vector<Light> lights;
+    Points ends;
+    Points ways;
+    for (int i = 0; i < 600; ++i) {
+      Light light{.position = random.vector(20.0F) + far_away, .range = random.in(1.0F, 4.0F)};
+      glm::vec3 way(0.0F);
+      way[i % 3] = i % 2 == 0 ? 1.0F : -1.0F;
+      ways.push_back(way);
+      if (i % 4 == 3) {
+        light.type = LightType::spot;
+        light.outer_angle = random.in(0.05F, 1.5F);
+        light.direction = random.direction();
+        const glm::vec3 axis(light.direction);
+        const glm::vec3 aside = glm::normalize(glm::cross(axis, random.direction()));
+        const float angle = light.outer_angle * (1.0F - 1e-4F);
+        way = 0.9F * (std::cos(angle) * axis + std::sin(angle) * aside);
+        ways.back() = std::cos(angle) * aside - std::sin(angle) * axis;
+      }
+      ends.push_back(glm::vec3(light.position) + light.range * (1.0F - 3e-5F) * way);
+      lights.push_back(light);
+    }
+    const PackedLights packed = lamp::pack(lights);
+    const WorldTree tree = built({.lights = packed, .eyes_m = eyes_m});
+    std::size_t inside = 0;
+    for (std::uint32_t i = 0; i < ends.size(); ++i) {
+      if (lamp::reach(packed[i], glm::dvec3(ends[i])) != lamp::Reach::inside) continue;  // by the rounding of its place
+      ++inside;
+      const glm::vec3 size = glm::abs(ends[i]);
+      const glm::vec3 moved = ends[i] + ways[i] * (1e-6F * (size.x + size.y + size.z) + 4e-6F * eyes_m);
+      EXPECT_TRUE(std::ranges::binary_search(tree.lights_at(lamp::Vec3(moved)), i)) << i << ", " << far_away;
+    }
+    EXPECT_GT(inside, 200U);
+  }
+}
+
 TEST(WorldTree, IsEmptyWithoutLights) {
   for (const PackedLights& lights : {PackedLights{}, lamp::pack(std::vector<Light>(3, {.range = 0.0F}))}) {
     const WorldTree tree = built({.lights = lights, .occluders = corridor().occluders});
     EXPECT_EQ(tree.lights_at({0, 0, 0}).size(), 0U);
     EXPECT_EQ(tree.counts().entries, 0U);
+    EXPECT_EQ(tree.counts().levels, 0U);
   }
+  EXPECT_GT(built({.lights = lights_around({}, 10.0F, 1.0F, 4.0F, 50)}).counts().levels, 2U);
 }
 
 /// Changes, checks that only the words changed that it says, and that nothing is missed.
@@ -326,15 +370,20 @@ TEST(WorldTree, NamesWhatIsWrong) {
   EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 3");
   lights[3].range = 1.0F;
   EXPECT_EQ(WorldTree::build({.lights = lights, .detail = 0}).error().source, "detail");
+  EXPECT_EQ(WorldTree::build({.lights = lights, .detail = 65}).error().source, "detail");
   EXPECT_EQ(WorldTree::build({.lights = lights, .texels = 1025}).error().source, "texels");
   EXPECT_EQ(WorldTree::build({.lights = lights, .eyes_m = std::nanf("")}).error().source, "eyes_m");
   EXPECT_EQ(WorldTree::build({.lights = lights, .eyes_m = 1e16F}).error().source, "eyes_m");
-  lights[2].type = lamp::shared::LIGHT_SPOT;
+  lights[2] = lamp::pack(Light{.type = LightType::spot, .range = 1.0F});
+  EXPECT_TRUE(WorldTree::build({.lights = lights}).ok());
   lights[2].direction = {0, 0, 2};
   EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
   lights[2].direction = {0, 0, 1};
-  lights[2].cos_outer = std::nanf("");
-  EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
+  for (float* number : {&lights[2].cos_outer, &lights[2].sin_outer}) {
+    const float right = std::exchange(*number, std::nanf(""));
+    EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
+    *number = right;
+  }
   lights[2].type = lamp::shared::LIGHT_POINT;
   lights[2].intensity.y = std::nanf("");
   EXPECT_EQ(WorldTree::build({.lights = lights}).error().source, "light 2");
