@@ -71,6 +71,17 @@ TEST_F(BenchReport, TwoRunsGiveRatios) {
   EXPECT_DOUBLE_EQ(compared.lines[0].cull_shade_ratio, 4.0 / 6.0);
 }
 
+/// Brute force has no cull.
+TEST_F(BenchReport, TimesOfNothingHaveNoRatio) {
+  json a = test::run_of(test::SWEEP);
+  json b = test::run_of(test::SWEEP, test::RUN, 0.5);
+  for (json* run : {&a, &b}) (*run)["results"][0]["times"]["cull"]["median"] = 0.0;
+  const Comparison compared = compare_runs(a, b);
+  EXPECT_EQ(compared.rows[0].cull_ratio, 0.0);
+  EXPECT_DOUBLE_EQ(compared.lines[0].cull_ratio, 0.5) << "the mean of the others";
+  EXPECT_TRUE(compared.rows[0].cull_shade_ratio > 0.0);
+}
+
 TEST_F(BenchReport, TimesOfAFileThatChangedAreNotCompared) {
   json a = test::run_of(test::SWEEP);
   json b = a;

@@ -247,6 +247,20 @@ TEST(BenchSuite, TheGpuVerifierChecksTheListsOfEveryRow) {
   EXPECT_EQ(words_of(software.groups[1].verify), "32 rows") << "32 rows are few enough for the oracle";
 }
 
+/// Whatever the limits ask for.
+TEST(BenchSuite, TheOracleAloneChecksWhatTheGpuVerifierDoesNotKnow) {
+  for (const char* unknown :
+       {R"("decals": [8])", R"("probes": [8])", R"("depth_samples": 4)", R"("stereo": 0.06)", R"("shadows": "pcf")"}) {
+    const Suite suite = parse_suite(suite_with(unknown), "mine.json");
+    const Expansion all = expand(suite, {.verifier = VerifierChoice::gpu});
+    EXPECT_EQ(all.groups.at(0).verify.verifier, Verifier::oracle) << unknown;
+  }
+  EXPECT_EQ(expand(parse_suite(suite_with(R"("seed": 2)"), "mine.json"), {.verifier = VerifierChoice::gpu})
+                .groups.at(0)
+                .verify.verifier,
+            Verifier::gpu);
+}
+
 TEST(BenchSuite, LimitsOfADevice) {
   const Suite suite =
       parse_suite(suite_with(R"("lights": [100, 1000], "sizes": ["100x10"], "frames": 50, "warm_up": 9)"), "mine.json");
@@ -258,6 +272,9 @@ TEST(BenchSuite, LimitsOfADevice) {
   EXPECT_EQ(words_of(slow.groups[0].verify), "picture");
   EXPECT_EQ(words_of(slow.groups[1].verify), "picture, lists alone");
   EXPECT_NE(slow.groups[1].unchecked.find("too many lights for brute force"), std::string::npos);
+  const Expansion short_loops = expand(suite, {.most_walked = 999});
+  EXPECT_EQ(words_of(short_loops.groups[0].verify), "picture");
+  EXPECT_EQ(words_of(short_loops.groups[1].verify), "picture, lists alone");
   const Expansion slower = expand(suite, {.most_pairs = 100});
   EXPECT_EQ(words_of(slower.groups[1].verify), "nothing");
   EXPECT_EQ(slower.groups[1].unchecked, "not verified: too many lights for the oracle");

@@ -131,6 +131,30 @@ TEST(Workload, LongListsAreWalkedAsAllLights) {
   EXPECT_NEAR(w.tile16.walked, 1000.0, 1e-6);
 }
 
+/// As long as a pixel's list is too long for its tile, whoever else there is.
+TEST(Workload, LongListsAreWalkedAsLightsElsewhereToo) {
+  std::vector<shared::Light> lights = random_lights(1000, 100.0F, false);
+  const std::vector<shared::Light> elsewhere(500, pack(Light{.position = {1e6F, 0, -10}, .range = 1.0F}));
+  lights.insert(lights.end(), elsewhere.begin(), elsewhere.end());
+  const Workload w = estimate_workload(test_view(), wall_depth(), lights);
+  EXPECT_NEAR(w.tile16.interval, 1000.0, 1e-6);
+  EXPECT_NEAR(w.tile16.walked, 1500.0, 1e-6);
+}
+
+TEST(Workload, ConesReachLessThanTheirSpheres) {
+  const View view = test_view();
+  const Workload spots = estimate_workload(view, wall_depth(), random_lights(2000, 3.0F, true));
+  const Workload points = estimate_workload(view, wall_depth(), random_lights(2000, 3.0F, false));
+  EXPECT_LT(spots.tile8.exact, 0.5 * spots.tile8.interval);
+  EXPECT_GT(points.tile8.exact, 0.5 * points.tile8.interval);
+}
+
+TEST(Workload, NothingIsSeenBehindAPerspectivesEye) {
+  std::vector<shared::Light> lights = random_lights(500, 1.5F, false);
+  for (shared::Light& light : lights) light.position = {0.0F, 0.0F, 1.6F};
+  EXPECT_EQ(estimate_workload(test_view(), wall_depth(), lights).tile16.column, 0.0);
+}
+
 TEST(Workload, SkyAndNothing) {
   const View view = test_view();
   const std::vector<shared::Light> lights = random_lights(500, 2.0F, false);
@@ -193,6 +217,17 @@ TEST(FitCost, NeverNegative) {
   EXPECT_EQ(fit_cost(auto_candidates()[0], {}).shade, ShadeTerms{}) << "no samples, no costs";
 }
 
+// As often too short as too long a time by the same factor: of 1 and 100 ms the fit is near 1, not in the middle.
+TEST(FitCost, WeighsErrorsByTheTimesThatTheyAreOf) {
+  const AutoCandidate& all = auto_candidates()[candidate("all")];
+  const Workload w = some_workload(64);
+  const CandidateCost cost =
+      fit_cost(all, std::vector<CostSample>{{.workload = w, .shade_ms = 1.0}, {.workload = w, .shade_ms = 100.0}});
+  double ms = 0.0;
+  for (std::size_t i = 0; i < SHADE_TERMS; ++i) ms += cost.shade[i] * shade_terms(all, w)[i];
+  EXPECT_NEAR(ms, (1.0 + 0.01) / (1.0 + 0.0001), 1e-6);
+}
+
 TEST(AutoCandidates, AreMethodsWithTheirOptions) {
   for (const AutoCandidate& c : auto_candidates()) {
     const auto method = find_method(c.method);
@@ -237,6 +272,21 @@ TEST(Choose, PredictsBySumsOfTerms) {
   EXPECT_NEAR(tiled.shade_ms, 3.0 * 1920.0 * 1080.0 * 30.0 / 1e7, 1e-9);
 }
 
+/// By hand, from docs/auto.md.
+TEST(Choose, TermsCountWhatEachMethodDoes) {
+  const Workload w = some_workload(4096);
+  const double pixels = 1920.0 * 1080.0;
+  const double tiles = 120.0 * 68.0;
+  const auto terms = [&](const char* label) { return cull_terms(auto_candidates()[candidate(label)], w); };
+  EXPECT_DOUBLE_EQ(terms("tiled")[3], 4096.0 * tiles / 1e7) << "every light at every tile";
+  EXPECT_DOUBLE_EQ(terms("tiled")[5], 0.0);
+  EXPECT_DOUBLE_EQ(terms("tight")[5], pixels * w.tile16.interval / 1e7) << "pixels look at a tile's lights";
+  EXPECT_DOUBLE_EQ(terms("lamplight")[3], 4096.0 * w.tile16.tested / 1e7) << "the tiles of a light's cells alone";
+  EXPECT_DOUBLE_EQ(terms("lamplight")[5], 4096.0 * w.tile16.cells / 1e7);
+  EXPECT_DOUBLE_EQ(shade_terms(auto_candidates()[candidate("tiled-bits")], w)[3], pixels * 128.0 / 1e7);
+  EXPECT_DOUBLE_EQ(shade_terms(auto_candidates()[candidate("tiled")], w)[3], 0.0);
+}
+
 TEST(Choose, WhatCannotRunIsNoCandidate) {
   Calibration calibration = even_calibration();
   calibration.costs[candidate("tiled-bits")] = {};  // by far the least, if only it could
@@ -254,7 +304,9 @@ TEST(Choose, NoRoomForLightsIsNothingToCull) {
   calibration.costs[candidate("tight")] = {.cull = {1.7}};
   Workload none = some_workload(0);
   none.capacity = 10;
-  EXPECT_EQ(choose(calibration, none, large_device()).method, "tight") << "there may be lights in the next frame";
+  const Choice tight = choose(calibration, none, large_device());
+  EXPECT_EQ(tight.method, "tight") << "there may be lights in the next frame";
+  EXPECT_EQ(tight.reason, "the least predicted time of cull and shading; next is tiled (1.18 times)");
   none.capacity = 0;
   EXPECT_EQ(choose(calibration, none, large_device()).method, "all");
 }
@@ -268,6 +320,8 @@ TEST(Choose, GivesLamplightRoom) {
   w.tile16.exact = 100.0;
   EXPECT_EQ(choose(calibration, w, large_device()).options,
             (std::vector<std::string>{"mean_cells=800", "mean_capacity=200"}));
+  w.tile16.entries = 3000.0;
+  EXPECT_EQ(choose(calibration, w, large_device()).options.front(), "mean_cells=4096") << "the most that there is";
 }
 
 TEST(Choose, CellsGatherFewLightsAlone) {
