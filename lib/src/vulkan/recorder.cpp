@@ -80,7 +80,7 @@ void AccessTracker::barrier(const DeviceFunctions& vk, VkCommandBuffer commands,
     const bool changes_layout = image && (state.layout != use.resource.layout || use.discard);
     const bool orders_write = state.write_stages != 0 && (writes || (use.stages & ~state.visible_stages) != 0 ||
                                                           (use.access & ~state.visible_access) != 0);
-    const bool orders_reads = (writes || changes_layout) && state.read_stages != 0;
+    const bool orders_reads = writes && state.read_stages != 0;
 
     if (changes_layout) {
       images_.push_back(
