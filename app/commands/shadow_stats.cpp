@@ -10,13 +10,15 @@ namespace lamp::app {
 
 std::optional<ShadowStats> shadow_stats(const Shadows* shadows) {
   if (shadows == nullptr) return std::nullopt;
-  const auto copy = [](std::span<const std::uint32_t> lights) {
-    return std::vector<std::uint32_t>(lights.begin(), lights.end());
+  const auto lights_of = [&](std::span<const std::uint32_t> records) {
+    std::vector<std::uint32_t> lights;
+    for (const std::uint32_t record : records) lights.push_back(shadows->light_of(record));
+    return lights;
   };
   return ShadowStats{.settings = shadows->settings(),
                      .counts = shadows->counts(),
-                     .waiting = copy(shadows->waiting()),
-                     .without = copy(shadows->without())};
+                     .waiting = lights_of(shadows->waiting()),
+                     .without = lights_of(shadows->without())};
 }
 
 std::string shadow_words(const ShadowStats& shadows) {

@@ -72,7 +72,7 @@ void Renderer::cast_shadows(const ShadowSettings& settings) {
   check_shadow_raster(context_, settings.raster);
   // Where some lights stand still, a box's number is between those of two lights.
   const auto boxes = static_cast<std::uint32_t>(decal_capacity_ + probes().probes().size());
-  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_ + boxes);
+  shadows_.emplace(context_, shaders_, scene_, settings, light_capacity_, boxes);
 }
 
 void Renderer::light_probes(const ProbeSet* set) {
@@ -102,9 +102,10 @@ void Renderer::set_frame(std::span<const View> views, std::span<const shared::Li
                          std::span<const gpu::DecalData> decals) {
   set_views(views, lights, decals);
   if (!shadows_) return;
-  const bool has_still = still_ != nullptr && still_->lights() != 0;
-  const std::vector<shared::Light> shadowed = has_still ? shadowed_records() : std::vector<shared::Light>();
-  shadows_->schedule(views_, has_still ? std::span<const shared::Light>(shadowed) : lights);
+  if (still_ != nullptr && still_->lights() != 0)
+    shadows_->schedule(views_, data_.records(), entities().boxes);
+  else
+    shadows_->schedule(views_, lights);
 }
 
 void Renderer::set_views(std::span<const View> views, std::span<const shared::Light> lights,
@@ -123,13 +124,6 @@ void Renderer::set_views(std::span<const View> views, std::span<const shared::Li
   all_pictures_->data.set(views_, lights, decals, still, probes().probes());
   if (moves) draw_depths();
   show({});
-}
-
-std::vector<shared::Light> Renderer::shadowed_records() const {
-  std::vector<shared::Light> records(data_.records().begin(), data_.records().end());
-  const EntityRange boxes = data_.entities().boxes;
-  for (std::uint32_t i = boxes.first; i < boxes.end; ++i) records[i].range = 0.0F;  // no shadow
-  return records;
 }
 
 void Renderer::show(const FramePicture& shown) {

@@ -243,8 +243,6 @@ class Renderer {
   /// What the method culls: of all views, where these are culled at once.
   [[nodiscard]] FrameData& culled_data() { return all_pictures_ ? all_pictures_->data : data_; }
   [[nodiscard]] const FrameData& culled_data() const { return all_pictures_ ? all_pictures_->data : data_; }
-  /// Lights by their numbers in the buffer, where some stand still: nothing of boxes.
-  [[nodiscard]] std::vector<shared::Light> shadowed_records() const;
   void record_upload(vulkan::Recorder& recorder);
   /// Where the lighting's method reads them.
   void record_reach(vulkan::Recorder& recorder, const Lighting& lighting);

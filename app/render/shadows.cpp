@@ -52,16 +52,18 @@ void check_shadow_raster(const Context& context, ShadowRaster raster) {
 }
 
 Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowSettings& settings,
-                 std::uint32_t light_capacity)
+                 std::uint32_t light_capacity, std::uint32_t box_capacity)
     : settings_(settings),
       device_(context.device()),
       shaders_(shaders),
       light_capacity_(light_capacity),
-      schedule_(make_atlas(context.device(), settings, std::min(light_capacity, settings.lights))),
-      drawing_(make_drawing(context, shaders, scene, settings, std::min(light_capacity, settings.lights))) {
+      box_capacity_(box_capacity),
+      schedule_(make_atlas(context.device(), settings, casting_capacity())),
+      drawing_(make_drawing(context, shaders, scene, settings, casting_capacity())) {
   const vulkan::Device& device = context.device();
-  const std::uint64_t views = std::uint64_t{std::min(light_capacity, settings.lights)} * shared::VIEWS_A_LIGHT;
-  const std::uint64_t map_bytes = std::max<std::uint64_t>(1, light_capacity) * sizeof(shared::ShadowMap);
+  const std::uint64_t views = std::uint64_t{casting_capacity()} * shared::VIEWS_A_LIGHT;
+  const std::uint64_t map_bytes =
+      std::max<std::uint64_t>(1, std::uint64_t{light_capacity} + box_capacity) * sizeof(shared::ShadowMap);
   views_ = shadow_buffer(device, "shadow views", views * sizeof(shared::ShadowView), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   map_buffer_ = shadow_buffer(device, "shadow maps", map_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   staging_ = take(vulkan::Buffer::create(device, {.name = "shadow staging",
@@ -72,15 +74,22 @@ Shadows::Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene&
     moments_.emplace(context, shaders, settings.filter, settings.blur, settings.atlas_size);
 }
 
+std::uint32_t Shadows::casting_capacity() const { return std::min(light_capacity_, settings_.lights) + box_capacity_; }
+
 void Shadows::restart() {
-  schedule_ = make_atlas(device_, settings_, std::min(light_capacity_, settings_.lights));
+  schedule_ = make_atlas(device_, settings_, casting_capacity());
   moved_.clear();
   ages_.clear();
   changed_ = false;
 }
 
-void Shadows::schedule(std::span<const View> views, std::span<const shared::Light> lights) {
-  const auto shadowed = lights.first(std::min<std::size_t>(lights.size(), settings_.lights));
+void Shadows::schedule(std::span<const View> views, std::span<const shared::Light> records, EntityRange boxes) {
+  boxes_ = boxes;
+  records_.assign(records.begin(), records.end());
+  for (std::uint32_t i = boxes.first; i < boxes.end; ++i) records_[i].range = 0.0F;  // no shadow
+  const std::size_t casting =
+      settings_.lights > boxes.first ? std::size_t{settings_.lights} + boxes.count() : std::size_t{settings_.lights};
+  const std::span<const shared::Light> shadowed = std::span(records_).first(std::min(records.size(), casting));
   if (std::exchange(changed_, true)) schedule_.redraw_all();  // nobody drew the last one
   const ShadowFrame frame = take(schedule_.schedule(
       {.views = views, .lights = shadowed, .moved = moved_, .budget_texels = settings_.budget_texels}));
@@ -89,8 +98,8 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
   waiting_.assign(frame.waiting.begin(), frame.waiting.end());
   without_.assign(frame.without.begin(), frame.without.end());
   maps_.assign(frame.maps.begin(), frame.maps.end());
-  maps_.resize(lights.size());
-  ages_.resize(lights.size());
+  maps_.resize(records.size());
+  ages_.resize(records.size());
   for (std::uint32_t& age : ages_) ++age;
   for (const ShadowRedraw& redraw : frame.redraws) ages_[redraw.light] = 0;
   redrawn_squares_.assign(frame.squares.begin(), frame.squares.end());
@@ -98,7 +107,6 @@ void Shadows::schedule(std::span<const View> views, std::span<const shared::Ligh
   viewports_.clear();
   for (const shared::ShadowView& view : host_views_) viewports_.push_back(shadow_viewport(maps_[view.light], view));
   if (moments_) moments_->set(maps_, frame.redraws);
-  lights_.assign(lights.begin(), lights.end());
   if (bounds_lights())
     for (std::optional<ShadowReach>& reach : reaches_)
       if (reach) reach->add(frame.radial_jobs);
@@ -138,11 +146,11 @@ void Shadows::set_pending(const Pending& pending) {
 void Shadows::need(ShadowReach::Kind kind) {
   std::optional<ShadowReach>& reach = reaches_[static_cast<std::size_t>(kind)];
   if (reach) return;
-  reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_);
+  reach.emplace(device_, shaders_, kind, settings_.filter, light_capacity_ + box_capacity_);
   if (!bounds_lights()) return;
   std::vector<shared::RadialJob> jobs;
-  for (std::uint32_t i = 0; i < lights_.size(); ++i)
-    jobs.push_back({.light = i, .shows_all = shadow_shows_all(maps_[i], lights_[i]) ? 1U : 0U});
+  for (std::uint32_t i = 0; i < records_.size(); ++i)
+    jobs.push_back({.light = i, .shows_all = shadow_shows_all(maps_[i], records_[i]) ? 1U : 0U});
   reach->add(jobs);
 }
 

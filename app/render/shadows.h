@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "lamplight/entity.h"
 #include "lamplight/shadow_atlas.h"
 #include "render/pass_uses.h"
 #include "render/shader_library.h"
@@ -60,16 +61,17 @@ class NoShadows {
 
 class Shadows {
  public:
-  /// Throws Error for an atlas that the device cannot have, and for a device that cannot draw it.
+  /// At most `box_capacity` boxes have their numbers between those of lights. Throws Error for an atlas that the device
+  /// cannot have, and for a device that cannot draw it.
   Shadows(Context& context, const ShaderLibrary& shaders, const GpuScene& scene, const ShadowSettings& settings,
-          std::uint32_t light_capacity);
+          std::uint32_t light_capacity, std::uint32_t box_capacity = 0);
 
   /// What has moved before the next `schedule`: spheres around where it was and is.
   void move(std::span<const shared::LightSphere> moved) { moved_.insert(moved_.end(), moved.begin(), moved.end()); }
   /// Forgets all frames: the next is as the first. Sizes and places of squares follow from those before, too.
   void restart();
-  /// Of the next frame.
-  void schedule(std::span<const View> views, std::span<const shared::Light> lights);
+  /// Of the next frame: lights, and boxes that may be between them.
+  void schedule(std::span<const View> views, std::span<const shared::Light> records, EntityRange boxes = {});
   /// Draws and uploads what the last `schedule` asked for; nothing if that is done.
   void record(vulkan::Recorder& recorder);
 
@@ -84,10 +86,15 @@ class Shadows {
 
   [[nodiscard]] const ShadowSettings& settings() const { return settings_; }
   [[nodiscard]] const ShadowCounts& counts() const { return counts_; }
-  [[nodiscard]] std::span<const std::uint32_t> waiting() const { return waiting_; }  ///< lights, as counted
+  [[nodiscard]] std::span<const std::uint32_t> waiting() const { return waiting_; }  ///< records, as counted
   [[nodiscard]] std::span<const std::uint32_t> without() const { return without_; }
+  /// The number of a record's light, boxes left out.
+  [[nodiscard]] std::uint32_t light_of(std::uint32_t record) const {
+    return record < boxes_.first ? record : record - boxes_.count();
+  }
+  /// Of each record.
   [[nodiscard]] std::span<const shared::ShadowMap> maps() const { return maps_; }
-  /// Of each light that has a map, in how many frames it was not drawn.
+  /// Of each record that has a map, in how many frames it was not drawn.
   [[nodiscard]] std::span<const std::uint32_t> ages() const { return ages_; }
   [[nodiscard]] const GpuImage& atlas() const { return drawing_->atlas(); }
   /// Of vsm and evsm; else null.
@@ -104,12 +111,15 @@ class Shadows {
 
  private:
   void record_uploads(vulkan::Recorder& recorder);
+  /// How many records the scheduler knows, at most: of lights that cast, and boxes.
+  [[nodiscard]] std::uint32_t casting_capacity() const;
   [[nodiscard]] bool bounds_lights() const { return settings_.blur != ShadowBlur::listing || !moments_; }
 
   ShadowSettings settings_;
   const vulkan::Device& device_;
   const ShaderLibrary& shaders_;
   std::uint32_t light_capacity_;
+  std::uint32_t box_capacity_;
   ShadowAtlas schedule_;
   std::unique_ptr<ShadowDrawing> drawing_;
   vulkan::Buffer views_;
@@ -120,11 +130,12 @@ class Shadows {
   std::array<std::optional<ShadowReach>, 2> reaches_;  ///< by kind
   bool changed_ = false;                               ///< since the last `record`
   ShadowCounts counts_;
+  EntityRange boxes_;  ///< among the records of the last `schedule`
   std::vector<std::uint32_t> waiting_;
   std::vector<std::uint32_t> without_;
   std::vector<shared::ShadowMap> maps_;
   std::vector<std::uint32_t> ages_;
-  std::vector<shared::Light> lights_;       ///< of the last `schedule`
+  std::vector<shared::Light> records_;      ///< of the last `schedule`; boxes have no range
   std::vector<shared::LightSphere> moved_;  ///< since then
   std::vector<ShadowSquare> redrawn_squares_;
   std::vector<shared::ShadowView> host_views_;

@@ -126,6 +126,23 @@ TEST_F(Still, LightsAreAskedForTheirOwnShadows) {
   }
 }
 
+/// `--shadow-lights` counts lights, and what fits nowhere is named by its light.
+TEST_F(Still, LightsCastShadowsAsWithoutLists) {
+  const auto shadows = [&](const std::string& lists) {
+    const Outcome run =
+        lamp({"verify",        "corridor", "--lights",  "40",   "--size",   "64x36", "--still",         "1",
+              "--still-lists", lists,      "--shadows", "hard", "--atlas",  "64",    "--shadow-lights", "30",
+              "--decals",      "3",        "--probes",  "2",    "--method", "tiled", "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.out;
+    return nlohmann::json::parse(run.out).at(0).at("shadows");
+  };
+  const nlohmann::json with = shadows("world-tree");
+  const nlohmann::json without = shadows("off");
+  EXPECT_GT(without.at("without_lights").size(), 0U) << "it says nothing of their numbers";
+  for (const char* key : {"seen", "shadowed", "without", "without_lights", "smaller", "used_texels"})
+    EXPECT_EQ(with.at(key), without.at(key)) << key;
+}
+
 TEST_F(Still, ListsAreCheckedInEveryView) {
   for (const char* lists : {"world-tree", "triangle-lists"}) {
     SCOPED_TRACE(lists);
@@ -148,7 +165,7 @@ TEST_F(Still, SayWhatIsWrong) {
   expect_error(BAD_INPUT, {"render", "--still-lists", "triangles"}, {"--still-lists 'triangles'", "triangle-lists"});
   for (const char* lists : {"triangle-lists", "world-tree"})
     expect_error(BAD_INPUT, {"render", "--still-lists", lists, "--path", "standard-deferred"},
-                 {"standard-deferred walks no lists"});
+                 {"standard-deferred: walks no lists"});
   expect_error(BAD_INPUT, {"verify", "--still-lists", "world-tree", "--points", "10", "--cut", "cut.png"},
                {"--cut", "--still-lists off"});
   expect_error(BAD_INPUT, {"render", "--still-occlusion", "32"}, {"--still-occlusion 32", "there are no lists"});
