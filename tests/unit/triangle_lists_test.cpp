@@ -268,6 +268,24 @@ TEST(TriangleLists, BudgetsAreLookedAtAsListsGrow) {
   EXPECT_LT(asked, asked_whole);
 }
 
+/// Larger patches change nothing where nothing is cut: neighbours share lists at once.
+TEST(TriangleLists, BudgetsOfLightsWithoutRangeAreMetSoon) {
+  RandomDoubles random(13);
+  std::vector<lamp::shared::Light> lights = random_lights(random, 300, 10.0, 2.0);
+  for (lamp::shared::Light& light : lights) light.range = std::numeric_limits<float>::infinity();
+  const std::vector<StillTriangle> triangles = random_triangles(random);
+  std::uint64_t asked = 0;
+  TriangleListsInfo info{.triangles = triangles, .lights = lights};
+  info.hides = [&](std::uint32_t, std::span<const lamp::DVec3>) { return ++asked % 2 == 0; };
+  const std::uint64_t fine = made(info).bytes();
+  const std::uint64_t asked_whole = std::exchange(asked, 0);
+  info.budget_bytes = fine / 2;
+  const TriangleLists lists = made(info);
+  EXPECT_LE(lists.bytes(), info.budget_bytes);
+  EXPECT_GT(lists.stats.merged, 1U);
+  EXPECT_LT(asked, 4 * asked_whole);
+}
+
 /// What is hidden is asked for with points around all positions, and is not listed.
 TEST(TriangleLists, HiddenLightsAreLeftOut) {
   const std::vector<StillTriangle> triangles{triangle_of({0, 0, 0}, {0, 0, 8}, {8, 0, 0})};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -188,9 +189,23 @@ class Build {
   std::vector<std::uint32_t> waiting_list_;
 };
 
+/// From this patch on nothing is cut: the longest side over the least range that ends.
+double uncut_patch(std::span<const StillTriangle> triangles, std::span<const StillLight> lights) {
+  double longest = 0.0;
+  for (const StillTriangle& triangle : triangles) {
+    const Bounds box = box_of(triangle);
+    const glm::dvec3 size = box.max - box.min;
+    longest = std::max({longest, size.x, size.y, size.z});
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const StillLight& light : lights)
+    if (light.range > 0.0) least = std::min(least, light.range);
+  return longest / least;
+}
+
 /// What takes less memory; nothing if nothing does.
-std::optional<Fineness> coarser(const Fineness& fineness) {
-  if (fineness.patch < LARGEST_PATCH) return Fineness{.patch = COARSER * fineness.patch};
+std::optional<Fineness> coarser(const Fineness& fineness, double largest_patch) {
+  if (fineness.patch < largest_patch) return Fineness{.patch = COARSER * fineness.patch};
   if (fineness.merged < MOST_MERGED) return Fineness{.patch = fineness.patch, .merged = 4 * fineness.merged};
   return std::nullopt;
 }
@@ -217,9 +232,10 @@ Result<TriangleLists> make_triangle_lists(const TriangleListsInfo& info) {
   std::vector<StillLight> lights;
   lights.reserve(info.lights.size());
   for (const shared::Light& light : info.lights) lights.push_back(world::still_light(light));
+  const double largest_patch = std::min<double>(LARGEST_PATCH, uncut_patch(info.triangles, lights));
   Fineness fineness{.patch = info.patch};
   while (true) {
-    const std::optional<Fineness> next = coarser(fineness);
+    const std::optional<Fineness> next = coarser(fineness, largest_patch);
     const std::uint64_t budget_words = next ? info.budget_bytes / sizeof(std::uint32_t) : world::MOST_LIST_WORDS;
     Build build(info, lights, fineness, std::min<std::uint64_t>(budget_words, world::MOST_LIST_WORDS));
     if (build.run()) {
