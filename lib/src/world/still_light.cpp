@@ -70,8 +70,14 @@ double distance2(const Polygon& polygon, const glm::dvec3& plane, const glm::dve
   return least;
 }
 
-/// Of an edge's points in the cone, the one nearest to the apex is where the edge is nearest, at one of its ends, or
-/// where it meets the cone. Its end is where the next edge begins.
+bool is_within(const Polygon& polygon, const glm::dvec3& plane, const glm::dvec3& place, double range) {
+  for (const Corner& corner : polygon.all())  // mostly one is
+    if (glm::dot(corner.at - place, corner.at - place) <= range * range) return true;
+  return distance2(polygon, plane, place) <= range * range;
+}
+
+/// Of an edge's points in the cone, the one nearest to the apex is where the edge is nearest, or where it meets the
+/// cone, or at one of its ends, which are none of its concern here.
 bool meets_edge(const Sector& s, const glm::dvec3& from, const glm::dvec3& way) {
   const glm::dvec3 v = from - s.apex;
   const double cosine2 = s.cosine * s.cosine;
@@ -81,7 +87,7 @@ bool meets_edge(const Sector& s, const glm::dvec3& from, const glm::dvec3& way) 
   const double half_b = dv * dw - cosine2 * glm::dot(v, way);
   const double c = dv * dv - cosine2 * glm::dot(v, v);
   const auto at = [&](double share) { return share >= 0.0 && share <= 1.0 && holds(s, from + share * way); };
-  if (at(0.0) || at(share_nearest(from, way, s.apex))) return true;
+  if (at(share_nearest(from, way, s.apex))) return true;
   const double discriminant = std::sqrt(std::max(half_b * half_b - a * c, 0.0));
   const double q = -(half_b + std::copysign(discriminant, half_b));
   return (a != 0.0 && at(q / a)) || (q != 0.0 && at(c / q));
@@ -97,6 +103,8 @@ glm::dvec3 nearest_in_cone(const Sector& s, const glm::dvec3& to) {
 }
 
 bool meets(const Sector& s, const Polygon& polygon, glm::dvec3 plane) {
+  for (const Corner& corner : polygon.all())  // mostly one is
+    if (holds(s, corner.at)) return true;
   if (plane != glm::dvec3(0.0)) {
     double height = glm::dot(plane, polygon.corners[0].at - s.apex);
     if (height < 0.0) {
@@ -157,7 +165,9 @@ StillLight still_light(const shared::Light& light) {
   still.spot = true;
   if (!(light.outer_angle > 0.0F)) still.radius = -1.0;
   still.axis = glm::normalize(glm::dvec3(light.direction));
-  still.angle = std::min(light.outer_angle + ROUNDED, std::numbers::pi / 2.0);
+  const double angle = std::min(light.outer_angle + ROUNDED, std::numbers::pi / 2.0);
+  still.cosine = std::cos(angle);
+  still.sine = std::sin(angle);
   return still;
 }
 
@@ -165,27 +175,34 @@ bool may_touch(const StillLight& light, const Bounds& box, double slack) {
   if (light.radius < 0.0) return false;
   const glm::dvec3 gap = glm::max(glm::max(box.min - light.center, light.center - box.max), glm::dvec3(0.0));
   const double radius = light.radius + slack;
-  return glm::dot(gap, gap) <= radius * radius;
+  if (glm::dot(gap, gap) > radius * radius) return false;
+  if (!light.spot) return true;
+  const glm::dvec3 to = 0.5 * (box.min + box.max) - light.position;
+  const double along = glm::dot(light.axis, to);
+  const double beside = glm::length(to - along * light.axis) * light.cosine - along * light.sine;
+  return beside <= 0.5 * glm::length(box.max - box.min) + slack + ON_EDGE * glm::length(to);
 }
 
 bool touches(const StillLight& light, const Polygon& polygon, const glm::dvec3& plane, double slack) {
   if (light.radius < 0.0 || polygon.count == 0) return false;
   const double range = light.range + slack;
-  if (distance2(polygon, plane, light.position) > range * range) return false;
+  if (!is_within(polygon, plane, light.position, range)) return false;
   if (!light.spot) return true;
   // A cone whose apex is moved back encloses all that is within the slack of it.
-  const double back = slack / std::sin(light.angle);
+  const double back = slack / light.sine;
   if (back > 0.5 * range) return true;
   return meets({.apex = light.position - light.axis * back,
                 .axis = light.axis,
-                .cosine = std::cos(light.angle),
-                .sine = std::sin(light.angle),
+                .cosine = light.cosine,
+                .sine = light.sine,
                 .range = range + back},
                polygon, plane);
 }
 
 bool is_behind(const StillLight& light, const Polygon& polygon, double tilt, double slack) {
   if (tilt >= std::numbers::pi / 2.0) return false;
+  for (const Corner& corner : polygon.all())  // mostly one is before it
+    if (glm::dot(light.position - corner.at, corner.normal) > 0.0) return false;
   double farthest = 0.0;
   double longest = 0.0;
   for (const Corner& corner : polygon.all()) {

@@ -44,13 +44,15 @@ struct StillLight {
   double range = 0.0;  ///< m; infinite: everything
   bool spot = false;
   glm::dvec3 axis{0.0};  ///< unit
-  double angle = 0.0;    ///< half of the cone's, widened by rounding
+  double cosine = 0.0;   ///< of half of the cone's angle, which is widened by rounding
+  double sine = 0.0;
   glm::dvec3 center{0.0};
   double radius = 0.0;  ///< of a sphere around all that it reaches; negative: nothing
 };
 [[nodiscard]] StillLight still_light(const shared::Light& light);
 
-/// Whether a sphere around the light's volume, so much wider, touches a box.
+/// Whether a sphere around the light's volume touches a box, and a spot's cone the sphere around that, both so much
+/// wider.
 [[nodiscard]] bool may_touch(const StillLight& light, const Bounds& box, double slack);
 
 /// Whether the light's volume comes within `slack` of the polygon, whose plane has this unit normal (0: degenerate).
