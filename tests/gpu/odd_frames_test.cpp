@@ -70,6 +70,7 @@ std::vector<Variant> variants() {
       {"tiled", {"bounds=none", "test=cone", "spot=cone-planes", "frusta=cached"}},
       {"tiled", {"order=type", "test=exact", "prune=pixel"}},
       {"clustered", {"container=bits", "scale=linear"}},
+      {"world-cells", {"cells=16"}},
       {"lamplight", {"cells=list"}},
       {"lamplight", {"cells=bits", "prune=pixel"}},
       {"lamplight", {"cells=list", "container=bits", "tile=8"}},
