@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/odd_frames.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <numbers>
-#include <random>
 
 #include "gpu/check.h"
 #include "gpu/random_volumes.h"
+#include "just_reaching.h"
+#include "random.h"
 
 namespace lamp::app {
 namespace {
@@ -108,44 +108,37 @@ std::vector<Light> reaching_lights(const View& view, const std::vector<float>& d
 /// the cones, sides lie along the tile's.
 std::vector<Light> rim_lights(const View& view, const std::vector<float>& depth) {
   constexpr double ANGLES[] = {0.03, 0.3, 0.8, 1.3, 1.57};
-  constexpr double WITHIN = 1.0 - 4e-5;  // four times as far as the oracle is unsure
   constexpr std::uint32_t TILE_PX[] = {8, 16, 32};
-  std::mt19937 random(11);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
-  const auto unit = [&] { return glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + 1e-9); };
+  test::RandomDoubles random(11);
   std::vector<Light> lights;
   while (lights.size() < ODD_LIGHTS) {
-    const std::uint32_t tile = TILE_PX[random() % std::size(TILE_PX)];
-    const auto column = static_cast<std::uint32_t>(random() % 2);  // a tile's column, or its row
-    const bool first = random() % 2 == 0;                          // or the last of the tile
-    glm::uvec2 pixel(random() % ODD_SIZE.x, random() % ODD_SIZE.y);
-    std::uint32_t& at = column == 1 ? pixel.x : pixel.y;
+    const std::uint32_t tile = TILE_PX[random.below(std::size(TILE_PX))];
+    const bool column = random.below(2) == 0;  // a tile's column, or its row
+    const bool first = random.below(2) == 0;   // or the last of the tile
+    glm::uvec2 pixel(random.below(ODD_SIZE.x), random.below(ODD_SIZE.y));
+    std::uint32_t& at = column ? pixel.x : pixel.y;
     at = at / tile * tile + (first ? 0 : tile - 1);
     if (pixel.x >= ODD_SIZE.x || pixel.y >= ODD_SIZE.y) continue;
     const float d = depth[std::size_t{pixel.y} * ODD_SIZE.x + pixel.x];
     if (d == 0.0F) continue;
     const glm::dvec3 surface = view.world_position(pixel.x, pixel.y, d);
-    const glm::uvec2 next = column == 1 ? glm::uvec2(pixel.x, pixel.y ^ 1U) : glm::uvec2(pixel.x ^ 1U, pixel.y);
-    const glm::dvec3 ahead = glm::dvec3(view.world_position(pixel.x, pixel.y, 0.5F * d)) - surface;
-    const glm::dvec3 beside =
-        glm::normalize(glm::cross(ahead, glm::dvec3(view.world_position(next.x, next.y, d)) - surface));
-    const bool along = lights.size() % 4 > 1;
-    glm::dvec3 towards = unit();
-    if (along) towards = glm::normalize(towards - glm::dot(towards, beside) * beside);
-    const double distance = std::exp(uniform(std::log(0.5), std::log(40.0)));
-    Light light;
-    light.position = glm::vec3(surface - towards * distance);
-    light.range = static_cast<float>(distance / WITHIN);
-    if (lights.size() % 4 != 0) {
-      const double angle = ANGLES[lights.size() % std::size(ANGLES)];
-      const glm::dvec3 across =
-          along ? (random() % 2 == 0 ? beside : -beside) : glm::normalize(glm::cross(towards, unit()));
-      light.type = LightType::spot;
-      light.range *= 1.5F;
-      light.outer_angle = static_cast<float>(angle);
-      light.direction = glm::vec3(std::cos(angle * WITHIN) * towards + std::sin(angle * WITHIN) * across);
+    const double distance = std::exp(random.in(std::log(0.5), std::log(40.0)));
+    const glm::dvec3 towards = random.direction();
+    const double angle = ANGLES[lights.size() % std::size(ANGLES)];
+    if (lights.size() % 4 == 0) {
+      lights.push_back(test::point_just_reaching(surface, towards, distance));
+    } else if (lights.size() % 4 == 1) {
+      const glm::dvec3 outside = glm::normalize(glm::cross(towards, random.direction()));
+      lights.push_back(test::spot_just_reaching(surface, towards, distance, outside, angle));
+    } else {
+      const glm::uvec2 next = column ? glm::uvec2(pixel.x, pixel.y ^ 1U) : glm::uvec2(pixel.x ^ 1U, pixel.y);
+      const glm::dvec3 ahead = glm::dvec3(view.world_position(pixel.x, pixel.y, 0.5F * d)) - surface;
+      const glm::dvec3 rim = glm::dvec3(view.world_position(next.x, next.y, d)) - surface;
+      const glm::dvec3 beside = glm::normalize(glm::cross(ahead, rim));
+      const glm::dvec3 along = glm::normalize(towards - glm::dot(towards, beside) * beside);
+      const glm::dvec3 outside = random.below(2) == 0 ? beside : -beside;
+      lights.push_back(test::spot_just_reaching(surface, along, distance, outside, angle));
     }
-    lights.push_back(light);
   }
   return lights;
 }

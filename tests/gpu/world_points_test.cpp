@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "gpu/point_asks.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
+#include "just_reaching.h"
+#include "random.h"
 #include "scene/flight.h"
 #include "scene/random_points.h"
 
@@ -90,28 +91,19 @@ TEST_P(WorldPoints, KnowLightsOfNanometresAtTheOrigin) {
 /// Cells are cubes between whole multiples of powers of two. Of one cell, such a light has no more than a corner: the
 /// end of its range, or the side of its cone.
 TEST_P(WorldPoints, KnowLightsThatOnlyJustReachACell) {
-  constexpr double WITHIN = 1.0 - 4e-5;  // four times as far as the oracle is unsure
-  std::mt19937 random(3);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  test::RandomDoubles random(3);
   Asked asked;
   while (asked.lights.size() < LIGHTS) {
-    const double range = std::exp(uniform(std::log(0.1), std::log(30.0)));
-    const double side = std::exp2(std::floor(std::log2(range)) - std::floor(uniform(-1.0, 4.0)));
-    const auto any = [&] { return glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); };
-    const glm::dvec3 sign = glm::sign(any());
-    const glm::dvec3 point = side * glm::floor(8.0 * any()) + 2e-5 * range * sign;
-    const glm::dvec3 towards = sign * glm::normalize(glm::abs(any()));
-    Light light{.position = glm::vec3(point - WITHIN * range * towards), .range = static_cast<float>(range)};
-    if (asked.lights.size() % 2 == 0) {
-      const double angle = uniform(0.05, 1.5);
-      const glm::dvec3 across = glm::normalize(glm::cross(towards, any()));
-      const glm::dvec3 outside = glm::dot(across, sign) < 0.0 ? across : -across;
-      light.type = LightType::spot;
-      light.range *= 1.5F;
-      light.outer_angle = static_cast<float>(angle);
-      light.direction = glm::vec3(std::cos(angle * WITHIN) * towards + std::sin(angle * WITHIN) * outside);
-    }
-    asked.lights.push_back(pack(light));
+    const double range = std::exp(random.in(std::log(0.1), std::log(30.0)));
+    const double side = std::exp2(std::floor(std::log2(range)) - std::floor(random.in(-1.0, 4.0)));
+    const glm::dvec3 sign = glm::sign(random.direction());
+    const glm::dvec3 point = side * glm::floor(random.vector(8.0)) + 2e-5 * range * sign;
+    const glm::dvec3 towards = sign * glm::abs(random.direction());
+    const glm::dvec3 across = glm::normalize(glm::cross(towards, random.direction()));
+    const glm::dvec3 outside = glm::dot(across, sign) < 0.0 ? across : -across;
+    asked.lights.push_back(pack(asked.lights.size() % 2 == 0
+                                    ? test::spot_just_reaching(point, towards, range, outside, random.in(0.05, 1.5))
+                                    : test::point_just_reaching(point, towards, range)));
     asked.points.emplace_back(point);
   }
   EXPECT_GE(ask(asked).findings.useful, LIGHTS);
