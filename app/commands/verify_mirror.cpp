@@ -20,8 +20,7 @@ std::optional<MirrorStats> verify_mirror(Session& session, const Setup& setup, L
   Renderer& renderer = session.renderer();
   if (renderer.mirrored() == nullptr) return std::nullopt;
   const std::size_t pictures = renderer.all_pictures().size();
-  const MirrorScene& traced = renderer.mirrored()->scene();
-  const MirrorReference reference(setup.scene, traced.bvh(), traced.first_levels());
+  const MirrorReference reference = mirror_reference(renderer, setup.scene);
   MirrorFindings findings;
   for_each_picture(renderer, [&](std::span<const float>) {
     show_progress("verify mirror rays");

@@ -97,6 +97,11 @@ std::string MirrorFindings::reason() const {
   return ended == 0 ? "" : fmt::format("the device ended the search of {} mirror rays before its end", ended);
 }
 
+MirrorReference mirror_reference(const Renderer& renderer, const Scene& scene) {
+  const MirrorScene& traced = renderer.mirrored()->scene();
+  return {scene, traced.bvh(), traced.first_levels()};
+}
+
 MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders, const MirrorReference& reference,
                             std::span<const shared::Light> lights, std::size_t most) {
   const MirrorPass& mirror = *renderer.mirrored();

@@ -27,6 +27,9 @@ struct MirrorFindings {
   [[nodiscard]] std::string reason() const;  ///< of a verdict that is not ok, one line
 };
 
+/// Of what the rays of a renderer that mirrors read. Both must outlive it.
+[[nodiscard]] MirrorReference mirror_reference(const Renderer& renderer, const Scene& scene);
+
 /// Of the last picture of a renderer that mirrors; the reference is of its scene, `lights` are the frame's, `most` rays
 /// are checked.
 [[nodiscard]] MirrorFindings check_mirror(Renderer& renderer, const ShaderLibrary& shaders,

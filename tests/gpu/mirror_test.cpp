@@ -59,11 +59,6 @@ class Mirror : public GpuTest {
   }
 };
 
-MirrorReference reference_of(const Renderer& renderer, const Scene& scene) {
-  const MirrorScene& traced = renderer.mirrored()->scene();
-  return {scene, traced.bvh(), traced.first_levels()};
-}
-
 class MirrorInScene : public Mirror, public ::testing::WithParamInterface<std::string_view> {};
 
 /// Instances, masked leaves, glass, back faces; far from the eye, too.
@@ -74,7 +69,7 @@ TEST_P(MirrorInScene, RaysMeetWhatTheReferenceMeets) {
   const std::unique_ptr<Renderer> renderer = renderer_of(shown);
   static_cast<void>(picture(*renderer, shown));
   const MirrorFindings found =
-      check_mirror(*renderer, shader_library(), reference_of(*renderer, scene.scene), shown.lights, 4000);
+      check_mirror(*renderer, shader_library(), mirror_reference(*renderer, scene.scene), shown.lights, 4000);
   EXPECT_EQ(found.reason(), "");
   EXPECT_GT(found.checked, 1000U);
   EXPECT_GT(found.hits, found.checked / 4);
@@ -174,7 +169,7 @@ TEST_F(Mirror, ShowsWhatIsPlacedFlatOrTiny) {
     const std::unique_ptr<Renderer> renderer = renderer_of(shown);
     EXPECT_LT(max_abs_difference(picture(*renderer, shown), expected), 1e-3F);
     const MirrorFindings found =
-        check_mirror(*renderer, shader_library(), reference_of(*renderer, scene.scene), lights, 4000);
+        check_mirror(*renderer, shader_library(), mirror_reference(*renderer, scene.scene), lights, 4000);
     EXPECT_EQ(found.reason(), "");
     EXPECT_GT(found.hits, 0U);
   }

@@ -6,8 +6,6 @@
 #include "gpu/method_check.h"
 #include "gpu/test_lights.h"
 #include "gpu/test_scenes.h"
-#include "render/mirror_check.h"
-#include "render/mirror_reference.h"
 #include "scene/flight.h"
 #include "scene/gltf.h"
 #include "scene/place_lights.h"
@@ -40,33 +38,6 @@ TEST_P(RealScenes, NothingIsMissed) {
       check_method(renderer, lit, {.method = &method, .light_capacity = capacity});
     }
   }
-}
-
-class RealMirrors : public GpuTest {};
-
-/// Its images do not fit the largest buffer of a small device, and masked leaves are among them.
-TEST_F(RealMirrors, RaysThroughHolesMeetWhatTheReferenceMeets) {
-  const std::filesystem::path file = std::filesystem::path(LAMPLIGHT_SHARED_SCENES) / "sponza/Sponza.gltf";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file.string() << " is not there; this test needs it";
-  constexpr std::uint32_t WIDTH = 201;
-  constexpr std::uint32_t HEIGHT = 48;
-  const Scene scene = load_gltf(file);
-  const GpuScene gpu(test_context(), scene);
-  Renderer renderer(test_context(), shader_library(), gpu, WIDTH, HEIGHT, 1);
-  renderer.mirror({.roughness = 1.0F});
-  renderer.set_frame(view_of(find_camera(scene, ""), WIDTH, HEIGHT, "camera"), {});
-  Lighting lighting(renderer.device(), shader_library(),
-                    {.method = &brute_force(),
-                     .options = take(resolve_options(brute_force(), {})),
-                     .width = WIDTH,
-                     .height = HEIGHT,
-                     .light_capacity = 1});
-  static_cast<void>(renderer.render(lighting));
-  const MirrorScene& traced = renderer.mirrored()->scene();
-  const MirrorReference reference(scene, traced.bvh(), traced.first_levels());
-  const MirrorFindings found = check_mirror(renderer, shader_library(), reference, {}, std::size_t{WIDTH} * HEIGHT);
-  EXPECT_GT(found.checked, 1000U);
-  EXPECT_EQ(found.wrong, 0U) << found.first_wrong;
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, RealScenes,
