@@ -80,13 +80,13 @@ MethodWord parse_method_word(const std::string& text) {
 bool is_auto(std::string_view method) { return method == "auto"; }
 
 std::string with_options_named(std::string_view error, const std::function<std::string(std::string_view)>& name) {
-  constexpr std::string_view LETTERS = "abcdefghijklmnopqrstuvwxyz";
+  constexpr std::string_view OF_NAMES = "-abcdefghijklmnopqrstuvwxyz";
   std::string words;
   for (std::size_t i = 0; i < error.size();) {
     const bool begins = i == 0 || error[i - 1] == ' ';
     const std::string_view rest = error.substr(i);
-    if (begins && rest.starts_with("--") && rest.find_first_of(LETTERS) == 2) {
-      const std::size_t end = std::min(error.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", i), error.size());
+    if (begins && rest.starts_with("--") && rest.find_first_of(OF_NAMES.substr(1)) == 2) {
+      const std::size_t end = std::min(error.find_first_not_of(OF_NAMES, i), error.size());
       words += name(error.substr(i + 2, end - i - 2));
       i = end;
     } else {

@@ -77,7 +77,7 @@ bool is_within(const Polygon& polygon, const glm::dvec3& plane, const glm::dvec3
 }
 
 /// Of an edge's points in the cone, the one nearest to the apex is where the edge is nearest, or where it meets the
-/// cone, or at one of its ends, which are none of its concern here.
+/// cone, or at one of its ends, which `meets` looks at.
 bool meets_edge(const Sector& s, const glm::dvec3& from, const glm::dvec3& way) {
   const glm::dvec3 v = from - s.apex;
   const double cosine2 = s.cosine * s.cosine;
