@@ -11,7 +11,13 @@ endif()
 function(lamplight_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  if(PROJECT_IS_TOP_LEVEL)
+  if(MSVC)
+    # Sources are UTF-8; members of classes that a DLL exports may be of std (C4251).
+    target_compile_options(${target} PRIVATE /utf-8 /permissive- /wd4251)
+    if(PROJECT_IS_TOP_LEVEL)
+      target_compile_options(${target} PRIVATE /W4)
+    endif()
+  elseif(PROJECT_IS_TOP_LEVEL)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                              -Wno-missing-field-initializers)
     # Errors in the builds that have the tests. A release build has to work with compilers that nobody here has tried;
@@ -33,7 +39,7 @@ endfunction()
 
 # For targets that the tests spend much of their time in: -O2 where a preset says -O1, which inlines no small functions.
 function(lamplight_optimise target)
-  if(PROJECT_IS_TOP_LEVEL)
+  if(PROJECT_IS_TOP_LEVEL AND NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O2>)
   endif()
 endfunction()
@@ -62,7 +68,9 @@ function(lamplight_join target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # A name may be another file's; and g++ takes what is included for a header, which other files might include too.
-  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  if(NOT MSVC)
+    target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()
 
 # lamplight_precompile(TARGET HEADER...): precompiles headers of others, which take most of the time of a build; our own

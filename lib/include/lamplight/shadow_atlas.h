@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,7 +42,7 @@ inline constexpr float WIDEST_SPOT_SQUARE = 1.308996939F;  // radians, 75 degree
 inline constexpr std::uint32_t SHADOW_BINDING = 11;
 inline constexpr std::uint32_t SHADOW_CONSTANT = 15;
 
-inline constexpr std::uint64_t ALL_TEXELS = std::numeric_limits<std::uint64_t>::max();
+inline constexpr std::uint64_t ALL_TEXELS = ~std::uint64_t{0};
 
 struct ShadowAtlasInfo {
   std::uint32_t size = 4096;            ///< texels a side of the image: a power of two, 16 .. 32768

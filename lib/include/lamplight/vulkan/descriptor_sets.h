@@ -17,6 +17,12 @@ namespace lamp::vulkan {
 class LAMPLIGHT_API DescriptorSets {
  public:
   DescriptorSets() = default;
+  // Written out: MSVC would make the copies for a DLL, which `pools_` does not let it.
+  DescriptorSets(DescriptorSets&&) noexcept = default;
+  DescriptorSets& operator=(DescriptorSets&&) noexcept = default;
+  DescriptorSets(const DescriptorSets&) = delete;
+  DescriptorSets& operator=(const DescriptorSets&) = delete;
+  ~DescriptorSets() = default;
   explicit DescriptorSets(const Device& device) : device_(device.handle), vk_(device.vk) {}
 
   /// A set of a pipeline's layout, whose bindings nobody has written. Errors: no memory left.
