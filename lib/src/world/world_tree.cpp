@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <future>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -72,11 +73,11 @@ std::vector<LitBrick> lit_bricks(const WorldTreeInfo& info, const TreeGrid& grid
       }
     std::ranges::sort(found[thread], {}, place_of);
   };
-  {
-    std::vector<std::jthread> others;
-    for (std::uint32_t thread = 1; thread < threads; ++thread) others.emplace_back(work, thread);
-    work(0);
-  }
+  std::vector<std::future<void>> others;  // no std::jthread: clang's C++ library has none before LLVM 20
+  for (std::uint32_t thread = 1; thread < threads; ++thread)
+    others.push_back(std::async(std::launch::async, work, thread));
+  work(0);
+  for (std::future<void>& other : others) other.get();
   std::vector<LitBrick> all = std::move(found[0]);
   for (std::uint32_t thread = 1; thread < threads; ++thread) {
     std::vector<LitBrick> both;
