@@ -87,6 +87,18 @@ glm::ivec3 facing_of(const glm::vec3& normal, Sides sides) {
   return {glm::round(facing)};
 }
 
+/// Of a triangle that is nearly a line, 32 bits keep little but what they round.
+glm::vec3 normal_of(const Triangle& t) {
+  const glm::vec3 a = t[1] - t[0];
+  const glm::vec3 b = t[2] - t[0];
+  const glm::vec3 normal = glm::cross(a, b);
+  constexpr float NEARLY = 1e-3F;  // sine of the angle at a corner
+  const bool is_nearly_a_line = glm::dot(normal, normal) <= NEARLY * NEARLY * glm::dot(a, a) * glm::dot(b, b);
+  if (!is_nearly_a_line) return normal;
+  const glm::dvec3 corner(t[0]);
+  return glm::cross(glm::dvec3(t[1]) - corner, glm::dvec3(t[2]) - corner);
+}
+
 void draw(const Triangle& t, Sides sides, Occupancy& grid) {
   const glm::ivec3 first(1);
   const glm::ivec3 last = grid.size - 2;
@@ -94,7 +106,7 @@ void draw(const Triangle& t, Sides sides, Occupancy& grid) {
   const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(glm::min(glm::min(t[0], t[1]), t[2]) - margin)), first, last);
   const glm::ivec3 high =
       glm::clamp(glm::ivec3(glm::floor(glm::max(glm::max(t[0], t[1]), t[2]) + margin)), first, last);
-  const glm::vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+  const glm::vec3 normal = normal_of(t);
   const glm::ivec3 facing = facing_of(normal, sides);
   if (low == high) return mark(grid, low, facing);
 
