@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "lamplight/version.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,6 +64,11 @@ std::set<std::string> matches(const std::string& text, const std::regex& pattern
   std::set<std::string> found;
   for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) found.insert((*at)[1]);
   return found;
+}
+
+TEST(Docs, TheCitationNamesThisVersion) {
+  const std::string version = "\nversion: " + std::string(lamp::version()) + "\n";
+  EXPECT_NE(read(fs::path(LAMPLIGHT_SOURCE_DIR) / "CITATION.cff").find(version), std::string::npos) << version;
 }
 
 // The page for those who create the device has every feature that is asked for, and no other.
