@@ -11,6 +11,9 @@ endif()
 function(lamplight_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  # What checks lights looks for NaN, and a range may be infinite: where the project around has -ffast-math or a part of
+  # it, this takes it back. Fused multiply-adds may stay: they round less than what bounds allow for.
+  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${MSVC}>,/fp:precise,-fno-fast-math>)
   if(MSVC)
     # Sources are UTF-8; members of classes that a DLL exports may be of std (C4251).
     target_compile_options(${target} PRIVATE /utf-8 /permissive- /wd4251)

@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "scene/gltf_light_text.h"
@@ -19,7 +18,7 @@ constexpr float NEW_RANGE_M = 10.0F;  // of a light that had none
 bool change(Light& light, Widgets& widgets) {
   const float step = 0.01F * std::clamp(light.range, 0.1F, 100.0F);
   bool changed = widgets.move("position", light.position, step, "Where it is, metres. Drag a number.");
-  bool ends = std::isfinite(light.range);
+  bool ends = light.range < shared::INFINITE_RADIUS;
   if (widgets.check("has a range", ends, "Without one it reaches everything.")) {
     light.range = ends ? NEW_RANGE_M : std::numeric_limits<float>::infinity();
     changed = true;

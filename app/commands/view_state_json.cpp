@@ -123,7 +123,7 @@ nlohmann::json light_json(const LightEdit& edit) {
                       {"position", vector_json(l.position)},
                       {"color", vector_json(l.color)},
                       {"intensity", l.intensity}};
-  if (std::isfinite(l.range)) json["range"] = l.range;
+  if (l.range < shared::INFINITE_RADIUS) json["range"] = l.range;
   if (l.type == LightType::spot)
     json.update(
         {{"direction", vector_json(l.direction)}, {"inner_angle", l.inner_angle}, {"outer_angle", l.outer_angle}});

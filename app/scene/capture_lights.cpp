@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "error.h"
 #include "files/json_values.h"
@@ -94,7 +93,7 @@ nlohmann::json lights_json(std::span<const Light> lights) {
                           {"position", array_of(light.position)},
                           {"color", array_of(light.color)},
                           {"intensity", light.intensity}};
-    if (!std::isinf(light.range)) object["range"] = light.range;
+    if (light.range < shared::INFINITE_RADIUS) object["range"] = light.range;
     if (spot)
       object.update({{"direction", array_of(light.direction)},
                      {"inner_angle", light.inner_angle},

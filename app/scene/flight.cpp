@@ -73,7 +73,7 @@ glm::dmat4 perspective_of(const Camera& camera, double aspect, std::string_view 
   const double near_m = camera.near_m > 0.0F ? camera.near_m : DEFAULT_NEAR_M;
   double far_m = camera.far_m > 0.0F ? camera.far_m : INFINITE_FAR;
   if (projection == "infinite") far_m = INFINITE_FAR;
-  if (projection == "perspective" && std::isinf(far_m)) far_m = std::max(DEFAULT_FAR_M, 2.0 * near_m);
+  if (projection == "perspective" && far_m >= INFINITE_FAR) far_m = std::max(DEFAULT_FAR_M, 2.0 * near_m);
   if (!(near_m < far_m)) {
     throw Error(fmt::format("camera '{}': the far plane must lie beyond the near plane ({} m), got {} m", camera.name,
                             near_m, far_m));

@@ -59,7 +59,7 @@ json light_json(const Light& light, const std::string& name) {
             {"type", light.type == LightType::spot ? "spot" : "point"},
             {"color", {light.color.x / above, light.color.y / above, light.color.z / above}},
             {"intensity", light.intensity * above}};
-  if (std::isfinite(light.range)) made["range"] = light.range;
+  if (light.range < shared::INFINITE_RADIUS) made["range"] = light.range;
   if (light.type != LightType::spot) return made;
   made["spot"] = {{"innerConeAngle", std::min(light.inner_angle, std::nextafter(light.outer_angle, 0.0F))},
                   {"outerConeAngle", std::min(double{light.outer_angle}, std::numbers::pi / 2.0)}};

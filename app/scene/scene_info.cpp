@@ -3,7 +3,6 @@
 #include "scene/scene_info.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lamp::app {
 namespace {
@@ -13,7 +12,7 @@ LightCount count(const std::vector<Light>& lights, LightType type) {
   for (const Light& light : lights) {
     if (light.type != type) continue;
     ++found.count;
-    if (std::isinf(light.range)) {
+    if (light.range >= shared::INFINITE_RADIUS) {
       ++found.unlimited;
       continue;
     }

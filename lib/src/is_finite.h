@@ -6,6 +6,10 @@
 
 #include "lamplight/vectors.h"
 
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "Lamplight checks for NaN: compile its sources with -fno-fast-math, as its CMake target does"
+#endif
+
 namespace lamp {
 
 [[nodiscard]] inline bool is_finite(const Vec3& v) {

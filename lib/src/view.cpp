@@ -99,6 +99,8 @@ double stretch_of(const glm::dmat3& m) {
   return 1.0 - std::sqrt(1.0 - largest);  // the greatest deviates less: sqrt(1 + largest) - 1
 }
 
+bool is_finite(double m) { return std::abs(m) < INFINITE_FAR; }  // false for a NaN
+
 bool has_area(const Window& window) { return window.left < window.right && window.bottom < window.top; }
 
 DMat4 no_projection() {
@@ -167,19 +169,20 @@ DMat4 perspective(const Window& window, double near_m, double far_m) {
   if (!has_area(window) || !is_ahead) return no_projection();
   const double width = window.right - window.left;
   const double height = window.top - window.bottom;
+  const bool is_endless = !is_finite(far_m);
   DMat4 p{};
   p[0][0] = 2.0 / width;
   p[1][1] = -2.0 / height;
   p[2][0] = (window.right + window.left) / width;
   p[2][1] = -(window.top + window.bottom) / height;
-  p[2][2] = std::isinf(far_m) ? 0.0 : near_m / (far_m - near_m);
+  p[2][2] = is_endless ? 0.0 : near_m / (far_m - near_m);
   p[2][3] = -1.0;
-  p[3][2] = std::isinf(far_m) ? near_m : near_m * (far_m / (far_m - near_m));
+  p[3][2] = is_endless ? near_m : near_m * (far_m / (far_m - near_m));
   return p;
 }
 
 DMat4 orthographic(const Window& window, double near_m, double far_m) {
-  if (!has_area(window) || !(near_m < far_m) || !std::isfinite(near_m) || !std::isfinite(far_m)) return no_projection();
+  if (!has_area(window) || !(near_m < far_m) || !is_finite(near_m) || !is_finite(far_m)) return no_projection();
   const double width = window.right - window.left;
   const double height = window.top - window.bottom;
   DMat4 p{};

@@ -48,8 +48,8 @@ TEST_F(Info, OfVerySmallAndVeryLargeNumbers) {
   std::ifstream file(LAMPLIGHT_SOURCE_DIR "/tests/fuzz/corpus_gltf/lights.gltf");
   json scene = json::parse(file);
   for (const auto& [range, says] :
-       {std::pair(1e30, "range 1e+30 to 1e+30 m"), std::pair(1e-20, "range 1e-20 to 1e-20 m"),
-        std::pair(5.0, "range 5.00 to 5.00 m")}) {
+       {std::pair(1e30, "1, 1 without a range"), std::pair(1e17, "range 1e+17 to 1e+17 m"),
+        std::pair(1e-20, "range 1e-20 to 1e-20 m"), std::pair(5.0, "range 5.00 to 5.00 m")}) {
     scene["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = range;
     write("scene.gltf", scene.dump());
     const std::string text = output_of({"info", "scene.gltf"});

@@ -7,11 +7,13 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "lamplight/view.h"
 #include "lamplight/world_tree.h"
 
 namespace {
@@ -118,6 +120,13 @@ TEST(CheckLights, AcceptsTheEdgesOfEveryRange) {
   EXPECT_FALSE(lamp::check_lights(lights).has_value());
   EXPECT_TRUE(lamp::WorldTree::build({.lights = lamp::pack(lights)}).ok());
   EXPECT_FALSE(lamp::check_lights({}).has_value());
+}
+
+// With -ffast-math a host's compiler may leave out infinities: public headers have none.
+TEST(CheckLights, ALightWithoutARangeNeedsNoInfinity) {
+  EXPECT_TRUE(std::isfinite(Light{}.range));
+  EXPECT_GE(Light{}.range, lamp::shared::INFINITE_RADIUS);
+  EXPECT_TRUE(std::isfinite(lamp::INFINITE_FAR));
 }
 
 TEST(CheckLights, NamesTheFirstOfSeveral) {

@@ -95,7 +95,7 @@ TEST(View, DepthIsOneAtTheNearPlaneAndZeroAtTheFarPlane) {
     const double near_m = projection.name == "orthographic behind the eye" ? -50.0 : NEAR;
     EXPECT_NEAR(project(view, {0.0, 0.0, -near_m}).z, 1.0, 1e-6);
     EXPECT_NEAR(view.z_view(1.0), near_m, 1e-4);
-    if (std::isinf(projection.far_m)) {
+    if (projection.far_m >= lamp::INFINITE_FAR) {
       EXPECT_EQ(project(view, {0.0, 0.0, -1e12}).z, NEAR / 1e12);
     } else {
       EXPECT_NEAR(project(view, {0.0, 0.0, -FAR}).z, 0.0, 1e-6);
@@ -209,6 +209,12 @@ TEST(View, RefusesNumbersThatAreNotFinite) {
       EXPECT_NE(refusal(lamp::perspective(OFF_CENTRE, NEAR, FAR), moved).find("finite"), std::string::npos);
     }
   }
+}
+
+TEST(View, AnInfiniteFarPlaneMayBeWrittenInTwoWays) {
+  EXPECT_EQ(lamp::perspective(OFF_CENTRE, NEAR, std::numeric_limits<double>::infinity()),
+            lamp::perspective(OFF_CENTRE, NEAR, lamp::INFINITE_FAR));
+  EXPECT_EQ(lamp::perspective(OFF_CENTRE, NEAR, lamp::INFINITE_FAR)[2][2], 0.0);
 }
 
 // A minimised window's aspect is 0.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <future>
+#include <limits>
 #include <numeric>
 #include <random>
 

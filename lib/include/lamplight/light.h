@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,12 +20,12 @@ enum class LightType : std::uint32_t { point = shared::LIGHT_POINT, spot = share
 struct Light {
   LightType type = LightType::point;
   Vec3 position{};
-  float range = std::numeric_limits<float>::infinity();  ///< m, >= 0; 0 reaches nothing, 1e18 and more everything
-  Vec3 color{1.0F, 1.0F, 1.0F};                          ///< linear Rec. 709, >= 0
-  float intensity = 1.0F;                                ///< candela, >= 0
-  Vec3 direction{0.0F, 0.0F, -1.0F};                     ///< spots: where it looks; any length but 0
-  float inner_angle = 0.0F;                              ///< spots: radians, 0 .. outer_angle
-  float outer_angle = 0.785398163F;                      ///< spots: radians, half-angle of the cone, 0 .. pi/2
+  float range = shared::INFINITE_RADIUS;  ///< m, >= 0; 0 reaches nothing, 1e18 and more everything, infinity too
+  Vec3 color{1.0F, 1.0F, 1.0F};           ///< linear Rec. 709, >= 0
+  float intensity = 1.0F;                 ///< candela, >= 0
+  Vec3 direction{0.0F, 0.0F, -1.0F};      ///< spots: where it looks; any length but 0
+  float inner_angle = 0.0F;               ///< spots: radians, 0 .. outer_angle
+  float outer_angle = 0.785398163F;       ///< spots: radians, half-angle of the cone, 0 .. pi/2
 };
 
 /// The first light that breaks the ranges above, as an error that names it ("light 3: range must be ..."); or nothing.

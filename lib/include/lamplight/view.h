@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "lamplight/error.h"
 #include "lamplight/export.h"
@@ -69,7 +68,8 @@ struct Window {
   double left, right, bottom, top;
 };
 
-inline constexpr double INFINITE_FAR = std::numeric_limits<double>::infinity();
+/// From here on a far plane is infinite. No infinity: with -ffast-math, clang leaves out what would pass one.
+inline constexpr double INFINITE_FAR = 1e300;
 
 /// Reversed-depth perspective through `window` (tangents), `near_m` > 0, `far_m` > `near_m` or INFINITE_FAR. Of other
 /// numbers, or a window without area, such as a minimised one's, it is a matrix that View::create refuses.
