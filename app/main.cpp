@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cerrno>
-#include <csignal>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "commands/commands.h"
 #include "commands/complain.h"
 #include "lamplight/version.h"
+#include "system/console.h"
 #include "system/print.h"
 #include "system/signals.h"
 
@@ -84,7 +84,7 @@ Exit run(int argc, char** argv) {
 /// The exit code, once it is known whether everything that was printed has arrived.
 Exit checked(Exit exit) {
   const int problem = lamp::app::output_problem();
-  if (problem == EPIPE && lamp::app::dies_of_broken_pipes()) lamp::app::die_of(SIGPIPE);
+  if (problem == EPIPE) lamp::app::die_of_broken_pipe();
   if (problem != 0)
     exit = lamp::app::complain(
         "lamp", "standard output: cannot be written: " + std::generic_category().message(problem), Exit::bad_input);

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
 #include "error.h"
+#include "files/utf8_path.h"
 #include "system/temporary.h"
 
 namespace lamp::app {
@@ -22,12 +22,17 @@ class TemporaryFolder {
 
  private:
   static std::filesystem::path make() {
+    namespace fs = std::filesystem;
+    std::error_code error;
     const char* named = std::getenv("TMPDIR");
-    std::string name = std::filesystem::path(named != nullptr && *named != '\0' ? named : "/tmp") / "lamp-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr)
-      throw Error(name + ": no temporary folder can be made: " + std::generic_category().message(errno) +
+    fs::path folder = named != nullptr && *named != '\0' ? utf8_path(named) : fs::temp_directory_path(error);
+    folder /= unique_name();
+    if (!error) fs::create_directory(folder, error);
+    if (!error) fs::permissions(folder, fs::perms::owner_all, error);
+    if (error)
+      throw Error(folder.string() + ": no temporary folder can be made: " + error.message() +
                   "; expected TMPDIR to name a folder that is writable");
-    return name;
+    return folder;
   }
 
   Temporary folder_;

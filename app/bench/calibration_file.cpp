@@ -13,6 +13,7 @@
 #include "files/json_values.h"
 #include "files/read_file.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "image/write_file.h"
 #include "system/temporary.h"
 
@@ -84,17 +85,18 @@ Calibration parse_calibration(std::string_view text, const std::string& source) 
 Calibration load_calibration(const std::string& file, const std::string& name) {
   constexpr std::uint64_t LARGEST = 1U << 24;  // bytes
   return parse_calibration(
-      text_of(read_file(file, {.name = name, .expected = "a calibration of lamp", .most_bytes = LARGEST})), name);
+      text_of(read_file(utf8_path(file), {.name = name, .expected = "a calibration of lamp", .most_bytes = LARGEST})),
+      name);
 }
 
 std::string cached_calibration_file(const std::string& device, const std::string& driver) {
-  fs::path folder;
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  if (xdg != nullptr && fs::path(xdg).is_absolute())  // a relative one is to be ignored
-    folder = xdg;
-  else if (home != nullptr && *home != '\0')
-    folder = fs::path(home) / ".cache";
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value == nullptr ? fs::path() : utf8_path(value);
+  };
+  fs::path folder = variable("XDG_CACHE_HOME");
+  if (!folder.is_absolute()) folder = variable("LOCALAPPDATA");  // a relative one is to be ignored
+  if (folder.empty() && !variable("HOME").empty()) folder = variable("HOME") / ".cache";
   if (folder.empty()) return {};
   const std::string name = hash_text(hash_of(device + "\n" + driver));  // any device's name gives one of a file
   return (folder / "lamplight" / fmt::format("calibration-{}.json", name)).string();
@@ -113,10 +115,10 @@ std::optional<Calibration> read_cached_calibration(const std::string& file, cons
 }
 
 std::string keep_calibration(const std::string& file, const Calibration& calibration) {
-  if (file.empty()) return "there is neither XDG_CACHE_HOME nor HOME";
+  if (file.empty()) return "none of XDG_CACHE_HOME, LOCALAPPDATA and HOME is there";
   try {
-    NewFolders folders(fs::path(file).parent_path());
-    write_file(file, json_text(to_json(calibration), 1) + "\n");
+    NewFolders folders(utf8_path(file).parent_path());
+    write_file(utf8_path(file), json_text(to_json(calibration), 1) + "\n");
     folders.keep();
   } catch (const fs::filesystem_error& failure) {
     return fmt::format("{}: its folder cannot be made: {}", file, failure.code().message());

@@ -18,8 +18,8 @@ namespace lamp::app {
 /// The calibration in a file, which errors call `name`. Throws Error.
 [[nodiscard]] Calibration load_calibration(const std::string& file, const std::string& name);
 
-/// The file for a device and a driver in the user's cache folder, $XDG_CACHE_HOME or ~/.cache; empty when there is no
-/// such folder.
+/// The file for a device and a driver in the user's cache folder, $XDG_CACHE_HOME, %LOCALAPPDATA% or ~/.cache; empty
+/// when there is no such folder.
 [[nodiscard]] std::string cached_calibration_file(const std::string& device, const std::string& driver);
 
 /// The calibration in a file of the cache; nothing when it is not there, damaged, or another device's or driver's.

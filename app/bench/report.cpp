@@ -18,6 +18,7 @@
 #include "bench/summary.h"
 #include "error.h"
 #include "files/read_file.h"
+#include "files/utf8_path.h"
 
 namespace lamp::app {
 namespace {
@@ -68,8 +69,8 @@ std::optional<std::vector<std::byte>> read_picture(const fs::path& folder, const
     throw Error(
         fmt::format("{} is '{}', expected the name of a PNG file below the folder of results.json", where, name));
   };
-  if (!stays_below(name)) fail();
-  const fs::path file = folder / name;
+  if (!stays_below(utf8_path(name))) fail();
+  const fs::path file = folder / utf8_path(name);
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
   if (!lies_below(file, folder)) fail();

@@ -16,6 +16,7 @@
 #include "error.h"
 #include "files/read_file.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "lamplight/method.h"
 #include "render/mirror_pass.h"
 #include "scene/decal.h"
@@ -376,7 +377,7 @@ Suite load_suite(const std::string& name) {
   if (const EmbeddedFile* builtin = builtin_suite(name)) return parse_suite(builtin->text, "suite " + name);
   const std::string expected = fmt::format("a suite's file, or one of {}", fmt::join(suite_names(), ", "));
   return within_memory(name, [&] {
-    return parse_suite(text_of(read_file(name, {.expected = expected, .most_bytes = LARGEST_SUITE})), name);
+    return parse_suite(text_of(read_file(utf8_path(name), {.expected = expected, .most_bytes = LARGEST_SUITE})), name);
   });
 }
 

@@ -25,6 +25,7 @@
 #include "commands/pictures.h"
 #include "files/content_hash.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "render/judgement.h"
 #include "system/print.h"
 #include "system/progress.h"
@@ -217,16 +218,16 @@ Exit conclude(const json& results, std::size_t left_out, const std::string& repo
 }
 
 json results_of(const BenchOptions& o, const DeviceRow& row, const Suite& suite) {
-  return new_results(
-      {.command = o.command_line,
-       .device = row.name,
-       .device_kind = row.kind,
-       .driver = row.driver,
-       .commit = std::string(built_from()),
-       .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))),
-       .shaders = o.request.shader_dir.empty() ? std::string(BUILT_IN) : hash_of_shaders(o.request.shader_dir),
-       .pipeline_statistics = o.request.pipeline_statistics ? "on" : std::string(OFF)},
-      suite);
+  return new_results({.command = o.command_line,
+                      .device = row.name,
+                      .device_kind = row.kind,
+                      .driver = row.driver,
+                      .commit = std::string(built_from()),
+                      .date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))),
+                      .shaders = o.request.shader_dir.empty() ? std::string(BUILT_IN)
+                                                              : hash_of_shaders(utf8_path(o.request.shader_dir)),
+                      .pipeline_statistics = o.request.pipeline_statistics ? "on" : std::string(OFF)},
+                     suite);
 }
 
 Exit bench(const BenchOptions& o) {
@@ -254,12 +255,13 @@ Exit bench(const BenchOptions& o) {
   check_calibration(o.request.calibration, o.request.explain || std::ranges::any_of(groups, has_auto));
   tell_verifier(o, groups);
   json results = results_of(o, device.context().row(), suite);
-  const fs::path folder = o.out;
-  const std::string file = (folder / "results.json").string();
+  const fs::path folder = utf8_path(o.out);
+  const fs::path results_file = folder / "results.json";
+  const std::string file = results_file.string();
   check_own_file(o.out, o.request.scene);
   const auto earlier_results = [&]() -> std::optional<json> {
-    if (std::error_code none; o.overwrite || !fs::exists(file, none)) return std::nullopt;
-    json earlier = load_results(file);
+    if (std::error_code none; o.overwrite || !fs::exists(results_file, none)) return std::nullopt;
+    json earlier = load_results(results_file);
     check_earlier(results, earlier, file, groups);
     return earlier;
   };
@@ -370,7 +372,7 @@ Run add_bench(CLI::App& app, std::span<char* const> arguments) {
       "Exit code 1: a method's output was wrong. 4: none was wrong, but one could not be checked, because the device "
       "ends its walks; it has its times. After Ctrl-C it writes what it has measured; the same command goes on.");
   // The tool by its name: where it lies is nobody else's concern, and results are passed on.
-  o->command_line = fs::path(arguments.front()).filename().string();
+  o->command_line = utf8_path(arguments.front()).filename().string();
   for (const char* argument : arguments.subspan(1)) o->command_line += " " + shell_quoted(argument);
   // While the line is parsed, before pairs of options are looked at: a suite takes neither of a pair.
   command->parse_complete_callback([o, command] { refuse_with_suite(*command, o->request.scene); });

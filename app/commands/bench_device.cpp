@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "files/content_hash.h"
+#include "files/utf8_path.h"
 #include "scene/number_triangles.h"
 #include "scene/place_lights.h"
 
@@ -46,7 +47,7 @@ std::optional<MirrorSettings> mirror_of(const Group& group, const Scene& scene) 
 }
 
 BenchDevice::BenchDevice(const Request& request)
-    : shaders_(request.shader_dir),
+    : shaders_(utf8_path(request.shader_dir)),
       context_(std::make_unique<Context>(
           ContextInfo{.device = request.device, .pipeline_statistics = request.pipeline_statistics})),
       chooser_(*context_, shaders_, request.calibration) {}

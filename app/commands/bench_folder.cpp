@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/bench_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -17,32 +13,36 @@
 #include "bench/results.h"
 #include "error.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "image/image.h"
 #include "image/write_file.h"
+#include "system/file_access.h"
 
 namespace lamp::app {
 
 namespace fs = std::filesystem;
 
-BenchFolder::BenchFolder(const std::string& out) {
-  const fs::path folder = fs::absolute(followed(out));
+namespace {
+
+fs::path make_folder(const std::string& out) {
+  const fs::path folder = fs::absolute(followed(utf8_path(out)));
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(fmt::format("--out '{}': the folder cannot be made: {}", out, error.message()));
-  if (access(folder.c_str(), W_OK) != 0) throw Error(fmt::format("--out '{}': the folder is not writable", out));
-  file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some disks know no locks
-  close(file_);
-  throw Error(fmt::format("--out '{}': another lamp bench writes to it, expected another folder", out));
+  if (!is_writable(folder)) throw Error(fmt::format("--out '{}': the folder is not writable", out));
+  return folder;
 }
 
-BenchFolder::~BenchFolder() {
-  if (file_ >= 0) close(file_);
+}  // namespace
+
+BenchFolder::BenchFolder(const std::string& out) : lock_(make_folder(out)) {
+  if (lock_.is_taken())
+    throw Error(fmt::format("--out '{}': another lamp bench writes to it, expected another folder", out));
 }
 
 void check_own_file(const std::string& out, const std::string& suite) {
   std::error_code none;
-  if (fs::equivalent(suite, fs::path(out) / "results.json", none))
+  if (fs::equivalent(utf8_path(suite), utf8_path(out) / "results.json", none))
     throw Error(fmt::format("--out '{}': its results.json is the suite, expected another folder", out));
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "system/file_access.h"
+
 namespace lamp::app {
 
 /// Made where it is not there, and one run's alone as long as this lives.
@@ -13,12 +15,9 @@ class BenchFolder {
  public:
   /// Throws Error where it cannot be made or written to, and while another run has it.
   explicit BenchFolder(const std::string& out);
-  ~BenchFolder();
-  BenchFolder(const BenchFolder&) = delete;
-  BenchFolder& operator=(const BenchFolder&) = delete;
 
  private:
-  int file_ = -1;
+  FolderLock lock_;
 };
 
 /// Throws Error for a suite's file that the results would replace.

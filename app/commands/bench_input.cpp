@@ -10,6 +10,7 @@
 
 #include "commands/bench_device.h"
 #include "commands/command_line.h"
+#include "files/utf8_path.h"
 #include "scene/builtin.h"
 
 namespace lamp::app {
@@ -42,7 +43,7 @@ void check_in(const std::string& suite, const Group& group, const Check& check) 
 
 void check_bench_name(const std::string& name) {
   const bool is_builtin = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name) != builtin_scenes().end();
-  if (is_suite(name) || is_builtin || fs::path(name).has_extension() || fs::exists(name)) return;
+  if (is_suite(name) || is_builtin || utf8_path(name).has_extension() || fs::exists(utf8_path(name))) return;
   const std::vector<std::string> suites = suite_names();
   std::vector<std::string_view> names(suites.begin(), suites.end());
   for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);

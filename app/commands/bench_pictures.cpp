@@ -11,6 +11,7 @@
 
 #include "commands/pictures.h"
 #include "files/content_hash.h"
+#include "files/utf8_path.h"
 #include "render/heatmap.h"
 
 namespace lamp::app {
@@ -22,7 +23,7 @@ constexpr std::uint32_t MAX_WIDTH = 640;
 /// alike.
 std::string file_name(const Group& group, const BenchPicture& picture) {
   constexpr std::size_t MOST = 100;  // bytes
-  const std::string scene = std::filesystem::path(group.scene).filename().string();
+  const std::string scene = utf8_path(group.scene).filename().string();
   std::string name;
   for (const char c : fmt::format("{} {} {}", group.series, scene, picture.label).substr(0, MOST)) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0)
@@ -98,7 +99,7 @@ std::vector<nlohmann::json> write_pictures(const std::filesystem::path& folder, 
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string base = "pictures/" + file_name(group, pictures[i]);
     const auto write = [&](const std::string& name, const LdrImage& picture) {
-      write_output(folder / name, [&](const auto& file) { write_png(file, picture); });
+      write_output(folder / utf8_path(name), [&](const auto& file) { write_png(file, picture); });
     };
     write(base + ".png", all[i].picture);
     files.push_back({{"picture", base + ".png"}});

@@ -11,6 +11,7 @@
 
 #include "bench/calibration_file.h"
 #include "bench/embedded_files.h"
+#include "files/utf8_path.h"
 #include "system/print.h"
 
 namespace lamp::app {
@@ -46,7 +47,7 @@ KnownCalibration find_calibration(Context& context, const ShaderLibrary& shaders
     if (auto cached = read_cached_calibration(file, row.name, row.driver))
       return {.calibration = std::move(*cached), .origin = file};
     if (row.kind == "CPU") {
-      if (std::error_code error; std::filesystem::exists(file, error))
+      if (std::error_code error; std::filesystem::exists(utf8_path(file), error))
         print_error("auto: {} is damaged, or of another version or driver: --calibration measure makes it anew\n",
                     file);
       return built_in_calibration();

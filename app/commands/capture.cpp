@@ -1,6 +1,7 @@
 // lamp capture: one frame as files, which other commands take as a scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/capture.h"
+#include "files/utf8_path.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -36,7 +37,7 @@ bool has_glass(const Scene& scene) {
 Exit capture(const CaptureOptions& o) {
   const LightsFormat lights = parse_lights_as(o.lights_as);
   check_request(o.request, o.request.method);
-  check_capture_folder(o.out);
+  check_capture_folder(utf8_path(o.out));
   const Setup setup = make_setup(o.request);
   for (const std::string& note : setup.scene.notes) print_error("{}\n", note);
   Session session(o.request, setup);
@@ -46,7 +47,7 @@ Exit capture(const CaptureOptions& o) {
   all.insert(all.end(), setup.generated.begin(), setup.generated.end());
   const Scene frame =
       captured_scene(setup.scene, std::move(all), session.renderer().capture(painter ? &*painter : nullptr));
-  write_capture(o.out, frame, lights);
+  write_capture(utf8_path(o.out), frame, lights);
   print_out("capture   {}, {}x{}\nlights    {}: {}\n", o.out, setup.view.width(), setup.view.height(),
             setup.lights.size(), setup.lights_note);
   if (!setup.decals.empty())

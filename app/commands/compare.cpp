@@ -14,6 +14,7 @@
 #include "commands/pictures.h"
 #include "commands/stats.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "render/heatmap.h"
 #include "system/print.h"
 #include "system/progress.h"
@@ -140,7 +141,7 @@ Exit compare(const CompareOptions& o) {
                                map(differences(a, b), fmt::format("|{} - {}|", titles[0], titles[1]))};
   const LdrImage row = side_by_side(pictures);
   show_progress("");
-  write_output(o.out, [&](const auto& file) { write_png(file, row); });
+  write_output(utf8_path(o.out), [&](const auto& file) { write_png(file, row); });
   const float difference = max_abs_difference(a.image, b.image);
   if (o.json) {
     nlohmann::json json{{"a", to_json(a.stats)}, {"b", to_json(b.stats)}};

@@ -3,7 +3,6 @@
 #include "commands/pictures.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,10 +11,12 @@
 
 #include "commands/command_line.h"
 #include "error.h"
+#include "files/utf8_path.h"
 #include "image/write_file.h"
 #include "render/heatmap.h"
 #include "render/shadow_heat.h"
 #include "render/shadow_leaks.h"
+#include "system/file_access.h"
 #include "system/letter_case.h"
 #include "system/temporary.h"
 
@@ -137,16 +138,16 @@ std::string extension_of(const fs::path& file) {
 }
 
 void check_output(std::string_view option, const std::string& file, std::span<const std::string_view> extensions) {
-  if (std::ranges::find(extensions, extension_of(file)) == extensions.end())
+  if (std::ranges::find(extensions, extension_of(utf8_path(file))) == extensions.end())
     throw Error(fmt::format("{} '{}': expected a name that ends in {}", option, file, fmt::join(extensions, " or ")));
   try {
-    const fs::path path = fs::absolute(followed(file));
+    const fs::path path = fs::absolute(followed(utf8_path(file)));
     if (fs::is_directory(path)) throw Error(fmt::format("{} '{}': is a folder, expected a file name", option, file));
     fs::path folder = path.parent_path();
     while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
     if (!fs::is_directory(folder))
       throw Error(fmt::format("{} '{}': {} is not a folder", option, file, folder.string()));
-    if (access(folder.c_str(), W_OK) != 0)
+    if (!is_writable(folder))
       throw Error(fmt::format("{} '{}': the folder {} is not writable", option, file, folder.string()));
   } catch (const fs::filesystem_error& failure) {
     throw Error(fmt::format("{} '{}': {}", option, file, failure.code().message()));

@@ -12,6 +12,7 @@
 #include "commands/pictures.h"
 #include "commands/request.h"
 #include "commands/stats.h"
+#include "files/utf8_path.h"
 #include "render/probe_capture.h"
 #include "render/probe_panorama.h"
 #include "system/print.h"
@@ -68,7 +69,7 @@ Exit probe(const ProbeOptions& o) {
   capture.capture(position, atlas, 0);
   const LdrImage picture = pictures(session, atlas);
   show_progress("");
-  write_output(o.out, [&](const auto& file) { write_png(file, picture); });
+  write_output(utf8_path(o.out), [&](const auto& file) { write_png(file, picture); });
   print_out("probe     at ({:.2f}, {:.2f}, {:.2f}), {} lights: {}\n", position.x, position.y, position.z, lights,
             setup.lights_note);
   if (const auto shadows = shadow_stats(capture.shadows())) print_out("shadows   {}\n", shadow_words(*shadows));

@@ -17,10 +17,12 @@
 #include "commands/stats.h"
 #include "commands/view_state.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "image/write_file.h"
 #include "render/antialias.h"
 #include "render/leak_map.h"
 #include "scene/flight.h"
+#include "system/console.h"
 #include "system/print.h"
 #include "system/progress.h"
 
@@ -52,7 +54,7 @@ constexpr std::string_view NUMBERS[] = {".json"};
 
 std::filesystem::path place_of(const std::string& file) {
   if (file.empty()) return {};
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(followed(file)));
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(followed(utf8_path(file))));
 }
 
 void check_outputs(const RenderOptions& o) {
@@ -181,7 +183,7 @@ struct Drawn {
 /// The map by itself and over the picture, as far as they were asked for. `map`: of the picture below, or null.
 void write_both(const RenderOptions& o, const LdrImage& toned, const std::function<LdrImage(const LdrImage*)>& map) {
   const auto write_map = [&](const std::string& name, const LdrImage* below) {
-    if (!name.empty()) write_output(name, [&](const auto& file) { write_png(file, map(below)); });
+    if (!name.empty()) write_output(utf8_path(name), [&](const auto& file) { write_png(file, map(below)); });
   };
   write_map(o.heatmap, nullptr);
   write_map(o.overlay, &toned);
@@ -236,7 +238,7 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
   const HdrImage image = std::move(rendered.image);
 
   const LdrImage toned = tone_map(image, exposure ? *exposure : automatic_exposure(image));
-  write_output(o.out, [&](const auto& file) { write_picture(file, image, toned); });
+  write_output(utf8_path(o.out), [&](const auto& file) { write_picture(file, image, toned); });
   Stats stats = make_stats(o.state.request, session, lighting, setup, std::move(rendered), sampling.frames);
   stats.clock = clock_now;
   set_walked(stats, visits);
@@ -246,7 +248,8 @@ Stats draw(const RenderOptions& o, const Drawing& drawing) {
 
 /// Writes the numbers where they were asked for.
 void write_numbers(const RenderOptions& o, const nlohmann::json& json) {
-  if (!o.stats.empty()) write_output(o.stats, [&](const auto& file) { write_text(file, json_text(json, 2) + "\n"); });
+  if (!o.stats.empty())
+    write_output(utf8_path(o.stats), [&](const auto& file) { write_text(file, json_text(json, 2) + "\n"); });
   if (o.json) write_out(json_text(json, 2) + "\n");
 }
 

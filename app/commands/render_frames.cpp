@@ -1,6 +1,7 @@
 // Parses `--frames`, names pictures, moves cameras and lights.
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/render_frames.h"
+#include "files/utf8_path.h"
 
 #include <fmt/format.h>
 
@@ -40,8 +41,9 @@ FramesOption parse_frames(const std::string& text) {
 
 std::string numbered(const std::string& file, std::uint32_t frame) {
   if (file.empty()) return file;
-  const std::filesystem::path path(file);
-  return (path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), frame, path.extension().string()))
+  const std::filesystem::path path = utf8_path(file);
+  return (path.parent_path() /
+          utf8_path(fmt::format("{}-{:04}{}", path.stem().string(), frame, path.extension().string())))
       .string();
 }
 

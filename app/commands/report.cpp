@@ -1,6 +1,7 @@
 // lamp report: the page of a run again, or of two runs beside each other.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report.h"
+#include "files/utf8_path.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -26,9 +27,10 @@ Exit report(const ReportOptions& o) {
   constexpr std::string_view EXTENSIONS[] = {".html"};
   check_output("--out", o.out, EXTENSIONS);
   std::vector<ReportRun> runs;
-  for (const std::string& file : o.files) runs.push_back({.results = load_results(file), .file = file});
+  for (const std::string& file : o.files)
+    runs.push_back({.results = load_results(utf8_path(file)), .file = utf8_path(file)});
   const std::string page = report_html(runs);
-  write_output(o.out, [&](const auto& file) { write_file(file, page); });
+  write_output(utf8_path(o.out), [&](const auto& file) { write_file(file, page); });
   print_out("report: {}\n", o.out);
   return Exit::done;
 }

@@ -11,6 +11,7 @@
 
 #include "commands/command_line.h"
 #include "commands/metres.h"
+#include "files/utf8_path.h"
 #include "gpu/check.h"
 #include "render/box_shapes.h"
 #include "scene/builtin.h"
@@ -212,7 +213,7 @@ void check_request(const Request& request, const std::string& method) {
 Scene load_scene(const std::string& name) {
   const auto builtin = std::ranges::find(builtin_scenes(), std::string_view(name), &BuiltinScene::name);
   if (builtin != builtin_scenes().end()) return builtin->make();
-  const fs::path path(name);
+  const fs::path path = utf8_path(name);
   std::error_code not_there;
   const std::string extension = path.extension().string();
   const bool is_gltf = extension == ".gltf" || extension == ".glb";
@@ -278,7 +279,7 @@ Session::Session(const Request& request, const Setup& setup, ContextInfo::Valida
       shadows_(requested_shadows(request, setup.scene)),
       grow_(request.grow),
       probe_budget_(request.probe_budget),
-      shaders_(request.shader_dir) {
+      shaders_(utf8_path(request.shader_dir)) {
   depth_.views = static_cast<std::uint32_t>(setup.views.size());
   context_ = std::make_unique<Context>(ContextInfo{
       .device = request.device, .validation = validation, .pipeline_statistics = request.pipeline_statistics});

@@ -17,6 +17,7 @@
 #include "commands/verify_rows.h"
 #include "commands/verify_shadows.h"
 #include "commands/verify_still.h"
+#include "files/utf8_path.h"
 #include "render/antialias.h"
 #include "render/gpu_verifier.h"
 #include "system/print.h"
@@ -211,7 +212,7 @@ void write_misses(const VerifyOptions& o, std::span<Candidate> candidates, const
                        .pixels = std::move(candidate.misses)});
   }
   const LdrImage map = draw_misses(methods, tone_map(image, automatic_exposure(image)));
-  write_output(o.out, [&](const auto& file) { write_png(file, map); });
+  write_output(utf8_path(o.out), [&](const auto& file) { write_png(file, map); });
 }
 
 void print_rows(const VerifyOptions& o, Session& session, const Setup& setup, std::span<const Stats> rows) {

@@ -19,6 +19,7 @@
 #include "commands/pictures.h"
 #include "commands/verify_rows.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "gpu/check.h"
 #include "image/image.h"
 #include "render/point_check.h"
@@ -190,7 +191,7 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
   if (!of.cut.empty()) check_output("--cut", of.cut, PICTURES);
   for (const Asked& asked : chosen) check_request(request, std::string(asked.method->name));
   const Setup setup = make_setup(request);
-  const ShaderLibrary shaders(request.shader_dir);
+  const ShaderLibrary shaders(utf8_path(request.shader_dir));
   Context context({.device = request.device});
   const glm::vec3 eye(glm::dmat4(setup.view.world_from_view())[3]);
   const PointSource source(setup.scene, find_open_air(setup.scene), eye);
@@ -235,7 +236,7 @@ Exit verify_points(const Request& request, const PointsRequest& of) {
   } else {
     print_rows(request, context, setup, rows);
   }
-  if (!of.cut.empty()) write_output(of.cut, [&](const auto& file) { write_png(file, stacked(cuts)); });
+  if (!of.cut.empty()) write_output(utf8_path(of.cut), [&](const auto& file) { write_png(file, stacked(cuts)); });
   if (!of.cut.empty() && !of.json) print_out("picture: {}\n", of.cut);
   return exit_of(worst);
 }

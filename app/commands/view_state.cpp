@@ -14,6 +14,7 @@
 
 #include "commands/command_line.h"
 #include "commands/pictures.h"
+#include "files/utf8_path.h"
 #include "system/print.h"
 
 namespace lamp::app {
@@ -74,7 +75,7 @@ void add_state_option(CLI::App& command, ViewState& state) {
       .add_option_function<std::string>(
           "--state",
           [&state, read](const std::string& file) {
-            state = load_state(file, state);
+            state = load_state(utf8_path(file), state);
             *read = state.request;
           },
           "begin with the state that lamp-view saved in this file; other options change it")

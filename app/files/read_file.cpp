@@ -49,8 +49,8 @@ std::vector<std::byte> read_file(const fs::path& file, const FileWanted& wanted)
 
 bool stays_below(const fs::path& name) {
   const fs::path normal = name.lexically_normal();
-  return !normal.empty() && normal.is_relative() && *normal.begin() != ".." &&
-         normal.native().find('\0') == std::string::npos;
+  return !normal.empty() && !normal.has_root_path() && *normal.begin() != ".." &&
+         normal.native().find('\0') == fs::path::string_type::npos;
 }
 
 }  // namespace lamp::app

@@ -1,8 +1,6 @@
-// Loads libnvidia-ml.so.1.
+// Loads the library and asks it.
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/nvml.h"
-
-#include <dlfcn.h>
 
 namespace lamp::app {
 namespace {
@@ -14,13 +12,8 @@ using Begin = int (*)();
 using Find = int (*)(const char* name, void** device);
 using Ask = int (*)(void* device, int clock, unsigned* mhz);
 
-template <class Function>
-Function function(void* library, const char* name) {
-  return library == nullptr ? nullptr : reinterpret_cast<Function>(dlsym(library, name));
-}
-
-std::optional<double> asked(void* library, const char* name, void* device) {
-  const auto ask = function<Ask>(library, name);
+std::optional<double> asked(const SharedLibrary& library, const char* name, void* device) {
+  const auto ask = library.function<Ask>(name);
   unsigned mhz = 0;
   if (ask == nullptr || ask(device, CLOCK_SM, &mhz) != SUCCESS) return std::nullopt;
   return mhz;
@@ -29,26 +22,21 @@ std::optional<double> asked(void* library, const char* name, void* device) {
 }  // namespace
 
 Nvml::Nvml(const std::string& address, const std::string& uuid)
-    : library_(dlopen("libnvidia-ml.so.1", RTLD_NOW | RTLD_LOCAL)) {
-  const auto begin = function<Begin>(library_, "nvmlInit_v2");
-  if (begin == nullptr || begin() != SUCCESS) {
-    if (library_ != nullptr) dlclose(library_);
-    library_ = nullptr;
-    return;
-  }
-  find(address, uuid);
+    : library_({.posix = "libnvidia-ml.so.1", .windows = "nvml.dll"}) {
+  const auto begin = library_.function<Begin>("nvmlInit_v2");
+  has_begun_ = begin != nullptr && begin() == SUCCESS;
+  if (has_begun_) find(address, uuid);
 }
 
 Nvml::~Nvml() {
-  if (library_ == nullptr) return;
-  if (const auto end = function<Begin>(library_, "nvmlShutdown")) end();
-  dlclose(library_);
+  if (!has_begun_) return;
+  if (const auto end = library_.function<Begin>("nvmlShutdown")) end();
 }
 
 void Nvml::find(const std::string& address, const std::string& uuid) {
-  const auto by_address = function<Find>(library_, "nvmlDeviceGetHandleByPciBusId_v2");
+  const auto by_address = library_.function<Find>("nvmlDeviceGetHandleByPciBusId_v2");
   if (by_address != nullptr && !address.empty() && by_address(address.c_str(), &device_) == SUCCESS) return;
-  const auto by_uuid = function<Find>(library_, "nvmlDeviceGetHandleByUUID");
+  const auto by_uuid = library_.function<Find>("nvmlDeviceGetHandleByUUID");
   if (by_uuid == nullptr || by_uuid(uuid.c_str(), &device_) != SUCCESS) device_ = nullptr;
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "system/shared_library.h"
+
 namespace lamp::app {
 
 struct NvmlClock {
@@ -27,7 +29,8 @@ class Nvml {
  private:
   void find(const std::string& address, const std::string& uuid);
 
-  void* library_ = nullptr;
+  SharedLibrary library_;
+  bool has_begun_ = false;
   void* device_ = nullptr;  ///< null: not found
 };
 

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/write_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "error.h"
 #include "image/image.h"
+#include "system/file_access.h"
 #include "system/temporary.h"
 
 namespace lamp::app {
@@ -30,28 +30,23 @@ constexpr int MOST_LINKS = 40;  // as many as Linux follows
 /// An open file. What an Error names is another name, the one that the user knows.
 class Output {
  public:
-  Output(const fs::path& named, const fs::path& path, int flags)
-      : named_(named), descriptor_(open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
-    if (descriptor_ < 0) fail(named_, errno, "a folder that exists and is writable");
+  Output(const fs::path& named, const fs::path& path, Opening how) : named_(named), file_(open_to_write(path, how)) {
+    if (file_ == nullptr) fail(named_, errno, "a folder that exists and is writable");
   }
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
   ~Output() {
-    if (descriptor_ >= 0) close(descriptor_);
+    if (file_ != nullptr) std::fclose(file_);
   }
   void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail(named_, errno, "room for it");
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    if (close(std::exchange(descriptor_, -1)) != 0) fail(named_, errno, "room for it");  // the last bytes arrive now
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(named_, errno, "room for it");
+    // The last bytes arrive now.
+    if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(named_, errno, "room for it");
   }
 
  private:
   const fs::path& named_;
-  int descriptor_;
+  std::FILE* file_;
 };
 
 }  // namespace
@@ -74,11 +69,11 @@ void write_file(const fs::path& file, std::string_view bytes) {
   if (fs::is_directory(status)) {
     throw Error(fmt::format("{}: is a folder; expected the name of a file", file.string()));
   }
-  if (fs::exists(status) && !fs::is_regular_file(status)) return Output(file, target, O_TRUNC).write(bytes);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return Output(file, target, Opening::existing).write(bytes);
   std::optional<Output> output;
   Temporary temporary(Temporary::Removal::everything, [&] {
     const fs::path name = temporary_name(target);
-    output.emplace(file, name, O_CREAT | O_EXCL);
+    output.emplace(file, name, Opening::new_file);
     return name;
   });
   output->write(bytes);

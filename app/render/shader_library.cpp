@@ -56,7 +56,7 @@ std::string hash_of_shaders(const fs::path& source_tree) {
     if (entry.is_regular_file()) files.push_back(entry.path());
   std::ranges::sort(files);
   std::uint64_t hash = HASH_FIRST;
-  for (const fs::path& file : files) hash = hash_of(file.lexically_relative(source_tree).string() + "\n", hash);
+  for (const fs::path& file : files) hash = hash_of(file.lexically_relative(source_tree).generic_string() + "\n", hash);
   return hash_text(hash_of(hash_of_files(files), hash));
 }
 
@@ -67,7 +67,7 @@ std::vector<std::uint32_t> ShaderLibrary::compile(const ShaderCode& code) const 
     const fs::path shaders = source_tree_ / "lib/shaders";
     fs::path lookup = fmt::format("lookup/{}.glsl", code.lookup);
     if (!fs::exists(shaders / lookup)) lookup = fmt::format("lookup/fused/{}.glsl", code.lookup);
-    write_file(folder.path() / "lookup.glsl", fmt::format("#include \"{}\"\n", lookup.string()));
+    write_file(folder.path() / "lookup.glsl", fmt::format("#include \"{}\"\n", lookup.generic_string()));
   }
   const auto from = [](const fs::path& included) { return "-I" + included.string(); };
   std::vector<std::string> command{"glslc",

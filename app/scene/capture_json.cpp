@@ -11,6 +11,7 @@
 #include "files/json_values.h"
 #include "files/read_file.h"
 #include "files/read_json.h"
+#include "files/utf8_path.h"
 #include "lamplight/method.h"
 
 namespace lamp::app {
@@ -78,9 +79,10 @@ DepthKind depth_kind_of(const JsonObject& frame) {
 std::string file_of(const JsonObject& frame, std::string_view key, std::string_view extension) {
   const std::string expected = fmt::format("the name of a file in the same folder that ends in {}", extension);
   const std::string name = frame.text(key, expected);
-  if (!stays_below(name) || std::filesystem::path(name).extension() != extension)
+  const std::filesystem::path file = utf8_path(name);
+  if (!stays_below(file) || file.extension().string() != extension)
     frame.fail(fmt::format("{} is {}, expected {}", key, shown(frame.json.at(key)), expected));
-  return std::filesystem::path(name).lexically_normal().string();
+  return file.lexically_normal().generic_string();
 }
 
 std::optional<std::string> optional_file(const JsonObject& frame, std::string_view key) {

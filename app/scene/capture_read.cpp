@@ -9,6 +9,7 @@
 
 #include "error.h"
 #include "files/read_file.h"
+#include "files/utf8_path.h"
 #include "image/exr.h"
 #include "lamplight/method.h"
 #include "scene/capture.h"
@@ -75,7 +76,7 @@ void normalize_normals(std::vector<glm::vec3>& normals, const CapturedFrame& fra
 void read_surfaces(const fs::path& folder, const Manifest& manifest, CapturedFrame& frame) {
   const std::size_t pixels = frame.depth.size();
   const auto read_or = [&](const std::optional<std::string>& file, const Plane& plane, const glm::vec3& neutral) {
-    return file ? read_plane(folder / *file, plane, frame) : std::vector<glm::vec3>(pixels, neutral);
+    return file ? read_plane(folder / utf8_path(*file), plane, frame) : std::vector<glm::vec3>(pixels, neutral);
   };
   frame.albedo = read_or(manifest.albedo, ALBEDO, NEUTRAL_ALBEDO);
   frame.material = read_or(manifest.material, MATERIAL, NEUTRAL_MATERIAL);
@@ -84,7 +85,7 @@ void read_surfaces(const fs::path& folder, const Manifest& manifest, CapturedFra
     frame.normal = normals_from_depth(frame.view, frame.depth);
     return;
   }
-  const fs::path file = folder / *manifest.normal;
+  const fs::path file = folder / utf8_path(*manifest.normal);
   frame.normal = read_plane(file, NORMAL, frame);
   normalize_normals(frame.normal, frame, file.string());
 }
@@ -104,7 +105,7 @@ Camera camera_of(const View& view) {
 std::vector<Light> lights_of(const fs::path& folder, Manifest& manifest, const std::string& manifest_file) {
   std::vector<Light> lights = std::move(manifest.lights);
   if (!manifest.lights_file.empty()) {
-    const fs::path file = folder / manifest.lights_file;
+    const fs::path file = folder / utf8_path(manifest.lights_file);
     lights = read_npy_lights(
         read_file(file, {.expected = "the lights of " + manifest_file, .most_bytes = LARGEST_LIGHTS}), file.string());
   }
@@ -116,7 +117,7 @@ std::vector<Light> lights_of(const fs::path& folder, Manifest& manifest, const s
 CapturedFrame frame_of(const fs::path& folder, const Manifest& manifest) {
   constexpr std::array<std::string_view, 1> DEPTH{"Z"};
   CapturedFrame frame{.view = manifest.view};
-  const fs::path file = folder / manifest.depth;
+  const fs::path file = folder / utf8_path(manifest.depth);
   frame.depth = read_exr(
       file, {.width = frame.view.width(), .height = frame.view.height(), .channels = DEPTH, .full_precision = true});
   convert_depth(frame.depth, manifest.depth_kind, frame.view, file.string());
@@ -126,10 +127,10 @@ CapturedFrame frame_of(const fs::path& folder, const Manifest& manifest) {
 
 /// frame.json and what it names.
 std::vector<fs::path> files_of(const fs::path& folder, const Manifest& manifest) {
-  std::vector<fs::path> files{folder / CAPTURE_FILE, folder / manifest.depth};
-  if (!manifest.lights_file.empty()) files.push_back(folder / manifest.lights_file);
+  std::vector<fs::path> files{folder / CAPTURE_FILE, folder / utf8_path(manifest.depth)};
+  if (!manifest.lights_file.empty()) files.push_back(folder / utf8_path(manifest.lights_file));
   for (const auto* name : {&manifest.albedo, &manifest.normal, &manifest.material, &manifest.emission})
-    if (*name) files.push_back(folder / **name);
+    if (*name) files.push_back(folder / utf8_path(**name));
   return files;
 }
 

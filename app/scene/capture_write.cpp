@@ -1,7 +1,6 @@
 // Writes a capture's folder: beside its place under a temporary name, then renamed.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include "image/write_file.h"
 #include "scene/capture.h"
 #include "scene/capture_json.h"
+#include "system/file_access.h"
 #include "system/temporary.h"
 
 namespace lamp::app {
@@ -101,7 +101,7 @@ void check_place(const fs::path& folder) {
   while (!fs::exists(above) && above.has_relative_path()) above = above.parent_path();
   if (!fs::is_directory(above))
     throw Error(fmt::format("--out '{}': {} is not a folder", folder.string(), above.string()));
-  if (access(above.c_str(), W_OK) != 0)
+  if (!is_writable(above))
     throw Error(fmt::format("--out '{}': the folder {} is not writable", folder.string(), above.string()));
 }
 

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "files/read_file.h"
+#include "files/utf8_path.h"
 #include "scene/gltf_error.h"
 #include "system/letter_case.h"
 
@@ -101,7 +102,7 @@ bool is_data_uri(std::string_view uri) {
 std::optional<std::filesystem::path> external_file(const std::string& uri, const GltfOrigin& origin,
                                                    const std::string& element) {
   if (is_data_uri(uri)) return std::nullopt;
-  const std::filesystem::path relative = decode_percent(uri);
+  const std::filesystem::path relative = utf8_path(decode_percent(uri));
   if (!stays_below(relative) || uri.find("://") != std::string::npos) {
     gltf_fail(origin.file, element,
               fmt::format("uri is '{}', expected a data URI or a path below the file's own folder", shown(uri)));

@@ -1,16 +1,14 @@
 // Writes to the standard streams, and remembers the first failure of each.
-// Based on: GNU gnulib, stdopen and closeout, for closed streams and for errors that only a flush shows.
+// Based on: GNU gnulib, closeout, for errors that only a flush shows.
 // SPDX-License-Identifier: Apache-2.0
 #include "system/print.h"
-
-#include <fcntl.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+
+#include "system/console.h"
 
 namespace lamp::app {
 namespace {
@@ -34,25 +32,9 @@ void write_to(std::FILE* stream, std::string_view text, std::atomic<int>& first)
 
 }  // namespace
 
-void open_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // For the wrong direction: reading stdin and writing the others fail with EBADF, as they do while closed. The
-    // lowest free number is this stream's, since those below are open.
-    static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
-  }
-}
-
 void write_out(std::string_view text) { write_to(stdout, text, out_errno); }
 
 void write_error(std::string_view text) { write_to(stderr, text, error_errno); }
-
-std::optional<std::size_t> terminal_width() {
-  winsize size{};
-  if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-    return std::nullopt;
-  return size.ws_col;
-}
 
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
   std::string lines;
@@ -74,7 +56,7 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
   return lines;
 }
 
-bool shows_progress() { return !progress_is_hidden && isatty(STDERR_FILENO) != 0; }
+bool shows_progress() { return !progress_is_hidden && stderr_is_terminal(); }
 
 void hide_progress() { progress_is_hidden = true; }
 

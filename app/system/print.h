@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,10 +14,6 @@
 #include "files/printable.h"
 
 namespace lamp::app {
-
-/// Puts something in place of closed standard streams, so that no file that is opened later takes their numbers and
-/// receives what is printed. Writing to them is still an error. To be called first of all.
-void open_standard_streams();
 
 /// Text of the program's own, as it is.
 void write_out(std::string_view text);
@@ -51,8 +46,6 @@ void print_error(fmt::format_string<Arguments...> format, Arguments&&... argumen
   write_error(format_printable(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Letters that fit into a line of stdout's terminal; nothing: it is none.
-[[nodiscard]] std::optional<std::size_t> terminal_width();
 /// Lines of at most `width` letters, broken at blanks where words allow it; those behind the first begin with `indent`
 /// blanks. Letters are UTF-8.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent);

@@ -1,25 +1,16 @@
-// Waits for signals in a thread, where everything may be done that a signal handler must not do.
-// Based on: POSIX.1-2017, sigwait; signal actions (2.4.3).
+// What asks whether a signal came, and the thread that it comes to, share one state.
 // SPDX-License-Identifier: Apache-2.0
 #include "system/signals.h"
 
-#include <unistd.h>
-
 #include <chrono>
-#include <csignal>
 #include <mutex>
-#include <thread>
 
 #include "system/print.h"
-#include "system/temporary.h"
 
 namespace lamp::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-sigset_t watched{};  // set before the thread begins, then read alone
-bool broken_pipe_kills = true;
 
 struct Stopping {
   std::mutex mutex;
@@ -34,78 +25,7 @@ Stopping& stopping() {
   return one;
 }
 
-bool is_ignored(int signal) {
-  struct sigaction action{};
-  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-void set_handler(int signal, void (*handler)(int)) {
-  struct sigaction action{};
-  action.sa_handler = handler;
-  sigaction(signal, &action, nullptr);
-}
-
-/// Whether a StopRequest took it.
-bool is_remembered(int signal) {
-  Stopping& s = stopping();
-  const std::scoped_lock lock(s.mutex);
-  if (!s.asked_for || signal == SIGQUIT) return false;
-  const Clock::time_point now = Clock::now();
-  if (s.signal == 0) {
-    s.signal = signal;
-    s.came = now;
-    if (shows_progress()) write_error("\nstops after what it is at; the signal again ends it at once\n");
-    return true;
-  }
-  // Shells and `timeout` may send one signal twice, to the process and to its group: only a later one is impatience.
-  return now - s.came < std::chrono::seconds(1);
-}
-
-void wait_for_signals() {
-  for (;;) {
-    int signal = 0;
-    if (sigwait(&watched, &signal) == 0 && !is_remembered(signal)) die_of(signal);
-  }
-}
-
 }  // namespace
-
-void watch_signals() {
-  sigemptyset(&watched);
-  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM})
-    if (!is_ignored(signal)) sigaddset(&watched, signal);
-  broken_pipe_kills = !is_ignored(SIGPIPE);
-  for (const int signal : {SIGPIPE, SIGXFSZ}) set_handler(signal, SIG_IGN);
-  pthread_sigmask(SIG_BLOCK, &watched, nullptr);  // every thread to come has this mask
-  std::thread(wait_for_signals).detach();
-}
-
-void restore_signals(posix_spawnattr_t& attributes) {
-  sigset_t mask{};
-  pthread_sigmask(SIG_BLOCK, nullptr, &mask);
-  sigset_t defaults{};
-  sigemptyset(&defaults);
-  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM})
-    if (sigismember(&watched, signal) == 1) sigdelset(&mask, signal);
-  if (broken_pipe_kills) sigaddset(&defaults, SIGPIPE);
-  sigaddset(&defaults, SIGXFSZ);
-  posix_spawnattr_setsigmask(&attributes, &mask);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-}
-
-void die_of(int signal) {
-  remove_temporaries_for_good();
-  set_handler(signal, SIG_DFL);
-  sigset_t one{};
-  sigemptyset(&one);
-  sigaddset(&one, signal);
-  pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
-  raise(signal);
-  _exit(128 + signal);  // the first process of a container does not die of signals
-}
-
-bool dies_of_broken_pipes() { return broken_pipe_kills; }
 
 StopRequest::StopRequest() {
   const std::scoped_lock lock(stopping().mutex);
@@ -121,6 +41,21 @@ StopRequest::~StopRequest() {
 int StopRequest::signal() {
   const std::scoped_lock lock(stopping().mutex);
   return stopping().signal;
+}
+
+bool StopRequest::takes(int signal) {
+  Stopping& s = stopping();
+  const std::scoped_lock lock(s.mutex);
+  if (!s.asked_for) return false;
+  const Clock::time_point now = Clock::now();
+  if (s.signal == 0) {
+    s.signal = signal;
+    s.came = now;
+    if (shows_progress()) write_error("\nstops after what it is at; the signal again ends it at once\n");
+    return true;
+  }
+  // Shells and `timeout` may send one signal twice, to the process and to its group: only a later one is impatience.
+  return now - s.came < std::chrono::seconds(1);
 }
 
 }  // namespace lamp::app

@@ -1,8 +1,7 @@
 // Signals that end the program: temporaries go first, then it dies of the signal, as shells and `timeout` expect.
+// On Windows: what a console sends; a closed console is SIGTERM.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-
-#include <spawn.h>
 
 namespace lamp::app {
 
@@ -11,15 +10,12 @@ namespace lamp::app {
 /// while there is one thread.
 void watch_signals();
 
-/// Lets a child process begin with the signals as they were before.
-void restore_signals(posix_spawnattr_t& attributes);
-
 /// Removes temporaries and ends the program by this signal.
 [[noreturn]] void die_of(int signal);
 
-/// Whether a program that writes into a pipe that nobody reads should die of SIGPIPE: not if it was started with that
-/// signal ignored.
-[[nodiscard]] bool dies_of_broken_pipes();
+/// A pipe that is written to has no reader: ends the program by SIGPIPE, where there is one and the program was not
+/// started with that signal ignored.
+void die_of_broken_pipe();
 
 /// Thrown where work stops because a signal asked for it. `main` then ends the program by that signal.
 struct Interrupted {
@@ -36,6 +32,8 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
   /// The signal that came, or 0.
   [[nodiscard]] static int signal();
+  /// For the thread that a signal came to: whether one exists, and takes it.
+  [[nodiscard]] static bool takes(int signal);
 };
 
 }  // namespace lamp::app

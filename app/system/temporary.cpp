@@ -3,12 +3,12 @@
 #include "system/temporary.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <random>
 #include <ranges>
 #include <system_error>
 #include <vector>
@@ -108,10 +108,18 @@ void NewFolders::remove() {
   while (!made_.empty()) made_.pop_back();  // the innermost first
 }
 
-fs::path temporary_name(const fs::path& place) {
+std::string unique_name() {
+  static const std::uint64_t of_process = [] {
+    std::random_device random;
+    return std::uint64_t{random()} << 32U | random();
+  }();
   static std::atomic<std::uint32_t> number = 0;
+  return fmt::format("lamp-{:016x}-{}", of_process, number++);
+}
+
+fs::path temporary_name(const fs::path& place) {
   // The length does not depend on that of the place's name, which may be as long as the system takes.
-  return place.parent_path() / fmt::format(".lamp-{}-{}.tmp", getpid(), number++);
+  return place.parent_path() / fmt::format(".{}.tmp", unique_name());
 }
 
 void remove_temporaries_for_good() {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace lamp::app {
@@ -49,7 +50,9 @@ class NewFolders {
   std::vector<std::unique_ptr<Temporary>> made_;  ///< from the outermost to the innermost
 };
 
-/// A name beside `place` that no other process or thread takes.
+/// "lamp-1c9a2f0b7d3e4856-0": a name that no other process or thread takes.
+[[nodiscard]] std::string unique_name();
+/// The same, hidden and beside `place`.
 [[nodiscard]] std::filesystem::path temporary_name(const std::filesystem::path& place);
 
 /// Removes all that there are, and lets no thread make, move or remove another one: the program is about to end.

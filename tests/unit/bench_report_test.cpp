@@ -13,6 +13,7 @@
 #include "image/image.h"
 #include "temporary_folder.h"
 #include "unit/bench_runs.h"
+#include "unit/this_system.h"
 
 namespace lamp::app {
 namespace {
@@ -110,6 +111,7 @@ TEST_F(BenchReport, ThePageIsWholeAndNothingInTheDataEndsItsScript) {
 }
 
 TEST_F(BenchReport, ThePageTakesPicturesOfItsFolderAlone) {
+  if (!test::has_links()) GTEST_SKIP();
   const fs::path elsewhere = folder_.path() / "elsewhere";
   const fs::path own = folder_.path() / "own";
   for (const fs::path& folder : {elsewhere, own / "pictures"}) fs::create_directories(folder);

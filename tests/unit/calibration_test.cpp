@@ -11,6 +11,7 @@
 #include "bench/calibration_file.h"
 #include "error.h"
 #include "temporary_folder.h"
+#include "unit/this_system.h"
 
 namespace lamp::app {
 namespace {
@@ -41,15 +42,13 @@ void expect_same(const Calibration& a, const Calibration& b) {
 
 class CalibrationFile : public testing::Test {
  protected:
-  CalibrationFile() { setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
-  ~CalibrationFile() override { unsetenv("XDG_CACHE_HOME"); }
-
   TemporaryFolder folder_;
+  test::Variable caches_{"XDG_CACHE_HOME", folder_.path().string()};
 };
 
 TEST_F(CalibrationFile, ComesBackAsItWent) {
   const std::string file = cached_calibration_file("Some GPU", "1.2");
-  EXPECT_TRUE(file.starts_with(folder_.path().string() + "/lamplight/")) << file;
+  EXPECT_EQ(std::filesystem::path(file).parent_path(), folder_.path() / "lamplight") << file;
   EXPECT_FALSE(read_cached_calibration(file, "Some GPU", "1.2").has_value()) << "is not there yet";
   EXPECT_EQ(keep_calibration(file, some_calibration()), "");
   const auto back = read_cached_calibration(file, "Some GPU", "1.2");
@@ -116,7 +115,7 @@ TEST_F(CalibrationFile, WithoutAFolderItSaysSo) {
   EXPECT_NE(keep_calibration("", some_calibration()), "");
   std::ofstream(folder_.path() / "file") << "x";
   EXPECT_NE(keep_calibration((folder_.path() / "file" / "calibration.json").string(), some_calibration()), "");
-  setenv("XDG_CACHE_HOME", "relative", 1);  // to be ignored, says the specification
+  test::Variable::set("XDG_CACHE_HOME", "relative");  // to be ignored, says the specification
   EXPECT_FALSE(cached_calibration_file("a", "b").starts_with("relative"));
 }
 

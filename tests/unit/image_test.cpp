@@ -7,11 +7,8 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -19,6 +16,8 @@
 #include <random>
 
 #include "error.h"
+#include "temporary_folder.h"
+#include "unit/this_system.h"
 
 namespace lamp::app {
 namespace {
@@ -28,19 +27,13 @@ namespace fs = std::filesystem;
 /// An empty folder of this test, gone with it.
 class ImageFile : public testing::Test {
  protected:
-  ImageFile() : folder_(fs::temp_directory_path() / ("lamp_image_test_" + std::to_string(getpid()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~ImageFile() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] fs::path path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
   [[nodiscard]] std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 std::string content(const fs::path& file) {
@@ -124,6 +117,7 @@ TEST_F(ImageFile, ExrStoresFloatsBitForBit) {
 }
 
 TEST_F(ImageFile, TextIsReplacedWholeAndThroughALink) {
+  if (!test::has_links()) GTEST_SKIP();
   write_text(path("a.json"), "first, and longer");
   write_text(path("a.json"), "second");
   EXPECT_EQ(content(path("a.json")), "second");
@@ -158,14 +152,12 @@ TEST_F(ImageFile, AFullDiskIsAnErrorAndKeepsTheOldFile) {
     EXPECT_NE(error_line([] { write_text("/dev/full", "x"); }).find("/dev/full: "), std::string::npos);
   }
   write_text(path("a.txt"), "old");
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{4096, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string line = error_line([&] { write_text(path("a.txt"), std::string(100000, 'x')); });
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
+  if (!test::FileSizeLimit::is_there()) GTEST_SKIP();
+  std::string line;
+  {
+    const test::FileSizeLimit full(4096);
+    line = error_line([&] { write_text(path("a.txt"), std::string(100000, 'x')); });
+  }
   EXPECT_EQ(line.find(path("a.txt").string() + ": "), 0U) << line;
   EXPECT_EQ(content(path("a.txt")), "old");
   EXPECT_EQ(files(), 1U);

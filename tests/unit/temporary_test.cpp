@@ -1,40 +1,30 @@
-// Temporaries: gone with their owner, kept when asked to, and gone before a signal ends the program.
+// Temporaries: gone with their owner, kept when asked to, and none where none can be made.
 // SPDX-License-Identifier: Apache-2.0
 #include "system/temporary.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
 
 #include "image/write_file.h"
-#include "system/signals.h"
 #include "temporary_folder.h"
+#include "unit/this_system.h"
 
 namespace lamp::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Its folder is none of those that it tests: a child process that is ended would remove it.
 class Temporaries : public ::testing::Test {
  protected:
-  Temporaries() {
-    std::string name = fs::temp_directory_path() / "temporaries-XXXXXX";
-    folder_ = mkdtemp(name.data());
-  }
-  ~Temporaries() override { fs::remove_all(folder_); }
-  [[nodiscard]] fs::path path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
   [[nodiscard]] std::size_t entries() const {
-    const fs::recursive_directory_iterator all(folder_);
+    const fs::recursive_directory_iterator all(folder_.path());
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 std::function<fs::path()> made_file(const fs::path& path) {
@@ -108,70 +98,25 @@ TEST_F(Temporaries, NewFoldersGoUnlessTheyAreKeptOrUsed) {
   EXPECT_EQ(entries(), 4U);
 }
 
-/// Does that in a child process; the signal that ended it.
-int signal_that_ended(const std::function<void()>& what) {
-  const pid_t child = fork();
-  if (child == 0) {
-    for (const int ended_by : {SIGHUP, SIGINT, SIGTERM}) std::signal(ended_by, SIG_DFL);  // nohup ignores one
-    watch_signals();
-    what();
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-}
-
-/// Sends this process a signal, and waits for its end.
-[[noreturn]] void end_by(int signal) {
-  kill(getpid(), signal);
-  for (;;) pause();
-}
-
-TEST_F(Temporaries, GoBeforeASignalEndsTheProgram) {
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
-    EXPECT_EQ(signal, signal_that_ended([&] {
-                const NewFolders folders(path("a/b"));
-                const Temporary file(Temporary::Removal::everything, made_file(path("a/b/file")));
-                const Temporary folder(Temporary::Removal::everything, made_folder(path("folder")));
-                end_by(signal);
-              }));
-    EXPECT_EQ(entries(), 0U);
-  }
-}
-
-TEST_F(Temporaries, AStopRequestTakesTheFirstSignal) {
-  const auto ask = [&](bool again) {
-    const StopRequest stop;
-    kill(getpid(), SIGTERM);
-    kill(getpid(), SIGTERM);  // a shell may send it twice
-    while (StopRequest::signal() != SIGTERM) usleep(1000);
-    usleep(1'100'000);
-    if (again) end_by(SIGTERM);
-  };
-  EXPECT_EQ(signal_that_ended([&] { ask(false); }), 0);
-  EXPECT_EQ(signal_that_ended([&] { ask(true); }), SIGTERM);
-}
-
 TEST_F(Temporaries, AFolderThatCannotBeMadeIsNamedWithTheReason) {
-  const char* before = std::getenv("TMPDIR");
-  const std::string kept = before == nullptr ? "" : before;
-  for (const auto& [folder, reason] : {std::pair{path("nowhere").string(), "No such file or directory"},
-                                       {std::string("/dev/null"), "Not a directory"}}) {
-    setenv("TMPDIR", folder.c_str(), 1);
+  write_file(path("file"), "no folder");
+  for (const fs::path& folder : {path("nowhere"), path("file")}) {
+    std::error_code reason;
+    fs::create_directory(folder / "new", reason);
+    const test::Variable named("TMPDIR", folder.string());
     try {
       const TemporaryFolder none;
       ADD_FAILURE() << "a folder in " << folder;
     } catch (const Error& error) {
       const std::string line = error.what();
-      EXPECT_TRUE(line.starts_with(folder + "/lamp-")) << line;
-      EXPECT_NE(line.find(reason), std::string::npos) << line;
+      EXPECT_TRUE(line.starts_with((folder / "lamp-").string())) << line;
+      EXPECT_NE(line.find(reason.message()), std::string::npos) << line;
     }
   }
-  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", kept.c_str(), 1);
 }
 
 TEST_F(Temporaries, FilesAreWrittenThroughLinks) {
+  if (!test::has_links()) GTEST_SKIP();
   fs::create_directory(path("folder"));
   fs::create_symlink("folder/target", path("dangling"));
   fs::create_symlink("dangling", path("link"));

@@ -9,6 +9,7 @@
 #include "commands/complain.h"
 #include "commands/view_state.h"
 #include "lamplight/version.h"
+#include "system/console.h"
 #include "system/print.h"
 #include "system/signals.h"
 #include "view/headless.h"

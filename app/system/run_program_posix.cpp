@@ -1,7 +1,5 @@
 // Starts a process whose output goes into memory.
 // SPDX-License-Identifier: Apache-2.0
-#include "system/run_program.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -15,7 +13,8 @@
 #include <system_error>
 
 #include "error.h"
-#include "system/signals.h"
+#include "system/run_program.h"
+#include "system/signals_posix.h"
 
 namespace lamp::app {
 namespace {
