@@ -49,10 +49,15 @@ std::optional<Error> check_buffer(const Plan& plan, const BufferDesc& buffer, co
   return check_bytes(source, plan.all_bytes(buffer), traits);
 }
 
-std::optional<Error> check_shared(const std::string& source, std::uint32_t bytes, const DeviceTraits& traits) {
+std::optional<Error> check_shared(const std::string& source, std::uint64_t bytes, const DeviceTraits& traits) {
   if (bytes <= traits.shared_memory_bytes) return std::nullopt;
   return Error{source, "needs " + std::to_string(bytes) + " bytes of shared memory, the device has " +
                            std::to_string(traits.shared_memory_bytes)};
+}
+
+/// Of a compute pass whose shader there is.
+std::optional<Error> check_shared(const std::string& source, const Pass& pass, const DeviceTraits& traits) {
+  return check_shared(source, shared_bytes(find_shader(library_shaders(), pass.shader)->spirv, pass.constants), traits);
 }
 
 std::optional<Error> check_storage_buffers(const std::string& source, const std::vector<Binding>& bindings,
@@ -147,7 +152,7 @@ std::optional<Error> check_finer(const Plan& plan, const FinerPasses& finer, con
   if (!std::ranges::equal(finer.passes, plan.passes, same))
     return Error{source, "must have the shaders and bindings of the plan's, of compute passes"};
   for (const Pass& pass : finer.passes) {
-    if (auto error = check_shared("pass " + pass.name, pass.shared_bytes, traits)) return error;
+    if (auto error = check_shared("pass " + pass.name, pass, traits)) return error;
     if (auto error = check_full_subgroups("pass " + pass.name, pass.full_subgroups, traits)) return error;
   }
   return std::nullopt;
@@ -166,7 +171,6 @@ class PassChecker {
     const std::string source = "pass " + pass.name;
     const bool host = pass.kind == PassKind::host;
     if (auto error = host ? check_host(source, pass) : check_gpu(source, pass)) return error;
-    if (auto error = check_shared(source, pass.shared_bytes, traits_)) return error;
     if (auto error = check_bindings(source, pass.bindings)) return error;
     for (const Binding& binding : pass.bindings)
       if (binding.access != Access::read) written_.insert(binding.resource);
@@ -219,7 +223,10 @@ class PassChecker {
     if (auto error = check_extent(source, pass)) return error;
     if (auto error = check_storage_buffers(source, pass.bindings, traits_)) return error;
     if (auto error = check_full_subgroups(source, pass.full_subgroups, traits_)) return error;
-    if (!raster) return check_shader(source, pass.shader, ".comp", traits_.compute_subgroups);
+    if (!raster) {
+      if (auto error = check_shader(source, pass.shader, ".comp", traits_.compute_subgroups)) return error;
+      return check_shared(source, pass, traits_);
+    }
     if (auto error = check_raster(source, plan_, pass.raster, traits_)) return error;
     if (auto error = check_shader(source, pass.raster.vertex_shader, ".vert", {})) return error;
     return check_shader(source, pass.shader, ".frag", traits_.fragment_subgroups);

@@ -106,8 +106,9 @@ class StrictDevice {
   }
 
   void dispatch(const Pass& pass) const {
-    require(pass.shared_bytes <= traits_.shared_memory_bytes);
-    require(find_shader(library_shaders(), pass.shader)->source.ends_with(".comp"));
+    const ShaderCode* shader = find_shader(library_shaders(), pass.shader);
+    require(shader->source.ends_with(".comp"));
+    require(shared_bytes(shader->spirv, pass.constants) <= traits_.shared_memory_bytes);
     if (pass.extent.indirect != NO_RESOURCE) return read_arguments(pass.extent, 3);
     const auto counts = pass.extent.counts(plan_.width, plan_.height, std::max(1U, plan_.light_capacity));
     for (std::size_t axis = 0; axis < counts.size(); ++axis)
@@ -240,7 +241,7 @@ std::vector<Pass> read_passes(Reader& in) {
     if (in.flag()) pass.host = [](const HostContext&) {};
     pass.on_projection_change = in.below(4) == 1;
     if (pass.kind == PassKind::host) continue;
-    if (in.below(4) == 1) pass.shared_bytes = in.number<std::uint32_t>();
+    if (in.flag()) pass.constants.assign(1 + in.below(12), in.number<std::uint32_t>());
     pass.shader = read_shader(in);
     if (in.flag())
       pass.extent = {.x = in.number<std::uint32_t>(),

@@ -8,48 +8,17 @@
 #include "lamplight/method.h"
 #include "lamplight/shader_code.h"
 #include "unit/devices.h"
+#include "unit/every_plan.h"
 
 namespace {
 
 using lamp::DeviceTraits;
 using lamp::Method;
-using lamp::OptionSpec;
 using lamp::Pass;
 using lamp::Plan;
 using lamp::SubgroupOperations;
-
-/// The defaults, and each word of each option.
-std::vector<std::vector<std::string>> settings_of(const Method& method) {
-  std::vector<std::vector<std::string>> settings{{}};
-  for (const OptionSpec& spec : method.options)
-    for (const std::string_view word : spec.choices)
-      settings.push_back({std::string(spec.key) + "=" + std::string(word)});
-  return settings;
-}
-
-/// The plans of every method with each of its settings, of few lights and of many, and the errors where there are none.
-template <class Visit>
-void every_plan(const DeviceTraits& traits, const Visit& visit) {
-  for (const Method& method : lamp::methods())
-    for (const std::vector<std::string>& settings : settings_of(method))
-      for (const std::uint32_t lights : {100U, 4096U, 1U << 20}) {
-        const lamp::Result<Plan> plan =
-            lamp::make_plan(method, {.width = 640,
-                                     .height = 360,
-                                     .light_capacity = lights,
-                                     .options = lamp::resolve_options(method, settings).value(),
-                                     .traits = traits});
-        SCOPED_TRACE(std::string(method.name) + " " + (settings.empty() ? "" : settings[0]));
-        visit(plan);
-        if (testing::Test::HasFailure()) return;
-      }
-}
-
-std::vector<Pass> all_passes(const Plan& plan) {
-  std::vector<Pass> passes = plan.passes;
-  if (plan.fused) passes.insert(passes.end(), plan.fused->passes.begin(), plan.fused->passes.end());
-  return passes;
-}
+using lamp::test::all_passes;
+using lamp::test::every_plan;
 
 SubgroupOperations asked_by(const Pass& pass) {
   return lamp::subgroup_operations(lamp::find_shader(lamp::library_shaders(), pass.shader)->spirv);

@@ -132,7 +132,6 @@ struct Pass {
   std::string option;                 ///< host passes: the setting that asks for it ("sort=cpu"), for messages
   bool once = false;                  ///< for all views together: reads lights alone; else once for each view
   bool on_projection_change = false;  ///< kept: not in frames of a projection with which it has run just before
-  std::uint32_t shared_bytes = 0;     ///< shared memory of a work group, for plan_check
   std::uint32_t full_subgroups = 0;   ///< not 0: threads of a work group, all in x, whose subgroups must all be full
 };
 

@@ -28,6 +28,11 @@ struct ShaderCode {
 /// alone, are not among them.
 [[nodiscard]] LAMPLIGHT_API SubgroupOperations subgroup_operations(std::span<const std::uint32_t> spirv);
 
+/// Bytes of shared memory that a work group of a compute shader takes, with the specialization constants 0, 1, ...; ~0
+/// where a length is computed by an operation that this function does not know.
+[[nodiscard]] LAMPLIGHT_API std::uint64_t shared_bytes(std::span<const std::uint32_t> spirv,
+                                                       std::span<const std::uint32_t> constants);
+
 /// The shader of that name in a table, or nullptr.
 [[nodiscard]] LAMPLIGHT_API const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_view name);
 

@@ -110,13 +110,12 @@ Pass ranges_pass(const Sizes& s, const Buffers& b) {
 }
 
 Pass bits_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  return {
-      .name = "slice bits",
-      .shader = "methods/grid_bits",
-      .constants = {parts::cull_threads(problem), s.cells, s.lights, s.blocks},
-      .bindings = {{INPUT_FRAME}, {b.ranges}, {b.block_words, Access::write}, {b.bits, Access::write}},
-      .extent = {.y = 3, .z = parts::divide_up(s.cells + 1, shared::GRID_GROUP_SLICES), .lights_per_group = GRID_BLOCK},
-      .shared_bytes = GRID_BLOCK_WORDS * 33 * 4 + shared::GRID_GROUP_SLICES * 4};
+  return {.name = "slice bits",
+          .shader = "methods/grid_bits",
+          .constants = {parts::cull_threads(problem), s.cells, s.lights, s.blocks},
+          .bindings = {{INPUT_FRAME}, {b.ranges}, {b.block_words, Access::write}, {b.bits, Access::write}},
+          .extent = {
+              .y = 3, .z = parts::divide_up(s.cells + 1, shared::GRID_GROUP_SLICES), .lights_per_group = GRID_BLOCK}};
 }
 
 /// Where a device ends loops: a round for each block and, at most, each word of bits besides those for lights.

@@ -31,19 +31,17 @@ using lamplight::WORD_LIGHTS;
 // Tuned on an H100, blocks and posts, 64k and 1M lights; docs/methods/lamplight.md says what else was tried.
 constexpr std::uint32_t SCAN_COLUMNS = 16;
 constexpr std::uint32_t SCAN_THREADS = 256;
-using shared::PIECE;                                // entries that a work group culls
-constexpr std::uint32_t MARGIN = 32;                // around them, where runs of a block begin and end
-constexpr std::uint32_t GROUP_HITS = 2;             // for each thread of a group, in shared memory
-constexpr std::uint32_t LEAST_SUBGROUP = 4;         // threads, unless the device says so
-constexpr std::uint32_t FEW_OF_SUBGROUP = 4;        // lights in view for each, while there are few
-constexpr std::uint32_t WANTED_GROUPS = 512;        // of the pass that finds cells with bits
-constexpr std::uint32_t CROWDED = 64;               // lights; all pieces of cells of more are shared out, if few
-constexpr std::uint32_t PARTS = 2;                  // of the rows of a group, for each such piece
-constexpr std::uint32_t SHARED_GROUPS = 384;        // that take what is shared out
-constexpr std::uint32_t SOFTWARE_GROUPS = 16;       // likewise, where subgroups are small, unless it takes more:
-constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;    // of all loops of a thread; llvmpipe ends them after twice as many
-constexpr std::uint32_t PIECE_ROUNDS = 500;         // for a piece, besides a word each and a look at the cells
-constexpr std::uint32_t QUEUE_BYTES = 32 * 24 + 8;  // lights of many cells, in shared memory
+using shared::PIECE;                              // entries that a work group culls
+constexpr std::uint32_t GROUP_HITS = 2;           // for each thread of a group, in shared memory
+constexpr std::uint32_t LEAST_SUBGROUP = 4;       // threads, unless the device says so
+constexpr std::uint32_t FEW_OF_SUBGROUP = 4;      // lights in view for each, while there are few
+constexpr std::uint32_t WANTED_GROUPS = 512;      // of the pass that finds cells with bits
+constexpr std::uint32_t CROWDED = 64;             // lights; all pieces of cells of more are shared out, if few
+constexpr std::uint32_t PARTS = 2;                // of the rows of a group, for each such piece
+constexpr std::uint32_t SHARED_GROUPS = 384;      // that take what is shared out
+constexpr std::uint32_t SOFTWARE_GROUPS = 16;     // likewise, where subgroups are small, unless it takes more:
+constexpr std::uint32_t SOFTWARE_ROUNDS = 32768;  // of all loops of a thread; llvmpipe ends them after twice as many
+constexpr std::uint32_t PIECE_ROUNDS = 500;       // for a piece, besides a word each and a look at the cells
 constexpr std::uint64_t MOST_STEPS = 16;  // of a walk in each round of its loop: shading is in the code as often
 
 /// Lights in view of a work group that finds cells, while there are few.
@@ -130,7 +128,6 @@ Pass depth_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                    {b.matrix, Access::write},
                    {b.cell_depths, Access::write}},
       .extent = {.cells = {.px = cell_px}},
-      .shared_bytes = 32,
       .full_subgroups = threads};
   if (s.cell_bits) pass.bindings.push_back({b.totals, Access::write});
   return pass;
@@ -142,7 +139,6 @@ Pass view_pass(const Problem& problem, const Buffers& b, std::uint32_t threads) 
           .constants = {threads, few_lights(problem, threads)},
           .bindings = {{INPUT_FRAME}, {INPUT_SPHERES}, {b.totals, Access::read_write}, {b.seen, Access::write}},
           .extent = {.lights_per_group = threads},
-          .shared_bytes = 8,
           .full_subgroups = threads};
 }
 
@@ -152,7 +148,6 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
             .shader = shader_of(s.sliced() ? "find_sliced" : "find", s),
             .constants = with_slices({threads, s.tile_px, s.cell_tiles, s.cell_grid().layers, share}, problem, s),
             .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.matrix, Access::read_write}},
-            .shared_bytes = QUEUE_BYTES + 8,
             .full_subgroups = threads};
   if (s.cell_bits) {
     pass.bindings.push_back({b.cells, Access::read_write});
@@ -161,7 +156,6 @@ Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
     pass.constants.insert(pass.constants.end(), {s.block, s.entries, GROUP_HITS * threads});
     pass.bindings.insert(pass.bindings.end(), {{b.totals, Access::read_write}, {b.hits, Access::write}, {b.seen}});
     pass.extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::LightTotals, find_x)};
-    pass.shared_bytes += GROUP_HITS * threads * std::uint32_t{sizeof(shared::LightHit)};
   }
   if (!s.sliced()) pass.bindings.insert(pass.bindings.end(), {{b.tile_depths}, {b.cell_depths}});
   return pass;
@@ -178,8 +172,7 @@ Pass scan_pass(const Problem& problem, const Sizes& s, const Buffers& b, std::ui
                        {b.cells, Access::write},
                        {b.pieces, Access::write},
                        {b.totals, Access::read_write}},
-          .extent = {.x = 0, .cells = s.cell_grid(), .cells_per_group = SCAN_COLUMNS},
-          .shared_bytes = threads * 4 + SCAN_COLUMNS * 4 + 4};
+          .extent = {.x = 0, .cells = s.cell_grid(), .cells_per_group = SCAN_COLUMNS}};
 }
 
 Pass scatter_pass(const Sizes& s, const Buffers& b, std::uint32_t threads) {
@@ -223,9 +216,8 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
   const std::uint32_t mark_words = s.group_rows * shared::PIECE_WORDS;
   const std::uint32_t threads = light_threads(problem);
   const std::uint32_t pairs = THREAD_PAIRS * threads;
-  // In shared memory, to put lights in order by: two sums for each subgroup, or a bit for each light of a block.
+  // To put lights in order by: sums of each subgroup, or bits of the lights of a block.
   const std::uint32_t order_size = s.cell_bits ? most_subgroups(problem, threads) : parts::divide_up(s.block, 32);
-  const std::uint32_t order_words = s.cell_bits ? 2 * order_size : order_size;
   Pass pass{.name = s.bits ? "tile bits" : "tile lists",
             .shader = shader_of(s.sliced() ? "lists_sliced"
                                 : pruned   ? "lists_pruned"
@@ -245,8 +237,6 @@ Pass lists_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
                          {b.piece_lists, Access::write},
                          {b.lists, Access::write}},
             .extent = lists_extent(problem, s, b),
-            .shared_bytes = (7 * PIECE + 2 * MARGIN + order_words + pairs + mark_words) * 4 + s.group_rows * 24 +
-                            s.cell_tiles * 32 + 132,
             .full_subgroups = threads};
   if (!s.cell_bits) pass.bindings.push_back({b.entries});
   pass.bindings.push_back({b.matrix});

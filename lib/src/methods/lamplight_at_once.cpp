@@ -68,7 +68,6 @@ Pass pass_of(const Problem& problem, const Grid& grid, std::vector<Binding> bind
                     mark_words, bits ? 1U : 0U, problem.depth_samples, parts::further_tests(problem.options)},
       .bindings = std::move(bindings),
       .extent = {.cells = {.px = grid.cell_px()}},
-      .shared_bytes = (5 * PIECE + pairs + mark_words) * 4 + grid.cell_rows() * 16 + grid.cell_tiles * 32 + 32,
       .full_subgroups = grid.threads};
 }
 

@@ -46,8 +46,7 @@ ResourceId add_light_sort(Plan& plan, const LightSort& sort) {
                            .shader = "methods/sort_scatter" + by,
                            .constants = constants,
                            .bindings = {{INPUT_FRAME}, {sort.by}, {order}, {counts}, {totals}, {to, Access::write}},
-                           .extent = {.lights_per_group = SORT_BLOCK},
-                           .shared_bytes = 10 * SORT_DIGITS * 4});
+                           .extent = {.lights_per_group = SORT_BLOCK}});
     std::swap(from, to);
   }
   return from;

@@ -77,8 +77,7 @@ Pass cull_pass(const Problem& problem, const TiledAxes& axes, const Buffers& b) 
             .shader = std::string("methods/tile_") + container + "_" + reduce,
             .constants = {parts::cull_threads(problem, axes.tile_px * axes.tile_px)},
             .bindings = tile_bindings(axes, b),
-            .extent = {.cells = {.px = axes.tile_px}},
-            .shared_bytes = shared_bytes(axes)};
+            .extent = {.cells = {.px = axes.tile_px}}};
   const std::vector<std::uint32_t> constants = tile_constants(problem, axes);
   pass.constants.insert(pass.constants.end(), constants.begin(), constants.end());
   pass.bindings.push_back({b.lists, Access::write});

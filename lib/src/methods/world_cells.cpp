@@ -36,8 +36,6 @@ constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes ea
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // the place of a word of bits has 32 bits
 constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
 constexpr std::uint64_t RANK_ALIGNMENT = 8;       // a light's ranks begin where 32 bytes do
-constexpr std::uint32_t SCAN_BYTES = 256 * 4;     // of group_scan.glsl
-constexpr std::uint32_t OCTET_SPARE = 64;         // bytes, behind the entries' cells
 constexpr std::uint32_t MOST_PERCENT = 1600;
 constexpr std::uint64_t BUDGET_BYTES = 64U << 20;     // of entries, for brick=0
 constexpr std::uint32_t FINEST_PERCENT = 100;         // for brick=0,
@@ -219,8 +217,7 @@ Pass scan_pass(const Sizes& s, const Buffers& b) {
                        {b.buckets, Access::write},
                        {b.pieces, Access::write},
                        {b.windows, Access::write}},
-          .extent = {.x = s.buckets / (s.threads * SCAN_BUCKETS)},
-          .shared_bytes = SCAN_BYTES + 8};
+          .extent = {.x = s.buckets / (s.threads * SCAN_BUCKETS)}};
 }
 
 Pass order_pass(const Sizes& s, const Buffers& b) {
@@ -237,8 +234,7 @@ Pass order_pass(const Sizes& s, const Buffers& b) {
                        {b.entries, Access::read_write},
                        {b.bits, Access::write},
                        {b.pieces}},
-          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)},
-          .shared_bytes = WORLD_PIECE * (16 + bit_bytes(s.cells)) + OCTET_SPARE + SCAN_BYTES + 12};
+          .extent = {.indirect = b.totals, .indirect_offset = offsetof(shared::WorldTotals, order_x)}};
 }
 
 Extent of_pieces(const Buffers& b) {
@@ -265,8 +261,7 @@ Pass bits_pass(const Sizes& s, const Buffers& b) {
                        {b.pieces},
                        {b.entries},
                        {b.bits, Access::write}},
-          .extent = of_pieces(b),
-          .shared_bytes = WORLD_PIECE * (8 + bit_bytes(s.cells)) + OCTET_SPARE};
+          .extent = of_pieces(b)};
 }
 
 /// How many lights a walk can name where a device ends loops.
