@@ -1,4 +1,5 @@
 # Files and the commit as parts of the binary, so that the tool needs nothing beside it.
+# SPDX-License-Identifier: Apache-2.0
 include_guard()
 
 # lamplight_embed(TARGET FUNCTION FILE...): adds a source to TARGET that defines

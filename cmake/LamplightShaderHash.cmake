@@ -1,4 +1,5 @@
 # By what SPIR-V of a release is known to be that of the sources beside it.
+# SPDX-License-Identifier: Apache-2.0
 include_guard()
 
 # A hash over everything that shaders below ROOT may include and their own text.

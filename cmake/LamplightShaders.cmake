@@ -3,6 +3,7 @@
 # a shader in HLSL (NAME.STAGE.hlsl, here "NAME.hlsl") that includes "lookup.hlsl". A shader that itself includes
 # "common/depth_image.glsl" is compiled a second time, with MULTISAMPLED, as "folder/shader@multisampled".
 # Nothing is compiled, and no glslc is needed, where LAMPLIGHT_SPIRV_FROM or a folder `spirv` beside the sources has it.
+# SPDX-License-Identifier: Apache-2.0
 include_guard()
 
 set(LAMPLIGHT_SPIRV_FROM "" CACHE PATH "Where to take SPIR-V from instead of compiling it: a build folder of these \

@@ -1,4 +1,5 @@
 # What every target of the project has in common: language level, warnings, sanitizers.
+# SPDX-License-Identifier: Apache-2.0
 include_guard()
 
 set(LAMPLIGHT_JOIN "" CACHE STRING "What to compile several files at once: nothing, tests, tools (all but the library) or \

@@ -1,4 +1,5 @@
 # Writes the C++ source OUT: what SOURCE was checked out at (see LamplightEmbed.cmake). Changes OUT only if it differs.
+# SPDX-License-Identifier: Apache-2.0
 cmake_minimum_required(VERSION 3.25)
 find_program(GIT git)
 set(commit "")

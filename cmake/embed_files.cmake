@@ -1,4 +1,5 @@
 # Writes the files FILES into the C++ source OUT as FUNCTION() (see LamplightEmbed.cmake). Changes OUT only if it differs.
+# SPDX-License-Identifier: Apache-2.0
 cmake_minimum_required(VERSION 3.25)
 set(arrays "")
 set(rows "")

@@ -1,6 +1,7 @@
 # Debian packages of the components, by CPack: liblamplight0 (the number is the SOVERSION), liblamplight-dev,
 # lamplight-tools and, where the window is built, lamplight-view. Build the preset `debian`, then run `cpack -B FOLDER` in
 # its build folder.
+# SPDX-License-Identifier: Apache-2.0
 option(LAMPLIGHT_DEBIAN "Install what Debian packages hold besides, and let cpack make them" OFF)
 set(LAMPLIGHT_MAINTAINER "Lamplight maintainers <maintainers@lamplight.invalid>" CACHE STRING
     "Who answers for the Debian packages: NAME <ADDRESS>")

@@ -1,6 +1,7 @@
 // Distances to other cells, in two passes over the pixels; a rectangle grown from each cell's farthest pixel.
 // Based on: Rosenfeld, Pfaltz, Distance functions on digital pictures, Pattern Recognition 1 (1968), for the two
-// passes. SPDX-License-Identifier: Apache-2.0
+// passes.
+// SPDX-License-Identifier: Apache-2.0
 #include "view/cell_numbers.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // Bins of depth (z-bins) as a strip: which ranks of the lights, sorted by depth, each bin has a pixel walk. Pure but
-// for the drawing. SPDX-License-Identifier: Apache-2.0
+// for the drawing.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

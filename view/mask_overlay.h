@@ -1,5 +1,6 @@
 // What a mask of occupied depths leaves out of each cell, and the mask of one cell as a strip. Pure but for the
-// drawing. SPDX-License-Identifier: Apache-2.0
+// drawing.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // Shapes around lights, as lines over the picture: what a method rasterises, and what shadow maps cut. And the squares
-// of a light's shadow map. SPDX-License-Identifier: Apache-2.0
+// of a light's shadow map.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

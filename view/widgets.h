@@ -1,5 +1,6 @@
 // ImGui's widgets with what all of ours have: a place that scripts find by its label, a tooltip in a whole sentence,
-// and a reason where they cannot be used. SPDX-License-Identifier: Apache-2.0
+// and a reason where they cannot be used.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

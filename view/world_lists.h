@@ -1,5 +1,6 @@
 // Lists of points of the world: at the picked surface, at what its mirrored ray meets, and in the cells around. Drawn
-// as boxes. SPDX-License-Identifier: Apache-2.0
+// as boxes.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

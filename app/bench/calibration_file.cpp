@@ -1,5 +1,6 @@
 // Reads and writes calibrations.
-// Promise: a damaged or foreign file in the cache is measured anew, never trusted. SPDX-License-Identifier: Apache-2.0
+// Promise: a damaged or foreign file in the cache is measured anew, never trusted.
+// SPDX-License-Identifier: Apache-2.0
 #include "bench/calibration_file.h"
 
 #include <fmt/format.h>

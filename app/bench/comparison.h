@@ -1,5 +1,6 @@
 // Two runs beside each other, matched by what was measured: ratios within them are fair, across devices they are
-// context. SPDX-License-Identifier: Apache-2.0
+// context.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,6 +1,6 @@
 // Finds the calibration that `auto` goes by.
-// Promise: a damaged or foreign file in the cache is never trusted: a GPU is measured anew. SPDX-License-Identifier:
-// Apache-2.0
+// Promise: a damaged or foreign file in the cache is never trusted: a GPU is measured anew.
+// SPDX-License-Identifier: Apache-2.0
 #include "commands/calibration.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // Measures what the cost model is fitted to: each candidate on a few sizes and counts of lights.
-// Promise: the lights and the picture are always the same; only times differ. SPDX-License-Identifier: Apache-2.0
+// Promise: the lights and the picture are always the same; only times differ.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 

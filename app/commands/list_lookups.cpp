@@ -1,5 +1,6 @@
 // Plans each method with its default options and with one of them set, and keeps what is new about the result; then
-// with two of them, and keeps look-ups that are new. SPDX-License-Identifier: Apache-2.0
+// with two of them, and keeps look-ups that are new.
+// SPDX-License-Identifier: Apache-2.0
 #include "commands/list_lookups.h"
 
 #include <fmt/format.h>

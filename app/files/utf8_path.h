@@ -1,5 +1,6 @@
 // A path from a text. All texts are UTF-8; what std::filesystem takes a std::string for depends on the system, so
-// whatever a user may have typed goes through here. SPDX-License-Identifier: Apache-2.0
+// whatever a user may have typed goes through here.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>

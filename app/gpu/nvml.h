@@ -1,6 +1,7 @@
 // The clock of one GPU by NVIDIA's management library, which comes with the driver and is loaded when it is there.
 // Based on: NVIDIA, NVML API reference (its functions and numbers are declared here, since its header is no
-// dependency). SPDX-License-Identifier: Apache-2.0
+// dependency).
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>

@@ -3,7 +3,8 @@
 // SAH-based Bounding Volume Hierarchies, IEEE Symposium on Interactive Ray Tracing (2007): bins; Kay, Kajiya, Ray
 // Tracing Complex Scenes, SIGGRAPH (1986). Promise: the same for the same scene on every machine. Every triangle of an
 // opaque or masked surface is in it once for each mesh; glass is not. Boxes hold their triangles, and more by what
-// 32-bit rays may be off. No ray has a path deeper than `stack`. SPDX-License-Identifier: Apache-2.0
+// 32-bit rays may be off. No ray has a path deeper than `stack`.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // The geometry passes: depth pre-pass, and the G-buffer, with the numbers of triangles where targets want them. A
-// captured frame fills both at once, whichever is asked for. SPDX-License-Identifier: Apache-2.0
+// captured frame fills both at once, whichever is asked for.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/host_depth.h"

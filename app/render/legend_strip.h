@@ -1,5 +1,6 @@
 // The strip below a picture that a legend is drawn into. Measures are in pixels of the font, which grow with the
-// picture. Promise: it is appended below the picture and hides no pixel of it. SPDX-License-Identifier: Apache-2.0
+// picture. Promise: it is appended below the picture and hides no pixel of it.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

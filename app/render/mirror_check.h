@@ -1,6 +1,7 @@
 // Mirrored light against the truth: what each ray meets, by rays in double precision; and the lights of what they met,
 // by the oracle. Promise: the reference meets the same sides, and the same holes, as a pixel shows. What another ray so
-// close that 32 bits do not tell them apart meets instead is counted apart. SPDX-License-Identifier: Apache-2.0
+// close that 32 bits do not tell them apart meets instead is counted apart.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>

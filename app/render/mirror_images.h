@@ -1,6 +1,7 @@
 // Levels of a scene's images as rays read them.
 // Promise: where images lose levels so that all fit, those that cut holes keep theirs longest, as a hole decides what a
-// ray meets. SPDX-License-Identifier: Apache-2.0
+// ray meets.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

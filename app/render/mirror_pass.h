@@ -1,7 +1,7 @@
 // Mirrored light: a ray for each pixel of a surface smooth enough, its hit found in compute, and lit with lights looked
 // up by position. docs/methods/mirror.md. Promise: whatever finds a hit's lights, the picture is the same: to the bit
-// where lists ascend. What is not known (a search that the device ended) is counted. SPDX-License-Identifier:
-// Apache-2.0
+// where lists ascend. What is not known (a search that the device ended) is counted.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>

@@ -1,7 +1,8 @@
 // What a mirror ray meets, in double precision, and how far 32 bits may be from it.
 // Based on: Higham, Accuracy and Stability of Numerical Algorithms (2002), chapter 3: a sum of products is off by as
 // many roundings as it has operations, of the largest number in it. Promise: the reference meets the same sides, and
-// the same holes, as a pixel shows. SPDX-License-Identifier: Apache-2.0
+// the same holes, as a pixel shows.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <limits>

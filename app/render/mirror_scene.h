@@ -1,7 +1,8 @@
 // A scene as rays read it on the GPU, for mirrors and for the truth of shadows: its hierarchy, vertices, materials, and
 // images as plain texels.
 // Promise: no more texels than a buffer of the device holds; images that do not fit are read from a coarser level on
-// (mirror_images.h), and a note says so. SPDX-License-Identifier: Apache-2.0
+// (mirror_images.h), and a note says so.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // The lights that a look-up by position names at points of the world: on surfaces, in the air, behind the eye,
-// anywhere. SPDX-License-Identifier: Apache-2.0
+// anywhere.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Asks the atlas for each pixel. SPDX-License-Identifier: Apache-2.0
+// Asks the atlas for each pixel.
+// SPDX-License-Identifier: Apache-2.0
 #include "render/probe_panorama.h"
 
 #include "gpu/check.h"

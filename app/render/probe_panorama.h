@@ -1,4 +1,5 @@
-// A capture as a picture of all directions, by the look-up that shading uses. SPDX-License-Identifier: Apache-2.0
+// A capture as a picture of all directions, by the look-up that shading uses.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "image/image.h"

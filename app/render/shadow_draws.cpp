@@ -1,6 +1,7 @@
 // Draws shadow maps with the hardware's rasterizer: the GPU finds which casters each view shows, and a set of views,
 // each a viewport with a scissor of its own, is one indirect draw for all opaque casters and one for each masked
-// material. SPDX-License-Identifier: Apache-2.0
+// material.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

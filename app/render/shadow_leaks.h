@@ -1,7 +1,8 @@
 // Where in the picture shadow filters leak, and where their shadows are false: a ray for each pixel and light of its
 // list, on the GPU, for heat maps.
 // Promise: what leaks and what is lost mean is what they mean to check_shadows (shadow_truth.h), whose rays are in
-// double precision; light, filter and look-up are shading's own. SPDX-License-Identifier: Apache-2.0
+// double precision; light, filter and look-up are shading's own.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // Walks look-ups and holds them against a truth: one walk of every pixel, and a second one, which marks what it brings,
 // where lists are in another order than the truth or lack some of it.
 // Promise: any number of lights. A walk is a thread's only loop; pixels are taken in parts whose buffers fit the
-// device. SPDX-License-Identifier: Apache-2.0
+// device.
+// SPDX-License-Identifier: Apache-2.0
 #include "render/visit.h"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // The hall, and three adversarial scenes in it: one-tile, needles, huge-and-tiny.
 // Based on: nothing; two rows of columns, an altar at the far end.
 // Promise: closed; for the first camera all of one-tile's lights reach no further than one tile of 16 or 32 pixels, at
-// 1920x1080 and at 3840x2160. SPDX-License-Identifier: Apache-2.0
+// 1920x1080 and at 3840x2160.
+// SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
 // A glTF document before tinygltf reads it: without what nothing reads, and with numbers that tinygltf keeps as they
-// are. Based on: Khronos, glTF 2.0 specification, section 2.7 (JSON encoding). SPDX-License-Identifier: Apache-2.0
+// are. Based on: Khronos, glTF 2.0 specification, section 2.7 (JSON encoding).
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // Vertices so ordered that a triangle's first corner tells its number: a flat attribute of the vertex, which every
 // device has (gl_PrimitiveID in fragment shaders needs the feature geometryShader), for at most one more vertex a
-// triangle. SPDX-License-Identifier: Apache-2.0
+// triangle.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "scene/scene.h"

@@ -1,4 +1,5 @@
-// Draws points. SPDX-License-Identifier: Apache-2.0
+// Draws points.
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/random_points.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Random points of a scene, to ask which lights reach them: on its surfaces, in the air, anywhere, and far away.
-// Promise: the same points for the same seed on every machine. SPDX-License-Identifier: Apache-2.0
+// Promise: the same points for the same seed on every machine.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

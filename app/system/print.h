@@ -1,6 +1,7 @@
 // What `lamp` prints: results on stdout, everything else on stderr.
 // Promise: printing never throws and never ends the program. What could not be written is remembered; `main` asks for
-// it at the end, so that work whose result lies in files is finished first. SPDX-License-Identifier: Apache-2.0
+// it at the end, so that work whose result lies in files is finished first.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Runs another program and waits for it.
 // Promise: signals end `lamp` meanwhile as at any other time. (The standard library, while it waits for a program,
-// ignores SIGINT.) SPDX-License-Identifier: Apache-2.0
+// ignores SIGINT.)
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Data, elements, numbers, colours, theme. SPDX-License-Identifier: Apache-2.0
+// Data, elements, numbers, colours, theme.
+// SPDX-License-Identifier: Apache-2.0
 'use strict';
 
 const DATA = JSON.parse(document.getElementById('data').textContent);

@@ -1,4 +1,5 @@
-// Sweeps as lines with bands, methods as bars, passes as stacked bars. SPDX-License-Identifier: Apache-2.0
+// Sweeps as lines with bands, methods as bars, passes as stacked bars.
+// SPDX-License-Identifier: Apache-2.0
 
 Chart.defaults.animation = false;
 Chart.defaults.maintainAspectRatio = false;

@@ -1,4 +1,5 @@
-// A flight's frames: by lights with moving averages, and in their order. SPDX-License-Identifier: Apache-2.0
+// A flight's frames: by lights with moving averages, and in their order.
+// SPDX-License-Identifier: Apache-2.0
 
 function sampleValue(sample, y) {
   if (y === 'cull+shade') return sample.cull + sample.shade;

@@ -1,4 +1,5 @@
-// Puts the page together. SPDX-License-Identifier: Apache-2.0
+// Puts the page together.
+// SPDX-License-Identifier: Apache-2.0
 
 /** The values that a panel's results have, for the menu of its y axis. */
 function valuesOf(run, panel) {

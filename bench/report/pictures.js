@@ -1,4 +1,5 @@
-// Two pictures or heat maps, one laid over the other up to a slider. SPDX-License-Identifier: Apache-2.0
+// Two pictures or heat maps, one laid over the other up to a slider.
+// SPDX-License-Identifier: Apache-2.0
 
 /** All pictures of a scene of a series: [name, image]. */
 function picturesOf(run, series, scene) {

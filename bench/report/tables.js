@@ -1,4 +1,5 @@
-// Tables that sort by a click on a column's head. SPDX-License-Identifier: Apache-2.0
+// Tables that sort by a click on a column's head.
+// SPDX-License-Identifier: Apache-2.0
 
 /** columns: {name, text?, title?, value(row), show?(row)}; numbers sort as numbers, what is missing comes last. */
 function table(columns, rows) {

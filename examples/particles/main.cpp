@@ -1,7 +1,7 @@
 // Smoke whose particles are lit one by one in a compute shader: in the picture, hidden, behind the camera, far away.
 // Lists of a picture have no lights for most of these; world-cells lists the lights of any position, and the boxes'
-// pixels ask the same lists. There is too little room at first, to show how it grows. SPDX-License-Identifier:
-// Apache-2.0
+// pixels ask the same lists. There is too little room at first, to show how it grows.
+// SPDX-License-Identifier: Apache-2.0
 #include <lamplight/value_of.h>  // lamplight
 #include <lamplight/vulkan.h>    // lamplight
 

@@ -1,7 +1,8 @@
 // Lights: the check of what a user gave, and the packing for the GPU.
 // Based on: Khronos, KHR_lights_punctual (units, cone).
 // Promise: what passes `check_lights` packs without a NaN; derived numbers of a packed light are computed in double and
-// rounded once. SPDX-License-Identifier: Apache-2.0
+// rounded once.
+// SPDX-License-Identifier: Apache-2.0
 #include "lamplight/light.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Implements version.h. SPDX-License-Identifier: Apache-2.0
+// Implements version.h.
+// SPDX-License-Identifier: Apache-2.0
 #include "lamplight/version.h"
 
 namespace lamp {

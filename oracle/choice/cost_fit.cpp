@@ -1,7 +1,8 @@
 // Fits the cost model: least squares without negative coefficients.
 // Based on: coordinate descent on the normal equations, Franc, Hlavác, Navara, Sequential Coordinate-Wise Algorithm for
 // the Non-Negative Least Squares Problem (2005).
-// Promise: deterministic; a term that is 0 in every sample gets the coefficient 0. SPDX-License-Identifier: Apache-2.0
+// Promise: deterministic; a term that is 0 in every sample gets the coefficient 0.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
 #include "oracle/choose.h"

@@ -1,6 +1,7 @@
 // Estimates how many lights tiles and pixels meet: a sample of tiles against all lights, or a sample of them.
 // Based on: stratified sampling; the lights of the largest ranges are all in, because few of them make most pairs.
-// Promise: deterministic; the time is bounded whatever the number of lights. SPDX-License-Identifier: Apache-2.0
+// Promise: deterministic; the time is bounded whatever the number of lights.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <limits>

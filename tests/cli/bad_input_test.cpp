@@ -1,5 +1,6 @@
 // Whatever is wrong with a command line or a scene file: the exit code, and one line that names it and what was
-// expected. SPDX-License-Identifier: Apache-2.0
+// expected.
+// SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_test.h"

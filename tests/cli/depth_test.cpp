@@ -1,5 +1,6 @@
 // --depth, --depth-samples, --stereo, --views: every method misses nothing at any sample of any view, whichever way
-// depth runs; bench takes the first two; what they do not go with is refused. SPDX-License-Identifier: Apache-2.0
+// depth runs; bench takes the first two; what they do not go with is refused.
+// SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_test.h"

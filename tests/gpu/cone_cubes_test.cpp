@@ -1,5 +1,6 @@
 // A spot's cone is held against the sphere around a cube of the world: the test says what the cone's point next to the
-// sphere's centre says in double precision. SPDX-License-Identifier: Apache-2.0
+// sphere's centre says in double precision.
+// SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>

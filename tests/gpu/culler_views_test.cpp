@@ -1,5 +1,6 @@
 // A Culler with two views a frame: each is culled as it would be alone, by every method; what did not fit is counted
-// over both, and there is room for both in the next frame. SPDX-License-Identifier: Apache-2.0
+// over both, and there is room for both in the next frame.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include "gpu/engine_frame.h"

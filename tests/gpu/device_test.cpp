@@ -1,5 +1,6 @@
 // Which devices the library takes: what it says of instances that are too old and of features that nobody has filled
-// in. SPDX-License-Identifier: Apache-2.0
+// in.
+// SPDX-License-Identifier: Apache-2.0
 #include <span>
 #include <string_view>
 

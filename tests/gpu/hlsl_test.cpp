@@ -1,5 +1,6 @@
 // Look-ups in HLSL against those in GLSL: the same cells, lights in the same order by every walk, and the same
-// positions, bit for bit. SPDX-License-Identifier: Apache-2.0
+// positions, bit for bit.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // The tool's frames with depth and views as hosts have them: pictures are those of reversed depth, those of each
-// sample, and those that each view has alone. SPDX-License-Identifier: Apache-2.0
+// sample, and those that each view has alone.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include "gpu/method_check.h"

@@ -1,5 +1,6 @@
 // Pictures against closed forms: the plane and a wall under known lights; emission, ambient, sun, sky, cut-outs,
-// blending. SPDX-License-Identifier: Apache-2.0
+// blending.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // What docs/threads-and-lifetimes.md promises: Cullers on several threads at once, Cullers that are moved, and what
-// must outlive them. SPDX-License-Identifier: Apache-2.0
+// must outlive them.
+// SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <memory>
 #include <thread>

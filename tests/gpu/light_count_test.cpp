@@ -1,6 +1,6 @@
 // A frame whose record on the GPU counts other lights than the host dispatches for: more than there is room for, of
-// which shaders take as many as fit, so that nothing is read or written beyond; or fewer. SPDX-License-Identifier:
-// Apache-2.0
+// which shaders take as many as fit, so that nothing is read or written beyond; or fewer.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

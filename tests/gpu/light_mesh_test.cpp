@@ -1,5 +1,6 @@
 // Meshes around what lights light: closed, of few triangles, and nothing that the look-up finds lit lies outside, for
-// any depths, normals and seeds; nor when a view widens them by a margin. SPDX-License-Identifier: Apache-2.0
+// any depths, normals and seeds; nor when a view widens them by a margin.
+// SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <map>
 

@@ -1,5 +1,6 @@
 // What mirror rays meet where 32 bits are few: long thin triangles, surfaces that rays graze far from the origin,
-// places farther away, and triangles that are enormous. SPDX-License-Identifier: Apache-2.0
+// places farther away, and triangles that are enormous.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,6 @@
 // Mirrored light: rays meet what a reference in double precision meets, the lists of hits miss no light, and the
-// picture is the same whatever finds them. SPDX-License-Identifier: Apache-2.0
+// picture is the same whatever finds them.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>

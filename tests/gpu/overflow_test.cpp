@@ -1,5 +1,6 @@
 // Lists that do not fit: counted, and the picture stays brute force's, because their cells walk something coarser:
-// every light, or in clustered culling those between their tile's sides. SPDX-License-Identifier: Apache-2.0
+// every light, or in clustered culling those between their tile's sides.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Captures of probes against double precision: constant surroundings, filtered ones, the folds of the square,
-// distances, and the split sum. SPDX-License-Identifier: Apache-2.0
+// distances, and the split sum.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,6 +1,7 @@
 // The four shading paths agree with each other on every scene under both reflection models; and through every method a
 // path shows brute force's picture, transparent surfaces included. (Shading in compute meets every method in the
-// matrix; here it is above all forward shading's turn.) SPDX-License-Identifier: Apache-2.0
+// matrix; here it is above all forward shading's turn.)
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

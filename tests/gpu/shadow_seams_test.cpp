@@ -1,5 +1,6 @@
 // A plane casts no shadow on itself, at the seams of faces and octants least of all: there a point that is moved along
-// its normal may be looked up in another face than its own. SPDX-License-Identifier: Apache-2.0
+// its normal may be looked up in another face than its own.
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <tuple>
 

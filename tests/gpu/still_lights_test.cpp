@@ -1,5 +1,6 @@
 // Lights that stand still, in lists of their triangles or in a tree: the same picture as with all lights in the
-// picture's lists, and nothing missed at pixels and on surfaces. SPDX-License-Identifier: Apache-2.0
+// picture's lists, and nothing missed at pixels and on surfaces.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Walks of whole subgroups against the plain walk: each thread meets the same lights, in compute and in fragment
 // shaders, over thin posts and cut-out leaves, where pixels of a subgroup lie in many cells and some are not shaded at
-// all. SPDX-License-Identifier: Apache-2.0
+// all.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

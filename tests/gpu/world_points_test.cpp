@@ -1,5 +1,6 @@
 // Look-ups by position of every method that has one for moving lights: no light missed at any point, whatever the
-// lights; ids ascend where the method says so. SPDX-License-Identifier: Apache-2.0
+// lights; ids ascend where the method says so.
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>

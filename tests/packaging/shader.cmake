@@ -1,4 +1,5 @@
-# Compiles the consumer's shader, which includes a look-up. SPDX-License-Identifier: Apache-2.0
+# Compiles the consumer's shader, which includes a look-up.
+# SPDX-License-Identifier: Apache-2.0
 find_program(GLSLC glslc REQUIRED)
 add_custom_command(OUTPUT consumer.inc
   COMMAND ${GLSLC} --target-env=vulkan1.3 -mfmt=num "-I$<JOIN:${LAMPLIGHT_SHADER_INCLUDE_DIRS},;-I>"

@@ -1,5 +1,6 @@
 // Captures: written and read again bit for bit; depth of every kind; what is left out is neutral; a folder whole or not
-// at all. SPDX-License-Identifier: Apache-2.0
+// at all.
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/capture.h"
 
 #include <algorithm>

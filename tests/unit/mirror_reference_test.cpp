@@ -1,5 +1,6 @@
 // What counts as rounding in the check of mirror rays: as much as 32 bits may take where a mesh lies and as large as it
-// is, and no more. SPDX-License-Identifier: Apache-2.0
+// is, and no more.
+// SPDX-License-Identifier: Apache-2.0
 #include "render/mirror_reference.h"
 
 #include <gtest/gtest.h>

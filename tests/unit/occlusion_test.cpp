@@ -1,6 +1,6 @@
 // Occlusion worked out ahead: what it says is hidden, random points and rays in double precision try to find lit. And
-// it must hide a good deal: what a person would say is hidden, and most of it in a building. SPDX-License-Identifier:
-// Apache-2.0
+// it must hide a good deal: what a person would say is hidden, and most of it in a building.
+// SPDX-License-Identifier: Apache-2.0
 #include "lamplight/occlusion.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// What tests ask of a system in its own way. SPDX-License-Identifier: Apache-2.0
+// What tests ask of a system in its own way.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

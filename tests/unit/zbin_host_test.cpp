@@ -1,6 +1,6 @@
 // The CPU's sort and bins of drobot-zbin, as its plan's host pass, against a search over all lights. Lights reach from
-// the middle of one bin to the middle of another, so that no rounding can move them. SPDX-License-Identifier:
-// Apache-2.0
+// the middle of one bin to the middle of another, so that no rounding can move them.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <glm/glm.hpp>
 

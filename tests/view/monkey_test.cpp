@@ -1,6 +1,7 @@
 // A monkey at the window: clicks, drags, keys, text, sizes and files at random, with validation on and, in a sanitized
 // build, without an error or a leak. LAMPLIGHT_MONKEY_SECONDS: how long, default 5. LAMPLIGHT_MONKEY_SEED: which
-// monkey. Promise: the same seed does the same, but for when it ends. SPDX-License-Identifier: Apache-2.0
+// monkey. Promise: the same seed does the same, but for when it ends.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <glm/glm.hpp>
 

@@ -1,5 +1,6 @@
 // Of the lights that reach each pixel, the shadow map that is worst off: the oldest or the smallest, one that waits, or
-// none. SPDX-License-Identifier: Apache-2.0
+// none.
+// SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

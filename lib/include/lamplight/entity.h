@@ -1,7 +1,8 @@
 // Entities: what cells hold. Lights have the first ids, boxes (decals, reflection probes) the ids behind them, so that
 // one structure serves all and each kind is a range of ids that a shader walks alone (lookup/parts/each.glsl).
 // Promise: every method culls boxes as it culls lights, by the bounding sphere, and with option boxes=shape by the
-// shape as well; no method knows of kinds. SPDX-License-Identifier: Apache-2.0
+// shape as well; no method knows of kinds.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

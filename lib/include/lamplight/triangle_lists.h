@@ -4,7 +4,8 @@
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), bonus slides: light
 // lists by triangle, for static lights. Promise: a light that reaches a position within `slack_m` of its triangle is in
 // that position's list, but for what `hides` says, and where shading is exactly 0. Lists ascend, and are the same in
-// every run. SPDX-License-Identifier: Apache-2.0
+// every run.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>

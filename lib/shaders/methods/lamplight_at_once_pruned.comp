@@ -1,4 +1,5 @@
-// Lists of tiles in one pass, of few lights, pruned by pixel. SPDX-License-Identifier: Apache-2.0
+// Lists of tiles in one pass, of few lights, pruned by pixel.
+// SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

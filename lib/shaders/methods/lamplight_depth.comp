@@ -1,4 +1,5 @@
-// Depths of tiles and cells, for lights that find cells. SPDX-License-Identifier: Apache-2.0
+// Depths of tiles and cells, for lights that find cells.
+// SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,6 +1,7 @@
 // The slices of a brick that a light reaches: of the box around what it has there. 16 slices along each axis tell as much as
 // many more cells would, and take fewer bits.
-// Needs: frame; common/world_spots.glsl. SPDX-License-Identifier: Apache-2.0
+// Needs: frame; common/world_spots.glsl.
+// SPDX-License-Identifier: Apache-2.0
 struct Box {
   vec3 low;
   vec3 high;

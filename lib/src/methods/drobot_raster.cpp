@@ -2,7 +2,8 @@
 // from the mesh's front to its back. Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH
 // Advances (2017), "Rasterization based culling". Promise: meshes enclose their lights by what a sample may be off a
 // pixel's centre, so no pixel is lost at any resolution; two indirect draws for all lights; bits do not depend on who
-// comes first. SPDX-License-Identifier: Apache-2.0
+// comes first.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 

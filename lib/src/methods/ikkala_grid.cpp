@@ -3,7 +3,8 @@
 // have any in a slice, and a second layer of bits says which. Based on: Ikkala, Lauttia, Jääskeläinen, Mäkitalo,
 // Hierarchical Bitmask Implicit Grids for Efficient Point-in-Volume Queries on the GPU, GRAPP (2024). Promise: memory
 // O(N R) for R cells along each axis; right at any point; nothing can overflow; the same walk every run, in the order
-// of the curve. SPDX-License-Identifier: Apache-2.0
+// of the curve.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
 #include <string>

@@ -1,4 +1,5 @@
-// Implements lamplight_at_once.h. Promise: nothing can overflow. SPDX-License-Identifier: Apache-2.0
+// Implements lamplight_at_once.h. Promise: nothing can overflow.
+// SPDX-License-Identifier: Apache-2.0
 #include "lamplight_at_once.h"
 
 #include <algorithm>

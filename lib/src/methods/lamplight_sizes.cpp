@@ -1,4 +1,5 @@
-// Implements lamplight_sizes.h. SPDX-License-Identifier: Apache-2.0
+// Implements lamplight_sizes.h.
+// SPDX-License-Identifier: Apache-2.0
 #include "lamplight_sizes.h"
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 // lights exist. Based on: Teschner et al., Optimized Spatial Hashing for Collision Detection of Deformable Objects, VMV
 // (2003); levels by size: Eitz, Lixu, Hierarchical Spatial Hashing for Real-Time Collision Detection, SMI (2007).
 // Promise: work grows with lights and what they reach; lists ascend; what does not fit is counted, and walked the long
-// way. SPDX-License-Identifier: Apache-2.0
+// way.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
 #include <cmath>

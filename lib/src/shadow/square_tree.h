@@ -1,7 +1,8 @@
 // Squares of powers of two in a larger one: a quadtree of what is free, in Morton order.
 // Based on: Knowlton, A Fast Storage Allocator, CACM (1965), the buddy system, in two dimensions.
 // Promise: squares never overlap; those of four neighbours that are free are one again; the lowest place is taken
-// first. SPDX-License-Identifier: Apache-2.0
+// first.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

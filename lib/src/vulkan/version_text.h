@@ -1,4 +1,5 @@
-// "1.3", for error lines. SPDX-License-Identifier: Apache-2.0
+// "1.3", for error lines.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vulkan/vulkan.h>

@@ -1,5 +1,6 @@
 // Makes the tree from the root down, its nodes' own lists from the leaves up, and drops children as soon as their
-// parent is better without them. SPDX-License-Identifier: Apache-2.0
+// parent is better without them.
+// SPDX-License-Identifier: Apache-2.0
 #include "brick_tree.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Triangles that share edges and lie in a plane, merged to convex polygons.
 // Promise: seen from a point that is not in its plane, the directions inside of all edges of a polygon all meet one
-// of its triangles, and within `thickness` of its plane. SPDX-License-Identifier: Apache-2.0
+// of its triangles, and within `thickness` of its plane.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

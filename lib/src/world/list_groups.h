@@ -1,5 +1,6 @@
 // Lists of lights in groups: the lights of neighbouring lists once, ascending, and for each list a bit for each of
-// them. Promise: a list that is already there is not stored again. SPDX-License-Identifier: Apache-2.0
+// them. Promise: a list that is already there is not stored again.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>

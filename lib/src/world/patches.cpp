@@ -1,6 +1,7 @@
 // Cuts a triangle: a table's patches are tested exactly, and cut again where they are still large for their lights.
 // Promise: a position within the slack of the triangle finds a patch whose part of the triangle, as far as twice the
-// slack beyond its sides, was tested within the slack. SPDX-License-Identifier: Apache-2.0
+// slack beyond its sides, was tested within the slack.
+// SPDX-License-Identifier: Apache-2.0
 #include "patches.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Sphere and cone against a polygon: the nearest point of the cone's section with the plane, or else of its edges.
 // Based on: a cone of at most 90 degrees and a sphere are convex, so the point of their section nearest to the light
-// lies straight ahead, on the cone, or on an edge of the polygon. SPDX-License-Identifier: Apache-2.0
+// lies straight ahead, on the cone, or on an edge of the polygon.
+// SPDX-License-Identifier: Apache-2.0
 #include "still_light.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // How many lights a look-up names for a pixel at a depth before and at a depth behind everything, together.
-// Needs: a look-up. SPDX-License-Identifier: Apache-2.0
+// Needs: a look-up.
+// SPDX-License-Identifier: Apache-2.0
 uint count_at(uvec2 pixel, float z_view) {
   uint lights = 0u;
   uint light;

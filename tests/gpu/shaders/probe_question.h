@@ -1,4 +1,5 @@
-// What the tests of captures ask in shaders. SPDX-License-Identifier: Apache-2.0
+// What the tests of captures ask in shaders.
+// SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_TESTS_PROBE_QUESTION_H
 #define LAMP_TESTS_PROBE_QUESTION_H
 

@@ -1,5 +1,6 @@
 // A number whose every bit depends on every bit of another.
-// Based on: Ellis, lowbias32, Prospecting for Hash Functions (2018). SPDX-License-Identifier: Apache-2.0
+// Based on: Ellis, lowbias32, Prospecting for Hash Functions (2018).
+// SPDX-License-Identifier: Apache-2.0
 #ifndef LAMP_MIXED
 #define LAMP_MIXED
 

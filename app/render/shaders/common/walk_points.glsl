@@ -1,6 +1,7 @@
 // Walks a look-up by position at many points: how many lights each names, and then which.
 // Promise: its loops are the walk's alone, so that a device which ends loops ends them where it ends the walk.
-// Needs: a look-up by position. SPDX-License-Identifier: Apache-2.0
+// Needs: a look-up by position.
+// SPDX-License-Identifier: Apache-2.0
 #include "common/loops_ended.glsl"
 
 layout(local_size_x = 64) in;

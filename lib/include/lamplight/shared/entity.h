@@ -1,7 +1,8 @@
 // An oriented box: what a decal or a reflection probe covers, for cells that hold more than lights. And how the record
 // of a box tells culling its shape.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017): structures of
-// entities. Promise: 60 bytes in C++ and in GLSL. SPDX-License-Identifier: Apache-2.0
+// entities. Promise: 60 bytes in C++ and in GLSL.
+// SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_ENTITY_H
 #define LAMPLIGHT_SHARED_ENTITY_H
 

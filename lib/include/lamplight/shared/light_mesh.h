@@ -1,7 +1,8 @@
 // A mesh around what a light lights, cut to what its shadow map holds: at most 300 triangles.
 // Based on: Drobot, Improved Culling for Tiled and Clustered Rendering, SIGGRAPH Advances (2017), "Light Proxy".
 // Promise: the same bytes in C++ and in GLSL. A point that a shadow look-up finds lit at all, whatever its normal and
-// the seed, lies inside. All zeros: nothing is known, nothing is cut. SPDX-License-Identifier: Apache-2.0
+// the seed, lies inside. All zeros: nothing is known, nothing is cut.
+// SPDX-License-Identifier: Apache-2.0
 #ifndef LAMPLIGHT_SHARED_LIGHT_MESH_H
 #define LAMPLIGHT_SHARED_LIGHT_MESH_H
 

@@ -1,6 +1,7 @@
 // `width` bits of words, up to 32, from bit `at` of word `first` on: a function called CELL_FIELD.
 // Needs: CELL_FIELD, its name; CELL_FIELD_WORD(word), which reads one. Both are forgotten then: a shader may include this
-// for several buffers. SPDX-License-Identifier: Apache-2.0
+// for several buffers.
+// SPDX-License-Identifier: Apache-2.0
 uint CELL_FIELD(uint first, uint at, uint width) {
   const uint word = first + at / 32u;
   const uint shift = at % 32u;

@@ -1,5 +1,6 @@
 // A level's cell of world cells, walked by itself: a stream of lights that ascend.
-// Needs: the buffers of lookup/world_cells.glsl. SPDX-License-Identifier: Apache-2.0
+// Needs: the buffers of lookup/world_cells.glsl.
+// SPDX-License-Identifier: Apache-2.0
 #define CELL_FIELD lookup_field
 #define CELL_FIELD_WORD(word) lookup_bits[word]
 #include "lookup/parts/cell_field.glsl"
