@@ -39,7 +39,7 @@ bool parse_number(std::string_view text, Number& out) {
 std::string range_note(std::span<const Light> lights) {
   if (lights.empty()) return "";
   const auto [low, high] = std::ranges::minmax(lights, {}, &Light::range);
-  if (std::isinf(low.range)) return " (without range)";
+  if (low.range >= shared::INFINITE_RADIUS) return " (without range)";
   return fmt::format(" (range {} to {} m)", metres(low.range), metres(high.range));
 }
 

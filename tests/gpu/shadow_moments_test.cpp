@@ -62,7 +62,8 @@ class CpuBlur {
     const double stored = depths_[static_cast<std::size_t>(at.y) * ATLAS + static_cast<std::size_t>(at.x)];
     const double longest = double{map_.range_m} * (map_.kind == shared::SHADOW_OCTAHEDRON ? std::sqrt(3.0) : 1.0);
     const double w = stored > 0.0 ? double{map_.near_m} / stored : 1e30;
-    const double unit = std::isfinite(map_.range_m) ? std::min(w / longest, 1.0) : stored > 0.0 ? w / (w + 10.0) : 1.0;
+    const bool is_endless = longest >= shared::INFINITE_RADIUS;
+    const double unit = !is_endless ? std::min(w / longest, 1.0) : stored > 0.0 ? w / (w + 10.0) : 1.0;
     if (filter_ == ShadowFilter::vsm) return {unit, unit * unit, 0.0, 0.0};
     const double far = std::exp(40.0 * (2.0 * unit - 1.0));
     const double near = -std::exp(-5.0 * (2.0 * unit - 1.0));

@@ -21,7 +21,8 @@ constexpr int STEPS = 64;  // 16 levels: all are at the least one long before
 constexpr float RISE = 0.5F;
 
 int rounded(float level, int most) {
-  return std::clamp(static_cast<int>(std::lround(level)), LEAST_LEVEL, std::max(most, LEAST_LEVEL));
+  const auto top = static_cast<float>(std::max(most, LEAST_LEVEL));
+  return static_cast<int>(std::round(std::fmin(std::fmax(level, LEAST_LEVEL), top)));  // also of infinities
 }
 
 std::uint64_t texels_at(std::span<const Wish> wishes, float fall) {
