@@ -27,7 +27,7 @@ class TemporaryFolder {
     const char* named = std::getenv("TMPDIR");
     fs::path folder = named != nullptr && *named != '\0' ? utf8_path(named) : fs::temp_directory_path(error);
     folder /= unique_name();
-    if (!error) fs::create_directory(folder, error);
+    if (!error && !fs::create_directory(folder, error) && !error) error = std::make_error_code(std::errc::file_exists);
     if (!error) fs::permissions(folder, fs::perms::owner_all, error);
     if (error)
       throw Error(folder.string() + ": no temporary folder can be made: " + error.message() +

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "spirv.h"
+
 namespace lamp {
 
 const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_view name) {
@@ -12,18 +14,18 @@ const ShaderCode* find_shader(std::span<const ShaderCode> table, std::string_vie
 }
 
 SubgroupOperations subgroup_operations(std::span<const std::uint32_t> spirv) {
-  constexpr std::size_t HEADER_WORDS = 5;
-  constexpr std::uint32_t OP_CAPABILITY = 2U << 16 | 17U;  // capabilities come first, two words each
+  constexpr std::uint32_t OP_CAPABILITY = 17;  // all capabilities come first
   enum : std::uint32_t { VOTE = 62, ARITHMETIC = 63, BALLOT = 64, SHUFFLE = 65, SHUFFLE_RELATIVE = 66 };
   SubgroupOperations operations;
-  for (std::size_t at = HEADER_WORDS; at + 1 < spirv.size() && spirv[at] == OP_CAPABILITY; at += 2) {
-    const std::uint32_t capability = spirv[at + 1];
-    operations.vote = operations.vote || capability == VOTE;
-    operations.ballot = operations.ballot || capability == BALLOT;
-    operations.arithmetic = operations.arithmetic || capability == ARITHMETIC;
-    operations.shuffle = operations.shuffle || capability == SHUFFLE;
-    operations.shuffle_relative = operations.shuffle_relative || capability == SHUFFLE_RELATIVE;
-  }
+  each_instruction(spirv, [&](std::uint32_t op, std::span<const std::uint32_t> words) {
+    if (op != OP_CAPABILITY || words.size() < 2) return false;
+    operations.vote = operations.vote || words[1] == VOTE;
+    operations.ballot = operations.ballot || words[1] == BALLOT;
+    operations.arithmetic = operations.arithmetic || words[1] == ARITHMETIC;
+    operations.shuffle = operations.shuffle || words[1] == SHUFFLE;
+    operations.shuffle_relative = operations.shuffle_relative || words[1] == SHUFFLE_RELATIVE;
+    return true;
+  });
   return operations;
 }
 

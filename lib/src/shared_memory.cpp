@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lamplight/shader_code.h"
+#include "spirv.h"
 
 namespace lamp {
 namespace {
@@ -52,37 +53,28 @@ struct Instruction {
 
 class Module {
  public:
-  Module(Words spirv, Words constants) : spirv_(spirv), constants_(constants) {
-    constexpr std::size_t HEADER_WORDS = 5;
-    constexpr std::size_t BOUND = 3;  // of ids, in the header
-    if (spirv.size() < HEADER_WORDS) return;
-    defined_at_.resize(spirv[BOUND]);
-    for (std::size_t at = HEADER_WORDS; at < spirv.size() && op_at(at) != FUNCTION; at += spirv[at] >> 16U) read(at);
+  Module(Words spirv, Words constants) : constants_(constants) {
+    if (spirv.size() < SPIRV_HEADER_WORDS) return;
+    defined_.resize(spirv[SPIRV_BOUND]);
+    each_instruction(spirv, [&](std::uint32_t op, Words words) {
+      if (op != FUNCTION) read(op, words);
+      return op != FUNCTION;
+    });
   }
 
   [[nodiscard]] std::uint64_t shared_bytes() const { return is_known_ ? shared_.bytes : ~0ULL; }
 
  private:
-  [[nodiscard]] std::uint32_t op_at(std::size_t at) const { return spirv_[at] & 0xffffU; }
-
-  void read(std::size_t at) {
-    const std::uint32_t op = op_at(at);
-    const Words x = spirv_.subspan(at + 1);
-    const auto place = static_cast<std::uint32_t>(at);
+  void read(std::uint32_t op, Words words) {
+    const Words x = words.subspan(1);
     if (op == DECORATE && x[1] == SPEC_ID) spec_ids_.emplace_back(x[0], x[2]);
-    if (op >= TYPE_BOOL && op <= TYPE_POINTER) defined_at_[x[0]] = place;
-    if (op >= CONSTANT_TRUE && op <= SPEC_CONSTANT_OP) defined_at_[x[1]] = place;
-    if (op == VARIABLE && x[2] == WORKGROUP) shared_.add(layout(instruction(x[0]).operands[1]));
-  }
-
-  [[nodiscard]] Instruction instruction(std::uint32_t id) const {
-    const std::uint32_t at = defined_at_[id];
-    const std::uint32_t named = op_at(at) <= TYPE_POINTER ? 2 : 3;  // words before the operands
-    return {op_at(at), spirv_.subspan(at + named, (spirv_[at] >> 16U) - named)};
+    if (op >= TYPE_BOOL && op <= TYPE_POINTER) defined_[x[0]] = {op, x.subspan(1)};
+    if (op >= CONSTANT_TRUE && op <= SPEC_CONSTANT_OP) defined_[x[1]] = {op, x.subspan(2)};
+    if (op == VARIABLE && x[2] == WORKGROUP) shared_.add(layout(defined_[x[0]].operands[1]));
   }
 
   Layout layout(std::uint32_t type) {
-    const auto [op, x] = instruction(type);
+    const auto [op, x] = defined_[type];
     switch (op) {
       case TYPE_BOOL:
         return {4, 4};
@@ -112,14 +104,14 @@ class Module {
 
   /// A length, or what it is computed from.
   std::uint32_t value(std::uint32_t id) {
-    const auto [op, x] = instruction(id);
+    const auto [op, x] = defined_[id];
     const auto given = std::ranges::find(spec_ids_, id, &std::pair<std::uint32_t, std::uint32_t>::first);
     if (given != spec_ids_.end() && given->second < constants_.size()) return constants_[given->second];
     if (op == CONSTANT || op == SPEC_CONSTANT) return x[0];
     if (op < CONSTANT || (op >= SPEC_CONSTANT_TRUE && op < SPEC_CONSTANT))
       return op == CONSTANT_TRUE || op == SPEC_CONSTANT_TRUE ? 1 : 0;
     if (op != SPEC_CONSTANT_OP) return unknown();
-    if (x[0] == COMPOSITE_EXTRACT) return value(instruction(x[1]).operands[x[2]]);  // of gl_WorkGroupSize
+    if (x[0] == COMPOSITE_EXTRACT) return value(defined_[x[1]].operands[x[2]]);  // of gl_WorkGroupSize
     std::array<std::uint32_t, 3> of{};
     for (std::size_t i = 0; i < std::min(of.size(), x.size() - 1); ++i) of[i] = value(x[i + 1]);
     return computed(x[0], of);
@@ -173,8 +165,8 @@ class Module {
     return 0;
   }
 
-  Words spirv_, constants_;
-  std::vector<std::uint32_t> defined_at_;                          ///< of types and constants, by id: the word
+  Words constants_;
+  std::vector<Instruction> defined_;                               ///< types and constants, by id
   std::vector<std::pair<std::uint32_t, std::uint32_t>> spec_ids_;  ///< an id, and the number of its constant
   Layout shared_;
   bool is_known_ = true;

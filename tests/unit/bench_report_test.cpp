@@ -111,7 +111,7 @@ TEST_F(BenchReport, ThePageIsWholeAndNothingInTheDataEndsItsScript) {
 }
 
 TEST_F(BenchReport, ThePageTakesPicturesOfItsFolderAlone) {
-  if (!test::has_links()) GTEST_SKIP();
+  if (!test::has_links()) GTEST_SKIP() << test::NO_LINKS;
   const fs::path elsewhere = folder_.path() / "elsewhere";
   const fs::path own = folder_.path() / "own";
   for (const fs::path& folder : {elsewhere, own / "pictures"}) fs::create_directories(folder);

@@ -117,7 +117,7 @@ TEST_F(ImageFile, ExrStoresFloatsBitForBit) {
 }
 
 TEST_F(ImageFile, TextIsReplacedWholeAndThroughALink) {
-  if (!test::has_links()) GTEST_SKIP();
+  if (!test::has_links()) GTEST_SKIP() << test::NO_LINKS;
   write_text(path("a.json"), "first, and longer");
   write_text(path("a.json"), "second");
   EXPECT_EQ(content(path("a.json")), "second");
@@ -152,7 +152,7 @@ TEST_F(ImageFile, AFullDiskIsAnErrorAndKeepsTheOldFile) {
     EXPECT_NE(error_line([] { write_text("/dev/full", "x"); }).find("/dev/full: "), std::string::npos);
   }
   write_text(path("a.txt"), "old");
-  if (!test::FileSizeLimit::is_there()) GTEST_SKIP();
+  if (!test::FileSizeLimit::is_there()) GTEST_SKIP() << "no limit for sizes of files here";
   std::string line;
   {
     const test::FileSizeLimit full(4096);

@@ -108,13 +108,13 @@ TEST_F(ReadFile, Folders) {
 TEST_F(ReadFile, PipesThatNobodyWritesTo) {
   {
     const app::TemporaryFolder folder;
-    if (!make_pipe(folder.path() / "pipe")) GTEST_SKIP();
+    if (!make_pipe(folder.path() / "pipe")) GTEST_SKIP() << "no named pipes here";
   }
   expect_of_all([](const fs::path& file) { ASSERT_TRUE(make_pipe(file)); }, "is not a regular file");
 }
 
 TEST_F(ReadFile, LinksToDevicesWithoutEnd) {
-  if (!fs::exists("/dev/zero")) GTEST_SKIP();
+  if (!fs::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
   expect_of_all([](const fs::path& file) { fs::create_symlink("/dev/zero", file); }, "is not a regular file");
 }
 

@@ -116,7 +116,7 @@ TEST_F(Temporaries, AFolderThatCannotBeMadeIsNamedWithTheReason) {
 }
 
 TEST_F(Temporaries, FilesAreWrittenThroughLinks) {
-  if (!test::has_links()) GTEST_SKIP();
+  if (!test::has_links()) GTEST_SKIP() << test::NO_LINKS;
   fs::create_directory(path("folder"));
   fs::create_symlink("folder/target", path("dangling"));
   fs::create_symlink("dangling", path("link"));

@@ -40,6 +40,7 @@ class FileSizeLimit {
 
 /// Whether std::filesystem makes links here: not in libstdc++ for Windows.
 [[nodiscard]] bool has_links();
+inline constexpr const char* NO_LINKS = "std::filesystem makes no links here";
 
 /// A pipe with a name, which nobody writes to; false: the system has none.
 [[nodiscard]] bool make_pipe(const std::filesystem::path& file);

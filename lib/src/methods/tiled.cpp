@@ -66,7 +66,7 @@ std::vector<Pass> passes_before(const TiledAxes& axes, const Buffers& b) {
 }
 
 /// Shared memory of the cull: lists and their flags, or two batches of bits; and the reductions.
-std::uint32_t shared_bytes(const TiledAxes& axes) {
+std::uint32_t cull_bytes(const TiledAxes& axes) {
   return axes.bits ? 256 : axes.ranges() * axes.capacity * 4 + 128 * 4 + 64;
 }
 
@@ -98,7 +98,7 @@ std::uint32_t list_capacity(const Problem& problem, TiledAxes axes, std::uint64_
   const std::uint32_t given = axes.capacity;
   if (axes.bits || given < TILE_CAPACITY || !is_small(problem, cells)) return given;
   axes.capacity = std::max(given, parts::capacity(problem));
-  return shared_bytes(axes) <= problem.traits.shared_memory_bytes ? axes.capacity : given;
+  return cull_bytes(axes) <= problem.traits.shared_memory_bytes ? axes.capacity : given;
 }
 
 /// Of the list that all cells share.
@@ -190,7 +190,7 @@ Plan plan_tiled(const Problem& problem) {
                   .passes = passes_before(axes, buffers),
                   .group_width = axes.tile_px,
                   .group_height = axes.tile_px,
-                  .shared_bytes = shared_bytes(axes)};
+                  .shared_bytes = cull_bytes(axes)};
   return plan;
 }
 
