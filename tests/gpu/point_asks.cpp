@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/point_asks.h"
 
+#include <algorithm>
+
 #include "gpu/check.h"
 #include "gpu/test_scenes.h"
 #include "scene/flight.h"
@@ -14,11 +16,13 @@ View view_from(const glm::vec3& eye) {
 }
 
 Plan plan_of(const Method& method, const Asked& asked) {
+  DeviceTraits traits = test_context().device().traits;
+  traits.max_groups[0] = std::min(traits.max_groups[0], asked.max_groups);
   return take(make_plan(method, {.width = ASK_SIDE,
                                  .height = ASK_SIDE,
                                  .light_capacity = static_cast<std::uint32_t>(asked.lights.size()),
                                  .options = take(resolve_options(method, asked.settings)),
-                                 .traits = test_context().device().traits}));
+                                 .traits = traits}));
 }
 
 Answered answer(const Method& method, const Asked& asked) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Asked {
   std::vector<shared::Light> lights;
   test::Points points;
   std::vector<std::string> settings;
+  std::uint32_t max_groups = ~0U;  ///< of a dispatch, if that is fewer than the device takes
 };
 
 [[nodiscard]] Plan plan_of(const Method& method, const Asked& asked);

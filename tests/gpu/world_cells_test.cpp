@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <string>
 
 #include "gpu/check.h"
@@ -20,6 +21,13 @@ using test::Points;
 using test::points_in;
 
 Answered ask(const Asked& asked) { return answer(*take(find_method("world-cells")), asked); }
+
+void make_narrow(shared::Light& light) {
+  light.type = shared::LIGHT_SPOT;
+  light.outer_angle = 0.1F;
+  light.sin_outer = std::sin(light.outer_angle);
+  light.cos_outer = std::cos(light.outer_angle);
+}
 
 class WorldCells : public GpuTest {};
 
@@ -40,12 +48,7 @@ TEST_F(WorldCells, OfSlicesWalkLittleWhereBricksAreLarge) {
   };
   EXPECT_LT(waste("cells=16"), 3.0);
   EXPECT_GT(waste("cells=4"), 4.0) << "for this slices are";
-  for (shared::Light& light : lights) {
-    light.type = shared::LIGHT_SPOT;
-    light.outer_angle = 0.1F;
-    light.sin_outer = std::sin(light.outer_angle);
-    light.cos_outer = std::cos(light.outer_angle);
-  }
+  for (shared::Light& light : lights) make_narrow(light);
   ask({.lights = lights, .points = points, .settings = {"cells=16"}});
 }
 
@@ -101,14 +104,33 @@ TEST_F(WorldCells, WalkToTheEndOfWhatTheDeviceLets) {
   EXPECT_EQ(answered.findings.unfollowed, 0U);
 }
 
-// There is room for all entries, but not for a rank of each of the 27 bricks around a light.
-TEST_F(WorldCells, LookForBricksAgainWhereRanksHaveNoRoom) {
-  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
-                    .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
-                    .settings = {"mean_bricks=13"}};
+// There is room for all entries, but not for all that the groups of the first lights find: the others are narrow and
+// reach few bricks.
+TEST_F(WorldCells, LookForBricksAgainWhereAGroupFindsMoreThanItHasRoomFor) {
+  Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
+              .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
+              .settings = {"mean_bricks=10"}};
+  for (shared::Light& light : std::span(asked.lights).first(LIGHTS / 2)) light.type = shared::LIGHT_POINT;
+  for (shared::Light& light : std::span(asked.lights).last(LIGHTS / 2)) make_narrow(light);
   const Answered answered = ask(asked);
   EXPECT_EQ(answered.counters.overflowed_cells, 0);
-  EXPECT_LT(answered.findings.waste(), 2.3);
+  EXPECT_GT(answered.counters.entries_needed, 7 * LIGHTS) << "half of the lights must find more than the mean";
+}
+
+// All of a group's boxes are as large as boxes are: its list of bricks has room for most of them.
+TEST_F(WorldCells, TestBricksBeyondTheList) {
+  const std::vector<shared::Light> lights = lights_around(glm::vec3(1.0F), 0.01F, 1.98F, 1.99F, LIGHTS);
+  ask({.lights = lights, .points = points_in(1, 300, glm::vec3(-1.0F), glm::vec3(3.0F))});
+}
+
+// Where a device takes few groups each has several turns: four, and three.
+TEST_F(WorldCells, FindBricksInTurns) {
+  for (const std::uint32_t groups : {8U, 11U}) {
+    SCOPED_TRACE(groups);
+    ask({.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
+         .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
+         .max_groups = groups});
+  }
 }
 
 // Octets, words, pieces and what a work group takes, each a little less than full, full, and a little more.

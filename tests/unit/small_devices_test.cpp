@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lamplight/method.h"
+#include "lamplight/shared/world.h"
 #include "unit/devices.h"
 
 namespace lamp {
@@ -51,21 +52,31 @@ TEST(SmallDevices, ScatterAllHitsInTheGroupsThatTheyTake) {
   }
 }
 
-TEST(SmallDevices, ShareLightsOutWhileThereAreGroups) {
+TEST(SmallDevices, ShareLightsOutToTheGroupsThatThereAre) {
   DeviceTraits traits = test::LARGE_DEVICE;
   traits.max_groups[0] = 65535;
-  const auto plan = planned("world-cells", {1920, 1080}, 1U << 22, {}, traits);
-  EXPECT_TRUE(plan) << plan.error().text();
+  for (const char* brick : {"brick=0", "brick=50", "brick=1600"}) {
+    const auto plan = planned("world-cells", {1920, 1080}, 1U << 24, {brick, "mean_bricks=1"}, traits);
+    ASSERT_TRUE(plan) << plan.error().text();
+    const Pass& count = *std::ranges::find(plan.value().passes, "count bricks", &Pass::name);
+    EXPECT_LE(count.extent.lights_per_group, 1U << shared::FOUND_LIGHT_BITS) << brick;
+  }
 }
 
-/// The ranks of lights take the room of the bits, until these are made.
-TEST(SmallDevices, KeepRanksWithinTheirBits) {
-  for (const char* mean : {"mean_bricks=1", "mean_bricks=24"})
-    for (const std::uint32_t lights : {1U, 1000U, 1U << 20}) {
-      const Plan plan = planned("world-cells", {1920, 1080}, lights, {mean}).value();
-      const std::uint64_t kept = std::ranges::find(plan.passes, "count bricks", &Pass::name)->constants.back();
-      EXPECT_LE(kept * lights * 4, std::ranges::find(plan.buffers, "cell bits", &BufferDesc::name)->bytes) << mean;
-    }
+/// What groups find takes the room of the bits, until these are made.
+TEST(SmallDevices, KeepWhatGroupsFindWithinTheBits) {
+  for (const char* cells : {"cells=4", "cells=16"})
+    for (const char* mean : {"mean_bricks=1", "mean_bricks=24"})
+      for (const std::uint32_t lights : {1U, 1000U, 1U << 20}) {
+        const Plan plan = planned("world-cells", {1920, 1080}, lights, {cells, mean}).value();
+        const Pass& count = *std::ranges::find(plan.passes, "count bricks", &Pass::name);
+        const std::uint64_t groups = count.extent.counts(1920, 1080, lights)[0];
+        const std::uint64_t found = groups * count.constants.back();
+        EXPECT_GE(found, groups) << mean;
+        EXPECT_LE(found * sizeof(shared::WorldFound),
+                  std::ranges::find(plan.buffers, "cell bits", &BufferDesc::name)->bytes)
+            << mean;
+      }
 }
 
 /// Where every light in every tile would take little.

@@ -28,13 +28,18 @@ uint brick_code(vec3 brick) {
 uint light_of_entry(uint entry) { return entry >> ENTRY_CODE_BITS; }
 uint code_of_entry(uint entry) { return entry & (1u << ENTRY_CODE_BITS) - 1u; }
 
-// Of buckets, whose number is a power of two. The brick's coordinates are whole numbers.
+// Of buckets, whose number is a power of two, 8 at least. The brick's coordinates are whole numbers. The 2 x 2 x 2 bricks of
+// a block have buckets in a row, so that most of what a light reaches lies together. Their order is the hash's, too: of blocks
+// that share buckets few have bricks of the same code there.
 uint bucket_of(uint level, vec3 brick, uint buckets) {
-  uint hash = uint(int(brick.x)) * 0x8da6b343u + uint(int(brick.y)) * 0xd8163841u + uint(int(brick.z)) * 0xcb1ab31fu +
-              level * 0x9e3779b9u;
+  const uvec3 at = uvec3(uint(int(brick.x)), uint(int(brick.y)), uint(int(brick.z)));
+  const uvec3 block = uvec3(uint(int(brick.x) >> 1), uint(int(brick.y) >> 1), uint(int(brick.z) >> 1));
+  uint hash = block.x * 0x8da6b343u + block.y * 0xd8163841u + block.z * 0xcb1ab31fu + level * 0x9e3779b9u;
   hash = (hash ^ (hash >> 16)) * 0x7feb352du;
   hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
-  return (hash ^ (hash >> 16)) & (buckets - 1u);
+  hash ^= hash >> 16;
+  const uint in_block = (at.z & 1u) << 2 | (at.y & 1u) << 1 | (at.x & 1u);
+  return ((hash << 3 | hash >> 29) ^ in_block) & (buckets - 1u);
 }
 
 #endif

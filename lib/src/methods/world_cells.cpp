@@ -29,14 +29,14 @@ using shared::BRICK_SLICES;
 using shared::WORLD_PIECE;
 
 constexpr std::uint32_t THREADS = 256;
-constexpr std::uint32_t LIGHT_THREADS = 8;        // that share a light's bricks out, at most
+constexpr std::uint32_t GROUP_BRICKS = 512;       // of a group's lights that look for theirs, about,
+constexpr std::uint32_t LISTED_BRICKS = 768;      // and at most, but for those that their own thread tests
 constexpr std::uint32_t SCAN_BUCKETS = 4;         // of a thread
 constexpr std::uint32_t LIGHT_BUCKETS = 8;        // for each light,
 constexpr std::uint32_t LEAST_BUCKETS = 1024;     // but no fewer
 constexpr std::uint32_t MOST_BUCKETS = 1U << 20;  // and no more, of 12 bytes each
 constexpr std::uint64_t MOST_ENTRIES = 1U << 30;  // the place of a word of bits has 32 bits
 constexpr std::uint64_t SMALL_BYTES = 5U << 20;   // room for all that lights can reach, where it takes no more
-constexpr std::uint64_t RANK_ALIGNMENT = 8;       // a light's ranks begin where 32 bytes do
 constexpr std::uint32_t MOST_PERCENT = 1600;
 constexpr std::uint64_t BUDGET_BYTES = 64U << 20;     // of entries, for brick=0
 constexpr std::uint32_t FINEST_PERCENT = 100;         // for brick=0,
@@ -51,11 +51,6 @@ static_assert(2 * 100 / LEAST_PERCENT + 2 <= shared::MOST_BRICKS_ACROSS);
 std::uint64_t most_bricks(double ratio) {
   const auto across = static_cast<std::uint64_t>(std::ceil(2 / ratio)) + 1;
   return across * across * across;
-}
-
-/// Of one light, where there is room.
-std::uint64_t kept_ranks(double ratio) {
-  return (most_bricks(ratio) + RANK_ALIGNMENT - 1) / RANK_ALIGNMENT * RANK_ALIGNMENT;
 }
 
 /// Halves of a word for an entry's bits, of a brick of so many cells along each axis: a bit for each, or for each
@@ -77,7 +72,10 @@ struct Sizes {
   std::uint32_t most_short;  ///< entries of a bucket that one work group puts in order
   std::uint32_t window;      ///< entries; the short buckets that begin in it have a work group
   std::uint32_t cells;       ///< of a brick, along each axis
-  std::uint32_t kept;        ///< ranks of a light that fit into the room of the bits, until these are made
+  std::uint32_t lights;      ///< of a group that finds their bricks, in one turn,
+  std::uint32_t groups;
+  std::uint32_t turns;  ///< of which it has so many
+  std::uint32_t found;  ///< what a group may find: it has the room of the bits, until these are made
 };
 
 std::uint64_t bricks_anywhere(const Problem& problem, double ratio) {
@@ -133,6 +131,22 @@ std::uint64_t wanted_entries(const Problem& problem, double ratio, std::uint32_t
   return mean < MEAN_BRICKS ? std::min(usual, lights * mean) : usual + lights * (mean - MEAN_BRICKS);
 }
 
+void set_find_sizes(const Problem& problem, Sizes& s) {
+  const double across = 1 + 1.5 / s.ratio;  // on average: a side is anywhere between the least and twice that
+  const auto lights = static_cast<std::uint32_t>(GROUP_BRICKS / (across * across * across));
+  s.lights = std::clamp(std::bit_floor(lights), 1U, s.threads);
+  s.turns = parts::divide_up(parts::divide_up(parts::capacity(problem), s.lights), problem.traits.max_groups[0]);
+  s.groups = parts::divide_up(parts::capacity(problem), s.lights * s.turns);
+  const std::uint64_t most = 1 + s.lights * s.turns * most_bricks(s.ratio);
+  const std::uint64_t room = bit_words(s.entries, s.cells) * 4 / sizeof(shared::WorldFound) / s.groups;
+  s.found = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(room, 1, most));
+}
+
+/// Bits of cells, and before there are any what groups found.
+std::uint64_t bit_buffer_bytes(const Sizes& s) {
+  return std::max(bit_words(s.entries, s.cells) * 4, std::uint64_t{s.groups} * s.found * sizeof(shared::WorldFound));
+}
+
 Sizes sizes_of(const Problem& problem) {
   const std::uint32_t cells = cells_across(problem);
   Sizes s{.ratio = static_cast<float>(brick_percent(problem, cells)) / 100.0F, .cells = cells};
@@ -142,8 +156,7 @@ Sizes sizes_of(const Problem& problem) {
   s.buckets = bucket_count(problem);
   s.entries = static_cast<std::uint32_t>(std::min({wanted_entries(problem, s.ratio, cells), MOST_ENTRIES,
                                                    problem.traits.max_storage_buffer_bytes / bit_bytes(cells)}));
-  s.kept =
-      static_cast<std::uint32_t>(std::min(kept_ranks(s.ratio), bit_words(s.entries, cells) / parts::capacity(problem)));
+  set_find_sizes(problem, s);
   s.pieces = parts::divide_up(s.entries, s.most_short);  // all but a bucket's last are longer still
   return s;
 }
@@ -159,49 +172,39 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
                        .memory = BufferMemory::counts,
                        .zeroed = true,
                        .indirect = true});
-  b.levels = plan.add({.name = "levels", .bytes = 4, .zeroed = true});
   plan.counters = b.totals;
+  b.levels = plan.add({.name = "levels", .bytes = 4, .zeroed = true});
   b.counts = plan.add({.name = "bucket counts", .bytes = std::uint64_t{s.buckets} * 4, .zeroed = true});
   b.buckets = plan.add({.name = "buckets", .bytes = std::uint64_t{s.buckets} * sizeof(shared::WorldBucket)});
   b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / s.window + 1) * 4});
   b.pieces = plan.add({.name = "pieces", .bytes = std::uint64_t{s.pieces} * sizeof(shared::WorldPiece)});
   b.entries = plan.add({.name = "bucket entries", .bytes = std::uint64_t{s.entries} * 4});
-  b.bits = plan.add({.name = "cell bits", .bytes = bit_words(s.entries, s.cells) * 4});
+  b.bits = plan.add({.name = "cell bits", .bytes = bit_buffer_bytes(s)});
   return b;
 }
 
-/// Two bricks for each or so, and no more threads than there are groups for.
-std::uint32_t light_threads(const Problem& problem, const Sizes& s) {
-  const std::uint32_t lights = parts::capacity(problem);
-  auto of_light =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(std::bit_floor(most_bricks(s.ratio) / 2), LIGHT_THREADS));
-  while (of_light > 1 && parts::divide_up(lights, s.threads / of_light) > problem.traits.max_groups[0]) of_light /= 2;
-  return of_light;
-}
-
-/// A pass with some threads for each light.
-Pass find_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  const std::uint32_t of_light = light_threads(problem, s);
-  return {.constants = {s.threads, of_light, std::bit_cast<std::uint32_t>(s.ratio), s.buckets},
+/// A pass whose groups find the bricks of some lights each.
+Pass find_pass(const Sizes& s, const Buffers& b) {
+  return {.constants = {s.threads, s.lights, std::bit_cast<std::uint32_t>(s.ratio), s.buckets, LISTED_BRICKS, s.turns,
+                        s.found},
           .bindings = {{INPUT_FRAME}, {INPUT_LIGHTS}, {INPUT_SPHERES}, {b.counts, Access::read_write}},
-          .extent = {.lights_per_group = s.threads / of_light}};
+          .extent = {.lights_per_group = s.lights * s.turns}};
 }
 
-Pass count_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  Pass pass = find_pass(problem, s, b);
+Pass count_pass(const Sizes& s, const Buffers& b) {
+  Pass pass = find_pass(s, b);
   pass.name = "count bricks";
   pass.shader = "methods/world_count";
-  pass.constants.push_back(s.kept);
   pass.bindings.insert(pass.bindings.end(),
                        {{b.levels, Access::read_write}, {b.bits, Access::write}, {b.totals, Access::read_write}});
   return pass;
 }
 
-Pass fill_pass(const Problem& problem, const Sizes& s, const Buffers& b) {
-  Pass pass = find_pass(problem, s, b);
+Pass fill_pass(const Sizes& s, const Buffers& b) {
+  Pass pass = find_pass(s, b);
   pass.name = "fill buckets";
   pass.shader = "methods/world_fill";
-  pass.constants.insert(pass.constants.end(), {s.entries, s.kept, s.window});
+  pass.constants.insert(pass.constants.end(), {s.entries, s.window});
   pass.bindings.insert(pass.bindings.end(),
                        {{b.buckets}, {b.entries, Access::write}, {b.totals, Access::read_write}, {b.bits}});
   return pass;
@@ -287,8 +290,8 @@ Plan plan_world_cells(const Problem& problem) {
   plan.any_depth = true;
   const Buffers b = add_buffers(plan, sizes);
   plan.capacities = {parts::shared_list("mean_bricks", sizes.entries, parts::capacity(problem))};
-  plan.passes = {count_pass(problem, sizes, b), scan_pass(sizes, b),  fill_pass(problem, sizes, b),
-                 order_pass(sizes, b),          merge_pass(sizes, b), bits_pass(sizes, b)};
+  plan.passes = {count_pass(sizes, b), scan_pass(sizes, b),  fill_pass(sizes, b),
+                 order_pass(sizes, b), merge_pass(sizes, b), bits_pass(sizes, b)};
   plan.lookup = {.name = "world_cells",
                  .constants = {sizes.buckets, sizes.cells},
                  .bindings = {{INPUT_FRAME}, {b.buckets}, {b.entries}, {b.bits}, {b.levels}}};

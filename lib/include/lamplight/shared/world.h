@@ -61,14 +61,19 @@ struct WorldTotals {
   uint order_x;  // group counts of pieces and of the entries' windows
   uint order_y;
   uint order_z;
-  uint is_unkept;  // not 0: there was no room for all ranks
+  uint is_unkept;  // not 0: there was no room for all that was found
 };
 
-// In place of an entry's rank in its bucket, for a brick of a light's box that the light does not reach.
-LAMP_CONST WORLD_NO_RANK = 0xffffffffu;
+// A light that was counted, by a group that counts those of up to 2^FOUND_LIGHT_BITS lights.
+LAMP_CONST FOUND_LIGHT_BITS = 12u;
+struct WorldFound {
+  uint bucket_light;  // the light's place among the group's in the low FOUND_LIGHT_BITS
+  uint rank_code;     // how many of the bucket were counted before; the brick's code in the low ENTRY_CODE_BITS
+};
 
 #ifdef __cplusplus
-static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldTotals) == 48);
+static_assert(sizeof(WorldBucket) == 8 && sizeof(WorldPiece) == 8 && sizeof(WorldFound) == 8 &&
+              sizeof(WorldTotals) == 48);
 static_assert(WORLD_PIECE % 32 == 0);  // its blocks of entries are full ones
 static_assert(CELL_HALVES * 16 == BRICK_CELLS * BRICK_CELLS * BRICK_CELLS);
 static_assert(SLICE_HALVES * 16 == 3 * BRICK_SLICES);
