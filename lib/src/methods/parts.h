@@ -15,7 +15,9 @@
 
 namespace lamp::parts {
 
-[[nodiscard]] constexpr std::uint32_t divide_up(std::uint32_t value, std::uint32_t by) { return (value + by - 1) / by; }
+[[nodiscard]] constexpr std::uint32_t divide_up(std::uint32_t value, std::uint32_t by) {
+  return value / by + (value % by == 0 ? 0U : 1U);
+}
 
 /// Tiles over the largest picture, the partial ones at the right and bottom included.
 [[nodiscard]] inline std::uint64_t tile_count(const Problem& problem, std::uint32_t tile_px) {
