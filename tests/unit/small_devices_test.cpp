@@ -63,6 +63,25 @@ TEST(SmallDevices, ShareLightsOutToTheGroupsThatThereAre) {
   }
 }
 
+/// A group of more lights than what was found can tell apart keeps none of it.
+TEST(SmallDevices, FindBricksOfAllLightsWithFewGroups) {
+  DeviceTraits traits = test::LARGE_DEVICE;
+  traits.max_groups[0] = 1024;
+  const Plan plan = planned("world-cells", {64, 64}, 1U << 24, {"mean_bricks=1", "brick=400"}, traits).value();
+  const Pass& count = *std::ranges::find(plan.passes, "count bricks", &Pass::name);
+  EXPECT_GE(std::uint64_t{count.extent.lights_per_group} * 1024, 1U << 24);
+  EXPECT_GT(count.extent.lights_per_group, 1U << shared::FOUND_LIGHT_BITS);
+  EXPECT_EQ(count.constants.back(), 1U);
+}
+
+TEST(SmallDevices, WithoutGroupsOrThreadsAreRefused) {
+  DeviceTraits traits = test::LARGE_DEVICE;
+  traits.max_groups[0] = 0;
+  EXPECT_FALSE(planned("world-cells", {64, 64}, 1000, {}, traits));
+  traits.max_group_invocations = 0;
+  EXPECT_FALSE(planned("world-cells", {64, 64}, 1000, {}, traits));
+}
+
 /// What groups find takes the room of the bits, until these are made.
 TEST(SmallDevices, KeepWhatGroupsFindWithinTheBits) {
   for (const char* cells : {"cells=4", "cells=16"})

@@ -134,10 +134,12 @@ std::uint64_t wanted_entries(const Problem& problem, double ratio, std::uint32_t
 void set_find_sizes(const Problem& problem, Sizes& s) {
   const double across = 1 + 1.5 / s.ratio;  // on average: a side is anywhere between the least and twice that
   const auto lights = static_cast<std::uint32_t>(GROUP_BRICKS / (across * across * across));
-  s.lights = std::clamp(std::bit_floor(lights), 1U, s.threads);
-  s.turns = parts::divide_up(parts::divide_up(parts::capacity(problem), s.lights), problem.traits.max_groups[0]);
+  s.lights = std::max(1U, std::min(std::bit_floor(lights), s.threads));
+  s.turns = parts::divide_up(parts::divide_up(parts::capacity(problem), s.lights),
+                             std::max(1U, problem.traits.max_groups[0]));
   s.groups = parts::divide_up(parts::capacity(problem), s.lights * s.turns);
-  const std::uint64_t most = 1 + s.lights * s.turns * most_bricks(s.ratio);
+  const bool is_told_apart = s.lights * s.turns <= 1U << shared::FOUND_LIGHT_BITS;
+  const std::uint64_t most = is_told_apart ? 1 + s.lights * s.turns * most_bricks(s.ratio) : 1;
   const std::uint64_t room = bit_words(s.entries, s.cells) * 4 / sizeof(shared::WorldFound) / s.groups;
   s.found = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(room, 1, most));
 }
