@@ -104,6 +104,16 @@ TEST_F(WorldCells, WalkToTheEndOfWhatTheDeviceLets) {
   EXPECT_EQ(answered.findings.unfollowed, 0U);
 }
 
+// There is room for all entries, and little more.
+TEST_F(WorldCells, KeepWhatGroupsFindWhereRoomIsScarce) {
+  const Asked asked{.lights = lights_around({}, 10.0F, 1.0F, 4.0F, LIGHTS),
+                    .points = points_in(1, POINTS, glm::vec3(-10.0F), glm::vec3(10.0F)),
+                    .settings = {"mean_bricks=13"}};
+  const Answered answered = ask(asked);
+  EXPECT_EQ(answered.counters.overflowed_cells, 0);
+  EXPECT_LT(answered.findings.waste(), 2.3);
+}
+
 // There is room for all entries, but not for all that the groups of the first lights find: the others are narrow and
 // reach few bricks.
 TEST_F(WorldCells, LookForBricksAgainWhereAGroupFindsMoreThanItHasRoomFor) {

@@ -35,6 +35,7 @@ bool meets_brick(uint light, uint own, uint level, vec3 brick) {
 
 uint first_light_of_group() { return gl_WorkGroupID.x * TURNS * LIGHTS; }
 
+// `before`: lights of the group in the turns before.
 void test_brick(uint listed, uint before) {
   const uint own = listed & (1u << LIGHT_BITS) - 1u;
   const uvec3 offset = uvec3(listed) >> LIGHT_BITS + OFFSET_BITS * uvec3(0u, 1u, 2u) & (1u << OFFSET_BITS) - 1u;

@@ -73,9 +73,9 @@ struct Sizes {
   std::uint32_t window;      ///< entries; the short buckets that begin in it have a work group
   std::uint32_t cells;       ///< of a brick, along each axis
   std::uint32_t lights;      ///< of a group that finds their bricks, in one turn,
-  std::uint32_t groups;
-  std::uint32_t turns;  ///< of which it has so many
-  std::uint32_t found;  ///< what a group may find: it has the room of the bits, until these are made
+  std::uint32_t turns;       ///< of which it has so many
+  std::uint32_t groups;      ///< of that kind
+  std::uint32_t found;       ///< what a group may find: it has the room of the bits, until these are made
 };
 
 std::uint64_t bricks_anywhere(const Problem& problem, double ratio) {
@@ -174,8 +174,8 @@ Buffers add_buffers(Plan& plan, const Sizes& s) {
                        .memory = BufferMemory::counts,
                        .zeroed = true,
                        .indirect = true});
-  plan.counters = b.totals;
   b.levels = plan.add({.name = "levels", .bytes = 4, .zeroed = true});
+  plan.counters = b.totals;
   b.counts = plan.add({.name = "bucket counts", .bytes = std::uint64_t{s.buckets} * 4, .zeroed = true});
   b.buckets = plan.add({.name = "buckets", .bytes = std::uint64_t{s.buckets} * sizeof(shared::WorldBucket)});
   b.windows = plan.add({.name = "windows", .bytes = (std::uint64_t{s.entries} / s.window + 1) * 4});
